@@ -1,11 +1,12 @@
-"""compiled: for the functions that evaluators share; block_at: for rows of a table that they read.
+"""Functions for evaluators: ``compiled`` shares a function, ``block_at`` gives a row of a table.
 
-call_support is for shapes that are known by a function.
+``call_support`` calls the support function of a shape.
 """
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import block_at, call_support
+from nonsmooth.engine.native.kernel import at as block_at
+from nonsmooth.engine.native.kernel import call_support
 from nonsmooth.engine.native.kernel import shared as compiled
 
 __all__ = ["block_at", "call_support", "compiled"]

@@ -1,12 +1,11 @@
-"""The errors a user meets: each names the thing, the rule, the value and the remedy."""
+"""Errors for users: each names the thing, the rule, the value and the remedy."""
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 
 _LONGEST = 400
-"""Characters of a value or a list that are told; meshes have thousands."""
+"""Most characters of a value or a list in a message. Meshes have thousands."""
 
 
 class NonsmoothError(Exception):
@@ -33,30 +32,34 @@ class InvalidInput(NonsmoothError, ValueError):
         super().__init__(f"{thing} {rule}, but it is {_shortened(repr(value))}. {remedy}")
 
 
-def _shortened(said: str) -> str:
-    return said if len(said) <= _LONGEST else f"{said[: _LONGEST // 2]} ... {said[-_LONGEST // 4 :]}"
+def _shortened(text: str) -> str:
+    """Text of a message: its beginning and its end if it is long."""
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 4 :]}"
 
 
 class UnknownName(InvalidInput):
-    """A name that nothing answers to, with the nearest known one.
+    """A name that does not exist, with the nearest known name.
 
     Parameters
     ----------
     kind : str
-        What was looked for ("scenario", "parameter of dumbbell").
+        Kind of the thing that has the name ("scenario", "parameter of dumbbell").
     name : str
-        The name asked for.
+        The name that the user gave.
     known : iterable of str
         The names that exist.
     other : str
-        What else has that name, where something has ("a friction law").
+        Kind of another thing of that name ("a friction law"); "" if there is none.
     remedy : str
-        What to do about it, where another name is not all there is to it.
+        What to do, if another name does not suffice.
     """
 
     def __init__(self, kind: str, name: str, known: Iterable[str], other: str = "", remedy: str = "") -> None:
         known = sorted(set(known))
-        near = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+        # imported for a message only: most programs never need it
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, known, n=1, cutoff=0.5)
         hint = f"That is {other}. " if other else f"Did you mean {near[0]!r}? " if near else ""
         listing = _shortened(", ".join(known)) if known else "none"
         super().__init__(kind, "must be a known one", name, f"{hint}Known: {listing}. {remedy}".rstrip())
@@ -67,11 +70,11 @@ class PluginError(NonsmoothError):
 
 
 class NonsmoothWarning(UserWarning):
-    """Base of every warning of this package and of its components; the command line tells each in one line, once."""
+    """Base of every warning of this package and of its components. The command line prints each once, in one line."""
 
 
 class RunsInPython(NonsmoothWarning):
-    """A function that the compiler refuses, which runs in Python: as right, but slow; where, why, at which cost."""
+    """A function that cannot be compiled, and runs in Python: its results are the same, but it is slow."""
 
 
 class MissingPackagesError(NonsmoothError):
@@ -79,15 +82,15 @@ class MissingPackagesError(NonsmoothError):
 
 
 class NoDistance(NonsmoothError):
-    """A pose at which the way that was asked for tells no distance."""
+    """A pose at which the chosen method finds no distance."""
 
 
 class DoubtfulDistance(NoDistance):
-    """An answer of a library for distances that contradicts a bound; neither answer nor guess is returned."""
+    """A result of a library for distances that contradicts a bound. It is not returned."""
 
 
 class RunFailed(NonsmoothError, RuntimeError):
-    """A run that could not go on.  What was computed until then is in ``solution``."""
+    """A run that could not continue. Its results until then are in ``solution``."""
 
     def __init__(self, message: str, solution: object = None) -> None:
         super().__init__(message)

@@ -1,4 +1,4 @@
-"""What an engine of your own is made of: compiled steps, and the numbers that they work with."""
+"""Parts of your own engine: compiled steps, and the numbers that they work with."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ __all__ = [
 
 
 def step(own: type[Part], signature: str = "void(ws)") -> Callable[[Callable[..., Any]], str]:
-    """Compile a function ``(ws, *numbers)`` when an engine first calls it; its name becomes what ``call`` takes.
+    """Decorator of a step ``(ws, *numbers)``, which is compiled at its first call. The result is the name for ``call``.
 
-    It may call the kernels and entry points of :mod:`nonsmooth.engine`, and those of :func:`kernel`, by their names.
-    What is compiled is kept in the user's cache folder, under a digest of all that it depends on.
+    A step may call the kernels and entry points of :mod:`nonsmooth.engine`, and those of :func:`kernel`, by their
+    names. The machine code is kept in the user's cache folder, under a digest of everything that it depends on.
 
     Parameters
     ----------
     own : type of Part
-        Numbers of the engine's own, :attr:`Engine.own`: ``ws.NAME`` with the key of the class for its name.
+        Numbers that the engine adds, :attr:`Engine.own`: ``ws.NAME``, where NAME is the key of the class.
     signature : str
         Types of the result and of the arguments: ``ws``, ``f8``, ``i8``, ``b1``, ``void``.
     """
@@ -45,13 +45,13 @@ def step(own: type[Part], signature: str = "void(ws)") -> Callable[[Callable[...
 
 
 def kernel(own: type[Part], signature: str = "void(ws)") -> Callable[[_Function], _Function]:
-    """Compile a function into the steps that call it; parameters as those of :func:`step`.
+    """Decorator of a function that is compiled into the steps that call it. Parameters as for :func:`step`.
 
     Parameters
     ----------
     own : type of Part
-        As of :func:`step`.
+        As for :func:`step`.
     signature : str
-        Likewise; also ``v2`` and ``v3``, tuples of two and three floats, and owners of records, as ``Contact``.
+        As for :func:`step`, with ``v2`` and ``v3``, tuples of two and three floats, and records such as ``Contact``.
     """
     return own_kernel(own, signature)

@@ -1,4 +1,4 @@
-"""Calls of the engine that report progress and can be interrupted, whatever the engine is at."""
+"""Calls of the engine that report progress and can be interrupted at any time."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry, forget_watch, watch_address
 
 _FIRST = 8192
-"""Work that the engine does before it lets the watch look for the first time, in evaluations of a contact: some
-milliseconds.  Threads wait for each other at every look."""
+"""Work before the first interrupt check, in evaluations of a contact: some milliseconds. Threads of Python wait for
+each other at each check."""
 _SECONDS = 5e-3
-"""Time that it shall take later [s]: what follows may be dearer than what came before."""
+"""Time between two later checks [s]. The work budget is set anew after each, as work may become more costly."""
 _REPORTED_EVERY = 0.1
 """Time between two reports [s]."""
 
 
 class Watch:
-    """While entered, what is called through it reports now and then, and Ctrl-C ends it where nothing is lost.
+    """Context in which calls of the engine report progress, and Ctrl-C ends them without loss of results.
 
-    The engine calls the watch in the thread that waits for it, so that signals are served there.  Of what takes longer
-    than a moment the first Ctrl-C is kept until the engine has come back; a second one goes to whatever runs in Python.
-    A handler of the user's own for Ctrl-C stays in place: what it raises, or the report, ends the engine's call and is
-    raised after it.
+    The engine calls the interrupt check in the thread that waits for it, so that signals are handled there. In a call
+    that takes longer than some milliseconds the first Ctrl-C is kept until the engine returns. A second one interrupts
+    the Python code that runs. A handler of the user for Ctrl-C stays in place. An exception of the handler or of the
+    report ends the call of the engine, and is raised after it.
 
     Parameters
     ----------
     memory : Memory
-        What the entry points are called on.
+        The memory on which entry points are called.
     """
 
     def __init__(self, memory: Memory) -> None:
@@ -48,14 +48,14 @@ class Watch:
         self._begin_to_look()
 
     def reporting(self, report: Callable[[float], None] | None) -> Watch:
-        """Return it, after it was told what to call with the time reached [s]."""
+        """Set the function that gets the time reached [s], or None for no reports. The result is the watch."""
         self._report = report
         return self
 
     def __enter__(self) -> Watch:
         interpreted.forget()
         if inspect.getgeneratorstate(self._looks) == inspect.GEN_CLOSED:
-            # a second Ctrl-C has ended it
+            # a second Ctrl-C has ended the generator
             self._begin_to_look()
         self._began = self._last = self._reported = time.perf_counter()
         self._patience, self._settled = float(_FIRST), False
@@ -78,9 +78,9 @@ class Watch:
         Raises
         ------
         KeyboardInterrupt
-            After Ctrl-C; the state is that before what was unfinished.
+            After Ctrl-C. The state is that before the unfinished part.
         BaseException
-            Whatever the report has raised.
+            An exception of the report.
         """
         self._stop_if_asked()
         self._last = self._reported = time.perf_counter()
@@ -105,7 +105,7 @@ class Watch:
         weakref.finalize(self, forget_watch, self._address)
 
     def _handle(self) -> None:
-        """Take Ctrl-C, where it is Python's own; to take it and to give it back takes longer than many a short run."""
+        """Handle Ctrl-C, if its handler is that of Python. To set a handler takes longer than many a short run."""
         self._handles = (
             threading.current_thread() is threading.main_thread()
             and signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -119,7 +119,7 @@ class Watch:
         self._asked = True
 
     def look(self, t: float) -> float:
-        """Take the time reached [s]; return the work that may be done before the next look, nothing for a stop."""
+        """Interrupt check at the time reached [s]. Result: work budget until the next check, 0 to stop the run."""
         now = time.perf_counter()
         share = _SECONDS / max(now - self._last, 1e-2 * _SECONDS)
         self._patience = max(1.0, self._patience * min(4.0, share))
@@ -133,15 +133,15 @@ class Watch:
         return 0.0 if self._asked else self._patience
 
     def fail(self, error: BaseException) -> None:
-        """Take what is to be raised when the engine has come back."""
+        """Keep an exception that is raised when the engine has returned."""
         self._error = error
 
 
 def _looks(of: weakref.ref[Watch]) -> Generator[float, float, None]:
-    """Take the times at which a watch is to look, and give what it says.
+    """Interrupt check as a generator: it takes the times of the checks, and gives the work budgets.
 
-    A generator, because a signal that has come while the engine ran is served where it goes on, inside of `try`;
-    a function would be left before its first line.
+    Python handles a signal that came during the call of the engine before the next instruction. In a generator this is
+    inside of ``try``. A function would raise the exception before its first line.
     """
     answer = 0.0
     while True:
@@ -150,7 +150,7 @@ def _looks(of: weakref.ref[Watch]) -> Generator[float, float, None]:
             watch = of()
             assert watch is not None
             answer = watch.look(t)
-            # a cycle would keep it
+            # a reference in this frame would keep the watch alive
             del watch
         except GeneratorExit:
             return

@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import UnusualValue, parameter
 from nonsmooth.rotations import rotation
-from nonsmooth.simulate import simulate
+from nonsmooth.runs.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.dumbbell import DumbbellScenario

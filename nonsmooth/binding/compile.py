@@ -1,4 +1,4 @@
-"""From a plain Python function with named parameters to an address that the engine calls."""
+"""Makes a C function, which the engine calls by its address, of a Python function with named parameters."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ from nonsmooth.binding import interpreted
 from nonsmooth.binding.fingerprint import fingerprint
 from nonsmooth.binding.refusal import Refusal, refusal
 from nonsmooth.binding.source import described, name_of, place_of
+from nonsmooth.engine.native import kernel
 from nonsmooth.engine.native.forms import FORMS, Form
-from nonsmooth.engine.native.kernel import PLAIN, address_of, at, calls, jit
+from nonsmooth.engine.native.kernel import PLAIN, address_of, at, jit
 from nonsmooth.errors import RunsInPython
 from nonsmooth.parameters import Table, Value, not_offered
 
@@ -26,7 +27,7 @@ _SHIM = "def shim({arguments}):\n {call}\n{ending}"
 _GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
 """A compiled function cannot raise into the engine: an exception becomes a number that is not finite.
 
-Compiling the guard takes as long as compiling the function, so that it is left out where nothing raises.
+To compile the guard takes as long as to compile the function, so it is left out of functions that cannot raise.
 """
 _PYTHON_SHIM = """def shim({arguments}):
  try: {call}
@@ -38,11 +39,11 @@ _INTERRUPTION = """ except KeyboardInterrupt:
   if not hold(): return shim({arguments})
   {failure}
 """
-"""Where the engine is compiled an interruption cannot pass it."""
+"""An interrupt cannot pass the compiled engine."""
 
 
 class _Entry(NamedTuple):
-    """Where the engine calls a function; why it is not compiled and what a call costs, if it runs in Python."""
+    """Address of a function. If it runs in Python: why it is not compiled, and the shim with which a call is timed."""
 
     address: int
     refusal: Refusal | None = None
@@ -51,16 +52,16 @@ class _Entry(NamedTuple):
 
 @functools.cache
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
-    """Return the names of a function's own parameters, in order."""
+    """Names of a function's own parameters, in order."""
     return tuple(inspect.signature(function).parameters)[len(FORMS[form].roles) :]
 
 
 def bind(
     function: Callable[..., Any], form: str, values: Mapping[str, Value], owner: str
 ) -> tuple[int, tuple[float, ...]]:
-    """Compile a law function and pick its parameters out of ``values`` by name.
+    """Address of a law function, and its parameters, which are found in ``values`` by name.
 
-    A function that cannot be compiled runs in Python.  It makes a warning, once, with the reason.
+    A function that cannot be compiled runs in Python. A warning gives the reason, once.
 
     Parameters
     ----------
@@ -69,21 +70,20 @@ def bind(
     form : str
         One of :data:`nonsmooth.engine.native.forms.FORMS`.
     values : mapping of str to float, tuple of float or Table
-        The parameters that the law's object and its surroundings offer; the function gets tuples and tables as heaps.
+        The parameters of the law's object and its surroundings. The function gets tuples and tables as blocks.
     owner : str
         The law, for messages.
 
     Returns
     -------
     tuple of int and tuple of float
-        The address, and what the function's parameters need on the heap: places for numbers that it has no value
-        for (``recorded``); one number for each parameter, in the order of the signature, then the tuples; the number
-        of a tuple says where it begins.
+        The address, and the block of parameters: places for the recorded arguments, then one number for each
+        parameter, in the order of the signature, then the tuples. The number of a tuple is its position in the block.
 
     Raises
     ------
     UnknownName
-        If the function asks for a parameter that nobody gives.
+        If the function has a parameter without a value.
     """
     names = parameter_names(function, form)
     for name in names:
@@ -114,14 +114,14 @@ def _vectors(values: Mapping[str, Value], names: tuple[str, ...]) -> tuple[bool,
 
 
 def refused(function: Callable[..., Any], form: str) -> Refusal | None:
-    """Return why a function of numbers cannot be compiled; None if it can."""
+    """Reason why a function of numbers cannot be compiled; None if it can."""
     return _entry(function, form, (False,) * len(parameter_names(function, form))).refusal
 
 
 def bind_in_python(
     function: Callable[..., Any], form: str, owner: str, method: Callable[..., Any], why: Refusal
 ) -> tuple[int, tuple[float, ...]]:
-    """Return what :func:`bind` does for a function without parameters, which calls a method that cannot be compiled."""
+    """Result of :func:`bind` for a function without parameters that calls a method that cannot be compiled."""
     shim = _shim_in_python(function, form, ())
     address = interpreted.address(shim, form)
     _warn(method, owner, why, interpreted.cost(shim, form, ()))
@@ -129,12 +129,12 @@ def bind_in_python(
 
 
 def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
-    """Return where a tuple begins in what :func:`bind` wants on the heap."""
+    """Position of a tuple in the block of parameters of :func:`bind`."""
     return int(heap[parameter_place(function, form, name)])
 
 
 def parameter_place(function: Callable[..., Any], form: str, name: str) -> int:
-    """Return where the number of a parameter stands in what :func:`bind` wants on the heap."""
+    """Position of the number of a parameter in the block of :func:`bind`."""
     return FORMS[form].n_recorded + parameter_names(function, form).index(name)
 
 
@@ -155,11 +155,11 @@ def _warn(function: Callable[..., Any], owner: str, why: Refusal, cost: str) -> 
 @functools.cache
 def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> _Entry:
     if PLAIN:
-        return _Entry(address_of(_shim_in_python(function, form, vectors), form, ""))
+        return _Entry(address_of(lambda: _shim_in_python(function, form, vectors), form, ""))
     text = (_GUARDED_SHIM if _may_raise(function) else _SHIM).format(**_parts(form, vectors))
     try:
-        shim = _made(text, {"law": jit(function), "at": at})
-        return _Entry(address_of(shim, form, fingerprint(function, form + text)))
+        key = fingerprint(function, form + text)
+        return _Entry(address_of(lambda: _made(text, {"law": jit(function), "at": at}), form, key))
     except Exception as error:  # the compiler's errors have no base of their own
         shim = _shim_in_python(function, form, vectors)
         return _Entry(interpreted.address(shim, form), refusal(function, error), shim)
@@ -177,7 +177,7 @@ def _shim_in_python(function: Callable[..., Any], form: str, vectors: tuple[bool
 
 
 def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
-    """Return the parts of a shim: what it takes, how it calls the function, what stands for an exception."""
+    """Parts of the text of a shim: its arguments, the call, the result after an exception, and the end."""
     its = FORMS[form]
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
@@ -192,7 +192,7 @@ def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
 
 
 def _record(form: Form) -> str:
-    """Return lines that keep the numbers for which a law has no finite value, before its parameters, for messages."""
+    """Lines that store the arguments of a law without a finite value in front of its parameters, for messages."""
     if not form.recorded:
         return ""
     value = "" if form.returns else f" v = {' + '.join(f'out[{i}]' for i in range(form.watched))}\n"
@@ -206,9 +206,9 @@ def _record(form: Form) -> str:
 def in_python(
     function: Callable[..., Any], form: str, values: Mapping[str, Value], move: Callable[..., Any]
 ) -> Callable[..., Any]:
-    """Return what the engine would call, as plain Python that raises what the function raises.
+    """The function that the engine would call, as plain Python that raises what the function raises.
 
-    ``move(heap, offset)`` stands in the place of moved pointers.
+    ``move(block, offset)`` takes the place of moved pointers.
     """
     vectors = _vectors(values, parameter_names(function, form))
     scope = {"law": interpreted.in_python(function, move), "at": move}
@@ -223,11 +223,11 @@ def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
 
 
 _RAISING = ("RAISE_VARARGS", "BUILD_LIST", "BUILD_MAP", "BUILD_SET")
-"""Statements that raise, and containers: what is not in them raises, too."""
+"""Instructions that may raise an error. An index may be outside of a container."""
 
 
 def _may_raise(function: Callable[..., Any]) -> bool:
-    """Return whether a function, or one that it names, may raise."""
+    """True if a function, or one that it names, may raise."""
     waiting, seen = [inspect.unwrap(function)], set()
     while waiting:
         one = waiting.pop()
@@ -246,19 +246,19 @@ def _may_raise(function: Callable[..., Any]) -> bool:
 
 
 def _is_table(value: Any) -> bool:
-    """Return whether a value is a tuple to look something up in; those of strings alone name arguments."""
+    """True if a value is a tuple that is indexed. Tuples of strings alone are names of arguments."""
     return type(value) is tuple and any(not isinstance(item, str) for item in value)
 
 
 def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
-    """Return what the function of the form "scalar" at an address, as :func:`bind` gives both, makes of ``x``."""
+    """Result for ``x`` of the function of the form "scalar" at an address, with parameters from :func:`bind`."""
     return float(caller("scalar", address, np.array(parameters, dtype=float))(x))
 
 
 def caller(form: str, address: int, numbers: NDArray[np.float64]) -> Callable[..., Any]:
-    """Return what calls a function from Python just as the engine does, with numbers and contiguous arrays of floats.
+    """A Python function that calls a function as the engine does, with numbers and contiguous arrays of floats.
 
-    Nobody checks their lengths.
+    Lengths are not checked.
 
     Parameters
     ----------
@@ -271,7 +271,8 @@ def caller(form: str, address: int, numbers: NDArray[np.float64]) -> Callable[..
     """
     n_given = len(FORMS[form].given)
     if PLAIN:
-        return lambda *given: calls[form](address, *given[:n_given], numbers, *given[n_given:])
+        plain = getattr(kernel, f"call_{form}")
+        return lambda *given: plain(address, *given[:n_given], numbers, *given[n_given:])
     native, parameters = FORMS[form].prototype()(address), numbers.ctypes.data
 
     def call(*given: Any, _kept: Any = numbers) -> Any:

@@ -1,4 +1,4 @@
-"""What the machine code of a plain function depends on, as the key under which the code may be kept on disk."""
+"""Key of the machine code of a plain function on disk: a digest of everything that the code depends on."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ENGINE = "nonsmooth.engine."
 
 
 def fingerprint(function: Callable[..., Any], context: str) -> str:
-    """Return a digest of a function's bytecode, of the constants and of the functions that it names, and of a context.
+    """Digest of a function's bytecode, of the constants and of the functions that it names, and of a context.
 
     The digest is of what runs, not of files, which may be newer.  It covers numbers, strings, tuples of them, classes
     of named tuples, functions at module level, those of the engine, and :mod:`math` and :mod:`numpy` with what is in
@@ -37,14 +37,14 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
     Returns
     -------
     str
-        The digest, or nothing.
+        The digest; "" if there is none.
     """
     parts = [context]
     reached = [unshared(function)]
     for one in reached:  # grows as functions name further ones
         if not inspect.isfunction(one) or one.__closure__ is not None:
             return ""
-        if one.__module__ not in sys.modules:  # numba imports it when it loads the code
+        if one.__module__ not in sys.modules:  # a module made by hand may change without notice
             return ""
         constants = (one.__code__.co_consts, one.__defaults__, *sorted((one.__kwdefaults__ or {}).items()))
         if not _is_constant(constants):
@@ -65,7 +65,7 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
 
 
 def _place_in_engine(value: Any) -> str:
-    """Return which function of the engine a value is, whose sources are part of where code is kept; or nothing."""
+    """Name of a function of the engine, whose sources are part of the name of the folder of code; "" for others."""
     if found := next((name for name, one in vars(kernel).items() if one is value and callable(one)), ""):
         return f"{kernel.__name__}:{found}"
     module, name = (str(getattr(value, attribute, "<none>")) for attribute in ("__module__", "__qualname__"))
@@ -73,19 +73,19 @@ def _place_in_engine(value: Any) -> str:
 
 
 def _shape(code: CodeType) -> tuple[Any, ...]:
-    """Return what makes two codes equal, constants apart."""
+    """All that makes two code objects equal, apart from constants."""
     arguments = (code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags)
     return *arguments, code.co_code, code.co_exceptiontable, code.co_names, code.co_varnames
 
 
 def _place_in_modules(value: Any) -> str:
-    """Return where a value stands in a module that is known by its version; nothing if it stands in none."""
+    """Name of a value in a module that is known by its version; "" if no such module has it."""
     found = (f"{module.__name__}.{name}" for module in _MODULES for name, one in vars(module).items() if one is value)
     return next(found, "")
 
 
 def _fields(value: Any) -> str:
-    """Return the fields of a class of named tuples; nothing of anything else."""
+    """Fields of a class of named tuples; "" for anything else."""
     if not isinstance(value, type) or value.__bases__ != (tuple,):
         return ""
     fields, defaults = (vars(value).get(name) for name in ("_fields", "_field_defaults"))
@@ -93,7 +93,7 @@ def _fields(value: Any) -> str:
 
 
 def _is_constant(value: Any) -> bool:
-    """Return whether the printed form of a value says all about it."""
+    """True if the printed form of a value determines it."""
     if type(value) is tuple:
         return all(_is_constant(item) for item in value)
     return value is None or type(value) in (bool, int, float, str)

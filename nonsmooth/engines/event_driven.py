@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, final
 
-from nonsmooth.engine.memory.modes import POLICIES
 from nonsmooth.engine.memory.owners import Island, Options, Tolerance
 from nonsmooth.engine.memory.solvers import SOLVERS, pivoted_contacts, solver_of
 from nonsmooth.interfaces.engine import Engine
@@ -15,6 +15,20 @@ from nonsmooth.parameters import parameter
 if TYPE_CHECKING:
     from nonsmooth.engine.memory.memory import Memory
     from nonsmooth.system.system import System
+
+
+class PainlevePolicy(StrEnum):
+    """What happens if sliding has no contact force (Painleve's paradox), in the order of the engine's numbers."""
+
+    IMPACT = "impact"
+    """An impact without collision, by the impact law of the contact."""
+    COMPLIANT = "compliant"
+    """The same without loss, as a stiff spring does it."""
+    REFUSE = "refuse"
+    """The run ends."""
+
+
+_POLICIES = tuple(PainlevePolicy)
 
 
 @final
@@ -39,7 +53,7 @@ class EventDriven(Engine):
         doc="what happens where sliding has no contact force: an impact without collision by the contact's law, "
         "the same without loss as a stiff spring does it, or the end of the run",
         unit="",
-        choices=POLICIES,
+        choices=_POLICIES,
     )
     solver: str = parameter("auto", doc="solver of the contact problem", unit="", choices=SOLVERS)
 
@@ -65,7 +79,7 @@ class EventDriven(Engine):
         step = min(self.largest_step, time_scale / self.steps_per_period)
         return {
             Options.solver: solver_of(self.solver),
-            Options.painleve_policy: POLICIES.index(self.painleve),
+            Options.painleve_policy: _POLICIES.index(self.painleve),
             Tolerance.relative: self.tolerance,
             Tolerance.impact: self.impact_tolerance,
             Tolerance.time: self.time_tolerance,

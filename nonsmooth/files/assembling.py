@@ -10,7 +10,7 @@ from typing import Any
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.components import Table, component, naming
 from nonsmooth.files.gate import Gate
-from nonsmooth.files.keys import check_keys, number, tables_in, words
+from nonsmooth.files.parsing import check_keys, number, tables_in, words
 from nonsmooth.interfaces import Body, Guard, ImpactLaw, Joint, Load, NormalLaw, TangentialLaw
 from nonsmooth.placing import starts
 from nonsmooth.plugins import file, registry

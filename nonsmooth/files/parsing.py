@@ -1,21 +1,22 @@
-"""Files to tables, and changes of single values."""
+"""Files to tables, checks of tables, and changes of single values."""
 
 from __future__ import annotations
 
 import copy
+import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files import formats
 from nonsmooth.files.components import Table
 from nonsmooth.storage.files import content_of
 
 
 def parse(path: Path) -> Table:
-    """Return the tables of a file.
+    """Tables of a file.
 
     Raises
     ------
@@ -39,7 +40,7 @@ def parse(path: Path) -> Table:
 
 
 def changed(tables: Table, changes: Mapping[str, Any], path: Path) -> Table:
-    """Return the tables with the values at some dotted keys replaced; numbers count through arrays, from 0.
+    """Tables with new values at some dotted keys. Numbers in a key count through arrays, from 0.
 
     Raises
     ------
@@ -70,8 +71,47 @@ def _inside(place: Any, step: str, key: str, path: Path) -> Any:
 
 
 def value(text: str) -> Any:
-    """Return what a text means as a TOML value, itself where it means none."""
+    """Value of a text as TOML; the text itself if it is no value."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except ValueError:
         return text
+
+
+def check_keys(thing: str, table: Any, known: Collection[str], required: Sequence[str] = ()) -> None:
+    """Raise InvalidInput if an object is no table, a required key is missing, or a key is unknown."""
+    if not isinstance(table, dict):
+        raise InvalidInput(thing, "must be a table", table, f"Its keys are {', '.join(known)}.")
+    for key in table:
+        if key not in known:
+            raise UnknownName(f"{thing}: key", key, known)
+    for key in required:
+        if key not in table:
+            raise InvalidInput(f"{thing}: {key}", "must be given", None, "Add it; the page on scenario files has all.")
+
+
+def tables_in(thing: str, value: Any) -> list[dict[str, Any]]:
+    """An array of tables. Raise InvalidInput for anything else."""
+    if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
+        raise InvalidInput(
+            thing, "must be an array of tables", value, f"Write [[{thing.rpartition(' ')[2]}]] above each."
+        )
+    return value
+
+
+def number(thing: str, value: Any, unit: str, positive: bool = False) -> float:
+    """A finite number. Raise InvalidInput for anything else, and for a number that must be positive and is not."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{unit}].")
+    if positive and value <= 0.0:
+        raise InvalidInput(thing, "must be positive", value, f"Give it in [{unit}].")
+    return float(value)
+
+
+def words(thing: str, value: Any, n: int | None = None) -> list[str]:
+    """A list of names, ``n`` of them if it is given. Raise InvalidInput for anything else."""
+    right = isinstance(value, list) and all(isinstance(one, str) for one in value)
+    if not right or (n is not None and len(value) != n):
+        count = "" if n is None else f"{n} "
+        raise InvalidInput(thing, f"must be a list of {count}names", value, 'For example ["ball", "floor"].')
+    return list(value)

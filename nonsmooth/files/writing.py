@@ -12,7 +12,7 @@ from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.interfaces import Body, Engine
 from nonsmooth.storage.files import replacing
-from nonsmooth.system.contact import Declaration, Tie, Watched
+from nonsmooth.system.contact import ContactDeclaration, Tie, Watched
 from nonsmooth.system.system import System
 
 
@@ -97,9 +97,12 @@ def tables_of(
     tables["gravity"] = 0.0 - z if x == y == 0.0 and z <= 0.0 else [x, y, z]
     if engine is not None and engine != EventDriven():
         tables["engine"] = table_of(engine, "engine", EventDriven)
+    if system.given_contacts:
+        given, remedy = system.given_contacts[0], "A file has the contacts of System.contact and System.contact_all."
+        raise InvalidInput("save_system", "cannot write a contact of System.add_contact", str(given), remedy)
     known = dict(zip(map(id, system.bodies), system.names.bodies, strict=True))
     laws = _Laws()
-    contacts = [_contact(said, known, laws, f"contacts[{i}]") for i, said in enumerate(system.declarations)]
+    contacts = [_contact(declared, known, laws, f"contacts[{i}]") for i, declared in enumerate(system.declarations)]
     tables["laws"] = laws.tables
     tables["bodies"] = {known[id(body)]: _body(system, body, f"bodies.{known[id(body)]}") for body in system.bodies}
     tables["contacts"] = contacts
@@ -146,14 +149,14 @@ def _body(system: System, body: Body, thing: str) -> Table:
     return table
 
 
-def _contact(said: Declaration, known: dict[int, str], laws: _Laws, thing: str) -> Table:
-    table: Table = {"between": [known[id(said.first)], known[id(said.second)]]}
-    if said.name:
-        table["name"] = said.name
-    if said.shapes != (None, None):
-        table["shapes"] = ["all" if chosen is None else list(chosen) for chosen in said.shapes]
+def _contact(declared: ContactDeclaration, known: dict[int, str], laws: _Laws, thing: str) -> Table:
+    table: Table = {"between": [known[id(declared.first)], known[id(declared.second)]]}
+    if declared.name:
+        table["name"] = declared.name
+    if declared.shapes != (None, None):
+        table["shapes"] = ["all" if chosen is None else list(chosen) for chosen in declared.shapes]
     for role in ("normal", "friction", "impact"):
-        law = getattr(said.laws, role)
+        law = getattr(declared.laws, role)
         if law is not None:
             table[role] = laws.name(law, f"{thing}.{role}")
     return table

@@ -11,8 +11,8 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.request import Request
-from nonsmooth.model.articulations import articulations
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying import articulations
 
 
 @final

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from nonsmooth.engine.events.record import AVERAGED, CLOSED_WITH, FACING, FEATURES, SLIP_DIRECTION
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.event_rows import AVERAGED, CLOSED_WITH, FACING, FEATURES, SLIP_DIRECTION
 from nonsmooth.engine.memory.modes import AFTER, CODE, REASONS, Mode, Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed

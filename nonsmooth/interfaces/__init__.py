@@ -6,8 +6,7 @@ from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.convex_shape import ConvexShape
 from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.interfaces.distance_backend import DistanceBackend
-from nonsmooth.interfaces.engine import Engine
-from nonsmooth.interfaces.engine_report import Cause, Measure
+from nonsmooth.interfaces.engine import EndCause, Engine, Measure
 from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
@@ -25,13 +24,13 @@ __all__ = [
     "AnisotropicFrictionLaw",
     "Body",
     "CandidateSearch",
-    "Cause",
     "CompliantNormalLaw",
     "ContactKinematics",
     "ConvexPart",
     "ConvexShape",
     "Criterion",
     "DistanceBackend",
+    "EndCause",
     "Engine",
     "FrictionLaw",
     "Guard",

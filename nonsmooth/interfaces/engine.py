@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, final
 
-from nonsmooth.interfaces.engine_report import Cause, Measure
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
@@ -14,6 +14,55 @@ if TYPE_CHECKING:
     from nonsmooth.engine.memory.memory import Memory
     from nonsmooth.model.laid_out import LaidOut
     from nonsmooth.system.system import System
+
+FIRST_CODE = 100
+"""Least code of a cause of an engine's own; smaller ones are those of :mod:`nonsmooth.engine.memory.modes`."""
+
+
+@final
+@dataclass(frozen=True)
+class Measure:
+    """A number by which an engine judges its run, such as the largest overlap.
+
+    Attributes
+    ----------
+    name : str
+        Name of the scalar in ``Engine.own`` that holds the number when the run ends.
+    unit : str
+        SI unit, "1" for a pure number.
+    meaning : str
+        What the number is, in a few words.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+
+
+@final
+@dataclass(frozen=True)
+class EndCause:
+    """A cause of an engine's own for which a run ends.
+
+    Attributes
+    ----------
+    code : int
+        The status that ``Engine.advance`` returns, :data:`FIRST_CODE` or more.
+    name : str
+        Name of the cause, which ``Solution.cause`` gives.
+    reason : str
+        What happened, as a sentence without its full stop.
+    remedy : str
+        What the user can do, as a whole sentence.
+    is_failure : bool
+        Whether the run failed.
+    """
+
+    code: int
+    name: str
+    reason: str
+    remedy: str = ""
+    is_failure: bool = True
 
 
 class Engine(Component, ABC):
@@ -66,7 +115,7 @@ class Engine(Component, ABC):
         return ()
 
     @property
-    def causes(self) -> tuple[Cause, ...]:
+    def causes(self) -> tuple[EndCause, ...]:
         """Causes of its own for which a run ends."""
         return ()
 

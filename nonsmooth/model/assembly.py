@@ -11,14 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine, ImpactMap
-from nonsmooth.model.articulations import Articulation, articulations
 from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
@@ -26,7 +25,7 @@ from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
 from nonsmooth.model.feature_searches import lay_searches
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
+from nonsmooth.model.laying import ArticulationLayout, articulations, lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import Kinds, by_kind, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
 from nonsmooth.system.contact import Contact
@@ -44,7 +43,7 @@ class _Parts(NamedTuple):
     """The parts of a system, found before the memory is allocated."""
 
     kinds: Kinds
-    articulations: Sequence[Articulation]
+    articulations: Sequence[ArticulationLayout]
     table: ContactTable
     broad_phase: BroadPhase
     pairs: Sequence[PartPair]

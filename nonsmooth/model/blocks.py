@@ -18,14 +18,13 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
-from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying import place_of_inverse_mass
+from nonsmooth.model.laying import joints_in_order, place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
 
 
-class Block(NamedTuple):
+class PluginBlock(NamedTuple):
     """A block of floats that a function writes.
 
     Attributes
@@ -47,7 +46,7 @@ class Block(NamedTuple):
     n_written: int
 
 
-def blocks(model: LaidOut) -> Iterator[Block]:
+def blocks(model: LaidOut) -> Iterator[PluginBlock]:
     """The blocks of loads, bodies and active contacts, in the order in which one may spoil the next.
 
     A load that gives NaN spoils the forces in the blocks of its bodies, and a body the geometry of its contacts. So the
@@ -58,7 +57,7 @@ def blocks(model: LaidOut) -> Iterator[Block]:
         yield _block_of_contact(model, index)
 
 
-def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
+def _blocks_of_bodies(model: LaidOut) -> Iterator[PluginBlock]:
     """The blocks of loads, then of bodies, then of bodies whose ballistic motion has a closed form."""
     system, memory = model.system, model.memory
     # `out` is the place of a block among the floats
@@ -72,7 +71,7 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
         n_written = FRAME if body.n_u == 0 else force_end
         # behind the force are the inverse mass and two energies
         label = functools.partial("body {!r}, {!r}:".format, name, body)
-        yield Block(label, body.evaluator, start, force_end + body.n_u**2 + 2, n_written)
+        yield PluginBlock(label, body.evaluator, start, force_end + body.n_u**2 + 2, n_written)
     functions, outs = memory[owners.Body.ballistic_function].tolist(), memory[owners.Body.ballistic_out].tolist()
     for (name, body), function, start in zip(named, functions, outs, strict=True):
         # 0: the body has a joint or a load, so that its closed form is not used
@@ -80,10 +79,10 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
             label = functools.partial("body {!r}, {!r} in ballistic motion:".format, name, body)
             # the closed form writes q and u
             size = body.n_q + body.n_u
-            yield Block(label, body.flight, start, size, size)
+            yield PluginBlock(label, body.flight, start, size, size)
 
 
-def _block_of_contact(model: LaidOut, index: int) -> Block:
+def _block_of_contact(model: LaidOut, index: int) -> PluginBlock:
     """The geometry block of the active contact at an index of the neighbour list.
 
     ``PAIR`` of the ``GEOMETRY`` numbers from block to block are written by the kinematics, the rest is the mark.
@@ -92,7 +91,7 @@ def _block_of_contact(model: LaidOut, index: int) -> Block:
     return _block(contact, contact.kinematics.evaluator, first + GEOMETRY * index, PAIR)
 
 
-def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
+def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[PluginBlock]:
     """The blocks of joints, then those of friction laws: of traction laws, and of the rates of inner states.
 
     A contact has one of the two if its law has such a block, else none.
@@ -113,16 +112,16 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
             yield _block(contacts[i], law.rates, int(rates[i]), len(law.initial_state))
 
 
-def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
+def _blocks_of_searches(model: LaidOut) -> Iterator[PluginBlock]:
     """The blocks of the searches for candidate features."""
     searches = find_searches(model.system.contacts)
     for search, out in zip(searches, model.memory[owners.Search.out].tolist(), strict=True):
         yield _block(search.owner, search.candidates.function, out, search.size)
 
 
-def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int, size: int) -> Block:
+def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int, size: int) -> PluginBlock:
     """A block that a function must write wholly, with its owner. Its label is made only if a message needs it."""
-    return Block(lambda: f"{owner}: {described(function)},", function, start, size, size)
+    return PluginBlock(lambda: f"{owner}: {described(function)},", function, start, size, size)
 
 
 def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:

@@ -33,7 +33,7 @@ _MARGIN = 0.5
 
 
 @dataclass(frozen=True)
-class HalfSpace:
+class BroadPhaseHalfSpace:
     """An unbounded shape in a contact.
 
     Attributes
@@ -73,7 +73,7 @@ class BroadPhase:
         Number of contacts of each pair.
     contacts : array
         Numbers of the contacts of pairs, pair by pair.
-    half_spaces : list of HalfSpace
+    half_spaces : list of BroadPhaseHalfSpace
         The unbounded shapes, contact by contact.
     searches : list of FeatureSearch
         Searches for candidate features.
@@ -84,7 +84,7 @@ class BroadPhase:
     pairs: NDArray[np.int64]
     counts: NDArray[np.int64]
     contacts: NDArray[np.int64]
-    half_spaces: list[HalfSpace]
+    half_spaces: list[BroadPhaseHalfSpace]
     searches: list[FeatureSearch]
 
     @property
@@ -148,7 +148,7 @@ def _half_space(
     bodies: Sequence[Body],
     frames: Mapping[tuple[int, int], int],
     radii: Array,
-) -> HalfSpace:
+) -> BroadPhaseHalfSpace:
     """The unbounded shape of contact ``number``, and the bounding sphere of the other shape, if there is one.
 
     That sphere was made for other contacts of its frame. Its radius in ``radii`` grows in place to hold this shape,
@@ -164,7 +164,7 @@ def _half_space(
     if sphere is not None and math.isfinite(contact.extents[other]):
         radii[sphere] = max(radii[sphere], contact.extents[other])
     # sphere and ceiling are read only if it is steady; else any valid numbers serve
-    return HalfSpace(number, sides[0], sphere or 0, ceiling if is_steady else 0.0, is_steady)
+    return BroadPhaseHalfSpace(number, sides[0], sphere or 0, ceiling if is_steady else 0.0, is_steady)
 
 
 def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[int, int], int]) -> None:

@@ -14,10 +14,10 @@ from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
-from nonsmooth.model.articulations import articulations
 from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
+from nonsmooth.model.laying import articulations
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System

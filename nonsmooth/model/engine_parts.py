@@ -15,7 +15,7 @@ from nonsmooth.engine.memory.tables import CONSTANT_SCALARS
 from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine
-from nonsmooth.interfaces.engine_report import FIRST_CODE
+from nonsmooth.interfaces.engine import FIRST_CODE
 
 
 def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[str, int]:

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.native.kernel import call_entry
-from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import place_of_inverse_mass

@@ -15,8 +15,8 @@ import numpy as np
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
+from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory
-from nonsmooth.engine.pairs.overlaps import NO_PAIR
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,6 +15,7 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.placing.line import Line
 from nonsmooth.placing.probe import Probe
 from nonsmooth.system.system import System
+from nonsmooth.vectors import unit_vector
 
 _ROUND_OFF = 1e-9
 _SYSTEM = "Make it by nonsmooth.System([...])."
@@ -132,3 +134,30 @@ def _unit(system: System, direction: Sequence[float] | None) -> Vector:
             "Without gravity, say where to move the body, for example direction=(0, 0, -1).",
         )
     return np.asarray(way / np.linalg.norm(way))
+
+
+def turned_about(axis: Sequence[float], angle: float) -> tuple[float, float, float, float]:
+    """Return the orientation of a body that is turned about an axis, for ``System.place`` and wherever one is asked.
+
+    Parameters
+    ----------
+    axis : sequence of float
+        Unit vector of the axis, shape [3].
+    angle : float
+        The turn [rad], by the right-hand rule.
+
+    Returns
+    -------
+    tuple of float
+        The unit quaternion (cos(angle / 2), axis * sin(angle / 2)), scalar first.
+
+    Raises
+    ------
+    InvalidInput
+        If the axis has not unit length, or the angle is not finite.
+    """
+    x, y, z = unit_vector("turned_about: axis", axis)
+    if not is_finite(angle):
+        raise InvalidInput("turned_about: angle", "must be a finite number", angle, "Give it in [rad].")
+    s = math.sin(0.5 * angle)
+    return math.cos(0.5 * angle), x * s, y * s, z * s

@@ -60,7 +60,7 @@ def find(thing: str, group: str, base: type, word: str, folder: Path | None = No
         if issubclass(owner, base):
             return owner
     known = [name for name, owner in registry.load_all(group).items() if issubclass(owner, base)]
-    raise UnknownName(thing, word, known, registry.said_of(word))
+    raise UnknownName(thing, word, known, registry.kinds_named(word))
 
 
 def load(thing: str, bases: tuple[type, ...], word: str, folder: Path | None = None) -> Any:

@@ -1,4 +1,4 @@
-"""What is installed: built-ins and plug-ins alike, found by entry points, loaded when asked for."""
+"""Registry of installed components: built-ins and plug-ins, found by entry points, imported on first use."""
 
 from __future__ import annotations
 
@@ -32,57 +32,37 @@ from nonsmooth.interfaces import (
     Shape,
     TangentialLaw,
 )
+from nonsmooth.plugins.hiding import hidden_packages
 
-GROUPS: dict[str, tuple[type, ...]] = {
-    "bodies": (Body,),
-    "laws": (NormalLaw, TangentialLaw, ImpactLaw),
-    "scenarios": (Scenario,),
-    "kinematics": (ContactKinematics,),
-    "joints": (Joint,),
-    "loads": (Load,),
-    "shapes": (Shape,),
-    "motions": (Motion,),
-    "guards": (Guard,),
-    "distances": (DistanceBackend,),
-    "engines": (Engine,),
+_GROUPS: dict[str, tuple[str, tuple[type, ...]]] = {
+    "bodies": ("body", (Body,)),
+    "laws": ("law", (NormalLaw, TangentialLaw, ImpactLaw)),
+    "scenarios": ("scenario", (Scenario,)),
+    "kinematics": ("contact kinematics", (ContactKinematics,)),
+    "joints": ("joint", (Joint,)),
+    "loads": ("load", (Load,)),
+    "shapes": ("shape", (Shape,)),
+    "motions": ("motion", (Motion,)),
+    "guards": ("guard", (Guard,)),
+    "distances": ("library for distances", (DistanceBackend,)),
+    "engines": ("engine", (Engine,)),
 }
+GROUPS = {group: interfaces for group, (_, interfaces) in _GROUPS.items()}
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
-
-KINDS = {
-    "bodies": "body",
-    "laws": "law",
-    "scenarios": "scenario",
-    "kinematics": "contact kinematics",
-    "joints": "joint",
-    "loads": "load",
-    "shapes": "shape",
-    "motions": "motion",
-    "guards": "guard",
-    "distances": "library for distances",
-    "engines": "engine",
-}
-"""What one member of a group is called."""
-
+KINDS = {group: kind for group, (kind, _) in _GROUPS.items()}
+"""Word for a member of each group, for messages."""
 _LAWS = {NormalLaw: "normal law", TangentialLaw: "friction law", ImpactLaw: "impact law"}
-"""What a law is called where the laws of another kind are asked for."""
-
-_HOME = Path(__file__).resolve().parents[2]
-_IMPORTED = ("bodies", "laws")
-_BUILT_IN = (*_IMPORTED, "scenarios")
+"""Word for a law by its kind, for messages."""
 
 
 class BrokenPlugin(NonsmoothWarning):
     """An installed plug-in that cannot be used."""
 
 
-class HiddenPackage(NonsmoothWarning):
-    """A package that comes with nonsmooth and that a file of the user hides."""
-
-
 @functools.cache
 def _points(group: str) -> dict[str, EntryPoint]:
     found: dict[str, EntryPoint] = {}
-    # built-ins first, so that nothing installed later takes their names
+    # built-ins first, so that no plug-in takes their names
     points = [point for point in entry_points(group=f"nonsmooth.{group}") if _is_installed(point)]
     for point in sorted(points, key=lambda p: (not _is_ours(p), p.name, p.value)):
         first = found.setdefault(point.name, point)
@@ -97,7 +77,7 @@ def _points(group: str) -> dict[str, EntryPoint]:
 
 
 def _is_installed(point: EntryPoint) -> bool:
-    """Return whether a point is of an installed package, and not of metadata beside the user's own files."""
+    """True if an entry point belongs to an installed package, False for metadata next to files of the user."""
     return point.dist is None or _is_installed_in(str(point.dist.locate_file("")))
 
 
@@ -109,30 +89,30 @@ def _is_installed_in(place: str) -> bool:
 
 
 def _own_folders() -> set[Path]:
-    """Return where Python imports from although nobody installed what lies there: working folder, that of the script.
+    """Folders from which Python imports although nothing is installed there: the working folder, and the script's.
 
-    Files of other persons lie there, too.
+    They may hold files of other users.
     """
     script = vars(sys.modules["__main__"]).get("__file__")
     return {*_BEGAN_IN, *_working_folder(), *([Path(script).resolve().parent] if script else [])}
 
 
 def _working_folder() -> tuple[Path, ...]:
-    """Return the working folder, nothing where somebody has removed it."""
+    """The working folder; empty if it was removed."""
     with contextlib.suppress(FileNotFoundError):
         return (Path.cwd(),)
     return ()
 
 
 _BEGAN_IN = _working_folder()
-"""The working folder of ``python -m``, also after the process has gone to another one."""
+"""The working folder at the start, from which ``python -m`` imports even after a change of folder."""
 
 
 @functools.cache
 def packages() -> frozenset[str]:
-    """Return the packages and modules in which what is installed stands, importing nothing.
+    """Packages and modules of the installed components. Nothing is imported.
 
-    A namespace package is none of them: a folder of its name in the working folder is a part of it.
+    Namespace packages are left out, because a folder of the same name in the working folder belongs to them.
     """
     modules = {point.module for group in GROUPS for point in _points(group).values()}
     parents = {module.rpartition(".")[0] for module in modules if "." in module}
@@ -142,14 +122,14 @@ def packages() -> frozenset[str]:
 def _is_namespace(package: str) -> bool:
     try:
         spec = importlib.util.find_spec(package)
-    except ValueError:  # a module put together by hand, without a specification
+    except ValueError:  # a module made by hand, without a specification
         return True
     return spec is None or spec.origin is None
 
 
 @functools.cache
 def _name_and_version(distribution: Distribution) -> tuple[str, str]:
-    # either of them reads and parses a file
+    # both read and parse a file
     return distribution.name, distribution.version
 
 
@@ -166,7 +146,7 @@ def _origin(point: EntryPoint) -> str:
 
 
 def check_groups() -> None:
-    """Warn of installed entry-point groups that are none of ours but begin like them: nobody would read them."""
+    """Warn of groups of entry points that begin with "nonsmooth." and are unknown: nothing reads them."""
     known = [f"nonsmooth.{group}" for group in GROUPS]
     for group in sorted(entry_points().groups):
         if group.startswith("nonsmooth.") and group not in known:
@@ -179,30 +159,30 @@ def check_groups() -> None:
 
 
 def names(group: str) -> tuple[str, ...]:
-    """Return the names installed in a group, loading nothing."""
+    """Names of the installed components of a group. Nothing is imported."""
     return tuple(_points(group))
 
 
 def source(group: str, name: str) -> str:
-    """Return the distribution that a name comes from."""
+    """Distribution that a component comes from, with its version."""
     return _distribution(_points(group)[name])
 
 
 def imported(group: str, name: str) -> str:
-    """Return the line of Python that imports the class of that name."""
+    """Line of Python that imports the class of a component."""
     point = _points(group)[name]
     return f"from {point.module} import {point.attr}"
 
 
 def called(word: str, groups: Iterable[str]) -> list[tuple[str, str]]:
-    """Return group and name of all that is installed under a name, or of the class that the word is, loading nothing.
+    """Group and name of the components of a name, or of a class. Nothing is imported.
 
-    A class is meant by its name in Python, also in lower case with underscores: BoxBody, box_body.
+    The name of a class may be in lower case with underscores: BoxBody, box_body.
 
     Raises
     ------
     UnknownName
-        If there is none.
+        If no component has the name.
     """
     known = [(group, name) for group in groups for name in names(group)]
     bare = word.replace("_", "").lower()
@@ -214,28 +194,30 @@ def called(word: str, groups: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def load(group: str, name: str) -> Any:
-    """Return the class of that name.
+    """Class of a component.
 
     Raises
     ------
     UnknownName
-        If nothing of that name is installed in the group.
+        If the group has no component of this name.
     PluginError
-        If it cannot be imported or is not what the group asks for.
+        If it cannot be imported, or does not implement the interface of the group.
     """
     if name not in _points(group):
-        raise UnknownName(KINDS[group], name, names(group), said_of(name))
+        raise UnknownName(KINDS[group], name, names(group), kinds_named(name))
     return _usable(_points(group)[name], group)
 
 
 @functools.cache
 def _usable(point: EntryPoint, group: str) -> Any:
-    """Return a class; kept, as every contact of a system asks for all kinematics."""
+    """Class of an entry point, checked. It is kept, because systems load the same kinematics again and again."""
     try:
         loaded = point.load()
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
-        raise PluginError(" ".join([f"{_title(group, point.name)} cannot be loaded: {reason}.", *_hidden()])) from error
+        raise PluginError(
+            " ".join([f"{_title(group, point.name)} cannot be loaded: {reason}.", *hidden_packages()])
+        ) from error
     found = fault(loaded, GROUPS[group])
     if found is not None:
         raise PluginError(f"{_title(group, point.name)} {found}")
@@ -243,16 +225,16 @@ def _usable(point: EntryPoint, group: str) -> Any:
 
 
 INTERFACES = tuple(base for bases in GROUPS.values() for base in bases)
-"""What a plug-in may implement."""
+"""Interfaces that a plug-in may implement."""
 
 
 def kind_of(owner: type) -> str:
-    """Return in words what a class is."""
+    """Word for the kind of component that a class is."""
     return next(KINDS[group] for group, bases in GROUPS.items() if issubclass(owner, bases))
 
 
-def said_of(name: str) -> str:
-    """Return in words what is installed under a name, in whichever group; nothing where nothing is."""
+def kinds_named(name: str) -> str:
+    """Kinds of the components of a name, in all groups: "a friction law and a body"; "" if there is none."""
     found: dict[str, None] = {}
     for group in GROUPS:
         if name in names(group) and (owner := _loaded(group, name)) is not None:
@@ -262,7 +244,7 @@ def said_of(name: str) -> str:
 
 
 def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
-    """Return why what a plug-in gives cannot be used: None if it is a dataclass that implements one of the bases."""
+    """Reason why an object of a plug-in cannot be used; None for a dataclass that implements one of the bases."""
     if not (isinstance(loaded, type) and issubclass(loaded, bases)):
         wanted = " or ".join(base.__name__ for base in bases)
         return f"must be a subclass of {wanted}, not {loaded!r}."
@@ -279,11 +261,11 @@ def _title(group: str, name: str) -> str:
 
 
 def name_of(owner: type) -> str | None:
-    """Return the name under which a class is installed, None if it is not."""
+    """Name under which a class is installed, or None."""
     for group, bases in GROUPS.items():
         if issubclass(owner, bases):
             for name, point in _points(group).items():
-                # a module may show a class that lives in another one
+                # a module may re-export a class of another one
                 if point.attr == owner.__name__ and _loaded(group, name) is owner:
                     return name
     return None
@@ -296,35 +278,12 @@ def _loaded(group: str, name: str) -> Any:
         return None
 
 
-def load_all(group: str) -> dict[str, Any]:
-    """Return all usable classes of a group by name; a broken one is a warning that names it."""
+def load_all(group: str, some: Iterable[str] | None = None) -> dict[str, Any]:
+    """Usable classes of a group by name: all of them, or ``some``. A broken one is a warning that names it."""
     loaded = {}
-    for name in names(group):
+    for name in names(group) if some is None else some:
         try:
             loaded[name] = load(group, name)
         except PluginError as error:
             warnings.warn(str(error), BrokenPlugin, stacklevel=2)
     return loaded
-
-
-def check_hidden() -> None:
-    """Warn of files that hide packages that scripts import; the import that fails for it names no cause."""
-    for said in _hidden(_IMPORTED):
-        warnings.warn(said, HiddenPackage, stacklevel=3)
-
-
-def _hidden(packages: tuple[str, ...] = _BUILT_IN) -> list[str]:
-    """Say which files of the user hide packages that come with nonsmooth, as a laws.py in the working folder does."""
-    found = {}
-    for package in packages:
-        try:
-            spec = importlib.util.find_spec(package)
-        except ValueError:  # a module put together by hand, without a specification
-            continue
-        if spec is not None and spec.origin is not None:
-            found[package] = Path(spec.origin).resolve()
-    return [
-        f"The file {file} hides the package {package!r} that comes with nonsmooth: rename it."
-        for package, file in found.items()
-        if file.parent != _HOME / package
-    ]

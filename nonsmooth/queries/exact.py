@@ -14,9 +14,8 @@ from nonsmooth.errors import PluginError
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
-from nonsmooth.plugins import registry
 from nonsmooth.queries.result import EXACT, DistanceResult
-from nonsmooth.system.pairing import nearest_pair
+from nonsmooth.system.pairing import installed_pair
 
 _HALVINGS = 40
 """How often less is looked for, where too many features are near each other."""
@@ -84,7 +83,7 @@ class Contacts:
     """
 
     def __init__(self, first: Shape, second: Shape) -> None:
-        found = nearest_pair(registry.load_all("kinematics").values(), first, second)
+        found = installed_pair(first, second)
         if found is None:
             raise LookupError(f"{type(first).__name__}-{type(second).__name__}")
         kinematics, self._in_order = found

@@ -19,7 +19,7 @@ from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.binding.source import described, raised
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.modes import Status
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
@@ -28,18 +28,40 @@ from nonsmooth.model.feature_searches import failed_search
 from nonsmooth.model.immobile import REMEDY as IMMOBILE_REMEDY
 from nonsmooth.model.immobile import held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.failed_check import failed_check
 from nonsmooth.runs.squeezed import squeezed_body
+from nonsmooth.system.contact import Contact
 
-_FAILED_CHECKS = (
-    Status.GAP_UNDECIDED,
-    Status.GAP_UNEXPLAINED,
-    Status.JOINTS_APART,
-    Status.MOTION_UNEXPLAINED,
-    Status.PASSED,
-    Status.QUATERNION_UNEXPLAINED,
-)
-"""Statuses of runs that failed their own checks."""
+_FAILED_CHECKS = {
+    Status.GAP_UNEXPLAINED: "The {contact}: the gap is {found:.3g} m; the tolerances allow {allowed:.3g} m. ",
+    Status.PASSED: (
+        "The bodies {first!r} and {second!r} of the {contact} overlap by {found:.3g} m; their closed contacts allow "
+        "{allowed:.3g} m. Their features missed each other: turn or shift one of them by a thousandth of its size, "
+        "give it feet or a rounding, or take shorter steps, EventDriven(largest_step=...)."
+    ),
+    Status.GAP_UNDECIDED: (
+        "The {contact}: its gap is {found:.3g} m and hardly changes within a step of {h:.3g} s. Place the bodies "
+        "farther apart or in contact, or take a smaller tolerance: EventDriven(tolerance=...)."
+    ),
+    Status.JOINTS_APART: (
+        "They are apart by {found:.3g} m or rad; the tolerances allow {allowed:.3g}. Leave out a joint that repeats "
+        "another one, and let no inertia be below 1e-8 of the largest one of joined bodies: round-off moves it."
+    ),
+    Status.MOTION_UNEXPLAINED: (
+        "The body {body!r} would have to move by {found:.3g} in one of its coordinates; the tolerances allow "
+        "{allowed:.3g}. What is closed around it contradicts itself."
+    ),
+    Status.QUATERNION_UNEXPLAINED: (
+        "The body {body!r}: the length of its quaternion is off by {found:.3g} after one step; the tolerances allow "
+        "{allowed:.3g}. The rates that {evaluator} gives do not keep its length. "
+    ),
+}
+"""Sentences on a run that failed a check of its own: the contact or body, the value found and the value allowed."""
+_CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report one of nonsmooth."
+"""Remedy for a contact or body that contradicts its own numbers."""
+_SHIFT = "Shift or turn a body a little, or give it rounded edges."
+"""Remedy for a pair of features whose gap jumps in a special pose, such as edges in line."""
+_COMPLIANT = "Give it a compliant normal law such as LinearCompliant, or leave out a contact that holds the same body."
+"""Remedy for a closed contact that another closed contact contradicts."""
 
 
 def failing_function(model: LaidOut, status: int) -> str:
@@ -60,7 +82,7 @@ def _failing_function(model: LaidOut, status: int) -> str:
     They call functions of the user, so this may raise.
     """
     if status in _FAILED_CHECKS:
-        return failed_check(model, status)
+        return _failed_check(model, Status(status))
     if found := squeezed_body(model, status):
         return found
     # a contact that joints hold has no finite force, and an impact map may give impulses that are not finite
@@ -74,6 +96,46 @@ def _failing_function(model: LaidOut, status: int) -> str:
     if not np.all(np.isfinite(model.memory[owners.Island.y])):
         return "The state itself is not finite: check the motions and the bodies."
     return ""
+
+
+def _failed_check(model: LaidOut, status: Status) -> str:
+    """Sentences about a check that a run failed. The engine has stored the value found and the largest one allowed."""
+    run, memory = owners.Run, model.memory
+    found, allowed, number = (memory[one] for one in (run.found, run.allowed, run.failed_number))
+    # by the status, the number is that of an active contact, a declared contact or a body
+    is_of_body = status in (Status.MOTION_UNEXPLAINED, Status.QUATERNION_UNEXPLAINED)
+    things = {"h": memory[owners.Step.h], "found": found, "allowed": allowed}
+    if is_of_body:
+        things |= {"body": model.system.names.bodies[number]}
+        things |= {"evaluator": described(model.system.bodies[number].evaluator)}
+    elif status != Status.JOINTS_APART:
+        contact = model.system.contacts[number if status == Status.PASSED else model.active[number]]
+        first, second = map(model.system.name_of, (contact.first, contact.second))
+        things |= {"contact": contact, "first": first, "second": second}
+    text = _FAILED_CHECKS[status].format(**things)
+    if status == Status.GAP_UNEXPLAINED:
+        # other closed contacts of its bodies contradict a closed one; else its kinematics is not continuous
+        if memory[owners.Contact.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
+            return f"{text}It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
+        return f"{text}It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
+    return f"{text}{_CHECK}" if status == Status.QUATERNION_UNEXPLAINED else text
+
+
+def _other_closed(model: LaidOut, contact: Contact) -> str:
+    """Names of closed contacts that share a free body with a contact, or "".
+
+    Of contacts between the same two bodies the first is named. Those between both bodies of ``contact`` are left out.
+    """
+    modes = model.memory[owners.Contact.mode][: len(model.active)]
+    # a driven body has no velocities, and takes no part in a contradiction
+    free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
+    pairs = dict[tuple[int, int], str]()
+    for number in model.active[modes != Mode.OPEN].tolist():
+        other = model.system.contacts[number]
+        bodies = id(other.first), id(other.second)
+        if free & {*bodies} and {*bodies} != {id(contact.first), id(contact.second)}:
+            pairs.setdefault(bodies, f"the {other}")
+    return ", ".join(pairs.values())
 
 
 def _immobile(model: LaidOut) -> str:

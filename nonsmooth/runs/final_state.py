@@ -16,8 +16,8 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.modes import LIMITS
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.interfaces import Engine, Measure, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.checkpoint import Booleans, Checkpoint, Difference, Integers
@@ -25,9 +25,9 @@ from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
 from nonsmooth.runs.imbalance import imbalance_span
-from nonsmooth.runs.outcome import Outcome, cause_of
+from nonsmooth.runs.outcome import RunOutcome, cause_of
 from nonsmooth.solution.checks import friction_gain
-from nonsmooth.solution.end import Counters, End
+from nonsmooth.solution.end import Counters, End, RunStatus
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.solution import Solution
@@ -99,12 +99,12 @@ class FinalState(NamedTuple):
     n_known_events: int
     places: FixedPlaces
 
-    def end(self, outcome: Outcome, code: int, wall: float, recorded: Recorded) -> End:
+    def end(self, outcome: RunOutcome, code: int, wall: float, recorded: Recorded) -> End:
         """End of the run.
 
         Parameters
         ----------
-        outcome : Outcome
+        outcome : RunOutcome
             Status and message, before the checks of the energy account.
         code : int
             Last status of the engine.
@@ -115,8 +115,8 @@ class FinalState(NamedTuple):
         """
         state, counters = self.state(), self._counters(wall)
         status, message = outcome
-        if status == "done" and (found := self._suspicions(End(state, counters, status, message), recorded)):
-            status, message = "suspect", f"{message}, but {found}"
+        if status == RunStatus.DONE and (found := self._suspicions(End(state, counters, status, message), recorded)):
+            status, message = RunStatus.SUSPECT, f"{message}, but {found}"
         cause = cause_of(self.engine, code)
         return End(state, counters, status, message, cause.name if cause else "", self._verdict())
 
@@ -254,7 +254,7 @@ class UnreadEnd(NamedTuple):
     ----------
     final : FinalState
         Memory of the model after the run.
-    outcome : Outcome
+    outcome : RunOutcome
         Status and message, before the checks of the energy account.
     code : int
         Last status of the engine.
@@ -265,7 +265,7 @@ class UnreadEnd(NamedTuple):
     """
 
     final: FinalState
-    outcome: Outcome
+    outcome: RunOutcome
     code: int
     wall: float
     recorded: Recorded

@@ -27,11 +27,26 @@ from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.storage.files import FileError
 
-_STEPS_NEAR_END = 16
-"""Number of steps between checkpoints near the end time. A continued run repeats at most so many."""
-_BYTES_PER_STEP = 1 << 13
-"""Size of a checkpoint per step [bytes], above which there are more steps. To copy this much costs little per step."""
+_CHECKPOINT_CALL = 16
+"""Time of the checkpoint of a small model, in that of the shortest steps, a microsecond: calls of Python take it."""
+_COPIED = 1 << 13
+"""Size of a checkpoint that is copied in the time of such a step [bytes]."""
 Progress = Callable[[float, float], None]
+
+
+class Callbacks(NamedTuple):
+    """Functions of the user that a run calls. None if the user gives none.
+
+    Attributes
+    ----------
+    progress : callable
+        ``progress(time, t_end)`` [s], called repeatedly.
+    until : callable
+        The condition that ends the run.
+    """
+
+    progress: Progress | None
+    until: Until | None
 
 
 class Ending(NamedTuple):
@@ -78,10 +93,8 @@ class EngineLoop:
         The checkpoint of the start, which the memory holds.
     sink : OutputSink
         Takes the results at checkpoints.
-    progress : callable, optional
-        ``progress(time, t_end)`` [s], called repeatedly.
-    until : callable, optional
-        The condition that ends the run.
+    callbacks : Callbacks
+        Functions of the user.
     """
 
     engine: Engine
@@ -89,14 +102,13 @@ class EngineLoop:
     records: Records
     start: Checkpoint
     sink: OutputSink
-    progress: Progress | None = None
-    until: Until | None = None
+    callbacks: Callbacks
     _n_calls: int = 0
 
     def __post_init__(self) -> None:
         """Begin with the start as the last checkpoint; a condition gets a view of the run so far."""
         self._checkpoint, self._n_events_before = self.start, self.records.n_events
-        self._run_so_far = None if self.until is None else RunSoFar(self.model, self.records, self.engine)
+        self._run_so_far = None if self.callbacks.until is None else RunSoFar(self.model, self.records, self.engine)
 
     def run(self) -> Ending:
         """Run to the end time, to a failure, until a condition is met or the user interrupts.
@@ -148,7 +160,7 @@ class EngineLoop:
         now and then whether to stop. The watch reports the time to ``progress``, and turns Ctrl-C into a
         KeyboardInterrupt.
         """
-        memory, progress = self.model.memory, self.progress
+        memory, progress = self.model.memory, self.callbacks.progress
         t_end = float(memory[owners.Request.t_end])
         report = None if progress is None else lambda t: progress(t, t_end)
         status: int = Status.PAUSED
@@ -187,8 +199,8 @@ class EngineLoop:
                 # an engine with full buffers takes no step
                 self._monitor.observe(status)
                 records.drain()
-            # a continued run repeats these steps; with few, checkpoints would take most of the time
-            most_steps = max(_STEPS_NEAR_END, self._checkpoint.size // _BYTES_PER_STEP)
+            # as many steps as take the time of the checkpoint. A continued run repeats them
+            most_steps = max(_CHECKPOINT_CALL, self._checkpoint.size // _COPIED)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
         # the monitor reads the buffers, so they are drained after it
         if status != Status.DONE:
@@ -208,9 +220,10 @@ class EngineLoop:
         InvalidInput
             If it returns neither true nor false, such as an array.
         """
-        if self.until is None or self._run_so_far is None:
+        until = self.callbacks.until
+        if until is None or self._run_so_far is None:
             return False
-        answer = self.until(self._run_so_far)
+        answer = until(self._run_so_far)
         try:
             return bool(answer)
         except ValueError as error:

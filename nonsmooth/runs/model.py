@@ -23,24 +23,30 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
-from nonsmooth.model.copying import copied
-from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.other_laws import lay_laws
+from nonsmooth.model.laid_out import LaidOut, copied
+from nonsmooth.model.laying_contacts import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.runs.checks import (
+    check_arrays,
+    check_calls,
+    check_closed,
+    check_numbers,
+    check_steps,
+    check_times,
+    checked_request,
+)
 from nonsmooth.runs.final_state import FinalState, FixedPlaces, UnreadEnd
 from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.runs.identity import digest
-from nonsmooth.runs.interpenetration import interpenetration
-from nonsmooth.runs.loop import EngineLoop, Progress
-from nonsmooth.runs.outcome import Outcome, outcome
+from nonsmooth.runs.loop import Callbacks, EngineLoop, Progress
+from nonsmooth.runs.outcome import RunOutcome, interpenetration, outcome
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
-from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, checked_request
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
-from nonsmooth.runs.state_checks import check_arrays, check_closed, check_numbers
+from nonsmooth.solution.end import RunStatus
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, State
@@ -241,7 +247,7 @@ class Model:
         request = RunRequest(t_end, state.time, interval, sample_interval is None, until is not None)
         folder = None if output is None else Output.to(output)
         with self._reserved("run"):
-            return self._run(request, state, progress, folder, until)
+            return self._run(request, state, folder, Callbacks(progress, until))
 
     def contact_rates(self, state: State) -> tuple[Floats, Floats]:
         """Gaps and relative velocities of all contacts in a state; nan for bodies that are far apart.
@@ -308,7 +314,7 @@ class Model:
             energy, wall = (state.energy.kinetic_start, state.energy.potential_start), folder.wall_seconds
             sink = FolderSink(folder, self._records, self._states_from(energy), wall)
             start = Checkpoint.of(laid.memory)
-            loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
+            loop = EngineLoop(self._engine, laid, self._records, start, sink, Callbacks(progress, until))
             return self._complete(loop, energy, wall)
 
     @functools.cached_property
@@ -387,9 +393,7 @@ class Model:
             self._places,
         )
 
-    def _run(
-        self, request: RunRequest, state: State, progress: Progress | None, output: Output | None, until: Until | None
-    ) -> Solution:
+    def _run(self, request: RunRequest, state: State, output: Output | None, callbacks: Callbacks) -> Solution:
         """Run from a state, while the memory is reserved; errors as :meth:`run`.
 
         Bodies without a contact that overlap at the end, but not at the start, cause a warning.
@@ -410,7 +414,7 @@ class Model:
             sink = FolderSink(folder, self._records, self._states_from(energy), wall=0.0)
         # where the bodies are before the run
         before = laid.places() if self._pairs_without_contact.any else []
-        loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
+        loop = EngineLoop(self._engine, laid, self._records, start, sink, callbacks)
         solution = self._complete(loop, energy, wall=0.0)
         if self._pairs_without_contact.any:
             laid.evaluate()
@@ -452,13 +456,13 @@ class Model:
             wall += time.perf_counter() - clock
             final = self._final_state(energy, ending.checkpoint, ending.n_known_events)
             recorded = records.joined(self._engine)
-            if found.status == "done" and (overlap := interpenetration(laid, recorded.rows)):
-                found = Outcome("failed", overlap)
+            if found.status == RunStatus.DONE and (overlap := interpenetration(laid, recorded.rows)):
+                found = RunOutcome(RunStatus.FAILED, overlap)
             unread = UnreadEnd(final, found, ending.status, wall, recorded)
             # an unread end holds two checkpoints; if they are large, the solution gets the end itself
             is_large = 2 * self._blank.size > _LARGEST_UNREAD
             solution = Solution(laid.system, recorded, unread.read() if is_large else unread)
-            has_failed = found.status == "failed"
+            has_failed = found.status == RunStatus.FAILED
             # results that cannot be written are in memory, so the error gets the solution; after a failed write the
             # sink gets nothing more
             try:
@@ -466,7 +470,7 @@ class Model:
                     loop.sink.finish(solution)
             except FileError as error:
                 has_failed = True
-                end = replace(solution.end, status="failed", message=str(error))
+                end = replace(solution.end, status=RunStatus.FAILED, message=str(error))
                 solution = Solution(laid.system, recorded, end)
         except MemoryError as error:
             raise self._out_of_memory(error) from error

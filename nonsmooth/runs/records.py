@@ -13,8 +13,8 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from nonsmooth.engine.events.record import CLOSED_WITH, EVENT_HEAD, FACING, FEATURES, LISTED, SLIP_DIRECTION
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.event_rows import CLOSED_WITH, EVENT_HEAD, FACING, FEATURES, LISTED, SLIP_DIRECTION
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, Cause, Mode
 from nonsmooth.engine.memory.tables import places

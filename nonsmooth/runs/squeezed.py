@@ -20,8 +20,8 @@ from nonsmooth.engine.memory import blocks, owners
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import Body, FrictionLaw
-from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying import joints_in_order
 
 _STATUSES = (
     Status.IMPACT_ENDLESS,

@@ -15,11 +15,10 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.engine.events.record import CODE_HEAD
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.event_rows import CODE_HEAD
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.limits import LIMITS, Limit
-from nonsmooth.engine.memory.modes import CAUSES, Cause, Status
+from nonsmooth.engine.memory.modes import CAUSES, LIMITS, Cause, Limit, Status
 from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut

@@ -18,7 +18,7 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.state_checks import check_candidates
+from nonsmooth.runs.checks import check_candidates
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.state import Integers, State
 

@@ -37,7 +37,7 @@ class Counters:
     impacts, impact_steps : int
         Impacts and the steps taken inside them.
     limits : mapping of str to int
-        How many steps were limited by what (:data:`nonsmooth.engine.memory.limits.LIMITS`).
+        How many steps were limited by what (:data:`nonsmooth.engine.memory.modes.LIMITS`).
     gap_looks : int
         How often open gaps had to be looked at within a step to prove that they stay open.
     listings : int

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
+from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, Cause, word
 

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 
     from nonsmooth.solution.solution import Solution
 
-if TYPE_CHECKING:
-    pass
-
 Floats = NDArray[np.float64]
 GROWING = ("time", "event", "listing")
 """Dimensions along which results grow: samples, events, and the contacts listed with them one after another."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import REASONS, Status
-from nonsmooth.interfaces import Cause, Engine, Measure
+from nonsmooth.interfaces import EndCause, Engine, Measure
 from nonsmooth.solution.solution import Solution
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class Budgeted(Engine):
         return self.engine.verdict
 
     @property
-    def causes(self) -> tuple[Cause, ...]:
+    def causes(self) -> tuple[EndCause, ...]:
         """Those of the engine."""
         return self.engine.causes
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import RunFailed
-from nonsmooth.simulate import assemble
+from nonsmooth.runs.simulate import assemble
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.records.record import Outcome, Record
 from nonsmooth.studies.sampling.points import Value

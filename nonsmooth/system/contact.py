@@ -56,6 +56,30 @@ class Contact:
     friction: TangentialLaw
     impact: ImpactLaw | None
 
+    @classmethod
+    def of_shapes(
+        cls,
+        bodies: tuple[Body, Body],
+        shapes: tuple[Shape, Shape],
+        kinematics: ContactKinematics,
+        laws: ContactLaws,
+        *,
+        frames: tuple[int, int] = (0, 0),
+        name: str = "",
+    ) -> Contact:
+        """Return the contact of two shapes; extents and levers are those of the shapes.
+
+        Parameters
+        ----------
+        bodies, shapes, kinematics, laws, frames
+            The attributes of these names.
+        name : str, optional
+            Its name; if it is empty, :meth:`System.add_contact` makes it from those of the bodies.
+        """
+        (one, two), (first, second) = bodies, shapes
+        extents, levers = (first.extent, second.extent), (first.lever, second.lever)
+        return cls(name, one, two, frames, shapes, kinematics, extents, levers, laws.normal, laws.friction, laws.impact)
+
     def __str__(self) -> str:
         """Return what messages call it."""
         return f"contact {self.name!r}"
@@ -72,7 +96,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Declaration:
+class ContactDeclaration:
     """What one call of ``System.contact`` said.
 
     Attributes

@@ -1,4 +1,4 @@
-"""Labels for coordinates and velocities, with their units: "ball 2 x" [m]."""
+"""Names and units of the coordinates of a system."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from nonsmooth.system.system import System
 @final
 @dataclass(frozen=True)
 class Labels:
-    """What the coordinates of a system are called, in its order.
+    """Names of the coordinates and velocities of a system, in its order.
 
     Attributes
     ----------
@@ -24,7 +24,7 @@ class Labels:
 
 
 def labels(system: System) -> Labels:
-    """Return the labels of the coordinates and velocities of a system."""
+    """Labels of the coordinates and velocities of a system, such as "ball 2 x" [m]."""
     pairs = list(zip(system.bodies, system.names.bodies, strict=True))
     return Labels(
         tuple((label, f"{label} {name}", unit) for body, label in pairs for name, unit in body.q_labels),

@@ -7,10 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import final
 
+from nonsmooth.certificates import coefficient_of
 from nonsmooth.checks import check_kind
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import (
     CompliantNormalLaw,
+    FrictionLaw,
     ImpactLaw,
     ImpactMap,
     ImpactProcess,
@@ -169,3 +171,24 @@ def _check_role(where: str, role: str, law: object) -> None:
 def _check_bundle(where: str, laws: ContactLaws) -> None:
     if not isinstance(laws, ContactLaws):
         raise InvalidInput(where, "must be ContactLaws", laws, "Write ContactLaws(normal, friction, impact).")
+
+
+_MOST = 2
+"""Of so many contacts the share is followed through all changes of their loads; of more it is not, yet."""
+
+
+def check_sharing(where: str, laws: ContactLaws, n: int) -> None:
+    """Raise InvalidInput, naming ``where``, if ``n`` compliant contacts of two bodies hold by static friction.
+
+    That friction is rigid, and not unique, while each contact has a bound of its own that vibrates with its load.
+    """
+    if n <= _MOST or not isinstance(laws.normal, CompliantNormalLaw):
+        return
+    friction = laws.friction
+    if isinstance(friction, FrictionLaw) and coefficient_of(friction)(0.0) > 0.0:
+        raise InvalidInput(
+            f"{where}: {type(friction).__name__}",
+            f"can hold at most {_MOST} compliant contacts between two bodies",
+            n,
+            "Take bristles, which share the load by their stiffness (bristle, coulomb_contensou), or rigid contacts.",
+        )

@@ -1,8 +1,9 @@
-"""Which contact kinematics knows a pair of shapes."""
+"""Contact kinematics for pairs of shapes."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 
 from nonsmooth.errors import InvalidInput
@@ -12,8 +13,8 @@ from nonsmooth.plugins import registry
 Found = tuple[type[ContactKinematics], bool]
 
 
-class Geometries:
-    """The geometries of the contacts of one system, made once for equal shapes."""
+class ContactGeometries:
+    """Geometries of the contacts of one system. They are made once for equal shapes."""
 
     def __init__(self) -> None:
         self._frames: dict[int, tuple[tuple[Shape, ...], ...]] = {}
@@ -22,7 +23,7 @@ class Geometries:
         self._made: dict[tuple[int, int], tuple[ContactKinematics, ...]] = {}
 
     def shapes(self, body: Body) -> tuple[tuple[Shape, ...], ...]:
-        """Return the shapes that each frame of a body of the system carries; equal ones are one object."""
+        """Shapes of each frame of a body of the system. Equal shapes are one object."""
         if id(body) not in self._frames:
             self._frames[id(body)] = tuple(tuple(map(self._first_of, shapes)) for shapes in body.frames)
         return self._frames[id(body)]
@@ -30,16 +31,16 @@ class Geometries:
     def _first_of(self, shape: Shape) -> Shape:
         try:
             return self._shapes.setdefault(shape, shape)
-        except TypeError:  # one with fields that cannot be hashed
+        except TypeError:  # a shape with fields that cannot be hashed
             return shape
 
     def between(self, first: Shape, second: Shape) -> tuple[Sequence[ContactKinematics], bool]:
-        """Return the geometries of two shapes that :meth:`shapes` gave, and whether the first comes first in them.
+        """Geometries of two shapes of :meth:`shapes`, and True if the first shape comes first in them.
 
         Raises
         ------
         InvalidInput
-            If no kinematics knows the two.
+            If no kinematics of the two is installed.
         """
         kinds = type(first), type(second)
         if kinds not in self._kinds:
@@ -57,9 +58,16 @@ class Geometries:
 
 
 def _kinematics_of(first: Shape, second: Shape) -> Found:
-    known = registry.load_all("kinematics").values()
-    found = nearest_pair(known, first, second)
+    """Installed kinematics of two shapes, and whether they are in its order.
+
+    Raises
+    ------
+    InvalidInput
+        If no kinematics of the two is installed.
+    """
+    found = installed_pair(first, second)
     if found is None:
+        known = registry.load_all("kinematics").values()
         pairs = sorted(f"{k.pair[0].__name__}-{k.pair[1].__name__}" for k in known)
         raise InvalidInput(
             "System.contact",
@@ -70,15 +78,37 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
     return found
 
 
-def nearest_pair(
-    known: Iterable[type[ContactKinematics]], first: Shape, second: Shape
-) -> tuple[type[ContactKinematics], bool] | None:
-    """Return the kinematics of two shapes, and whether they stand in its order; None if there is none.
+def installed_pair(first: Shape, second: Shape) -> Found | None:
+    """Installed kinematics of two shapes, and whether they are in its order; None if there is none."""
+    return nearest_pair(registry.load_all("kinematics", _named_after(first, second)).values(), first, second)
 
-    A pair of base classes knows all shapes that derive from them; of several that fit, the one is taken whose classes
-    are nearest to the shapes'.
+
+def _named_after(first: Shape, second: Shape) -> list[str]:
+    """Names of the installed kinematics that may know two shapes, so that no others are imported.
+
+    The name "ground-triangle_mesh" belongs to the classes Ground and TriangleMesh. A name without a hyphen may belong
+    to any classes.
     """
-    best: tuple[type[ContactKinematics], bool] | None = None
+    kinds = [{_UPPER.sub("_", kind.__name__).lower() for kind in type(shape).__mro__} for shape in (first, second)]
+    found = []
+    for name in registry.names("kinematics"):
+        one, hyphen, two = name.partition("-")
+        if not hyphen or any(one in a and two in b for a, b in (kinds, kinds[::-1])):
+            found.append(name)
+    return found
+
+
+_UPPER = re.compile(r"(?<!^)(?=[A-Z])")
+"""Place before an upper-case letter within a name."""
+
+
+def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:
+    """Kinematics of two shapes among those ``known``, and whether they are in its order; None if there is none.
+
+    A pair of base classes knows all shapes that derive from them. Of several that fit, the result has the classes that
+    are nearest to those of the shapes.
+    """
+    best: Found | None = None
     least = math.inf
     for kinematics in known:
         for in_order, one, two in ((True, first, second), (False, second, first)):

@@ -32,22 +32,29 @@ def with_laws(
     Raises
     ------
     InvalidInput
-        If the system has no contact, or a law is of the wrong kind.
+        If the system has no contact, a contact was given by :meth:`System.add_contact`, or a law is of the wrong kind.
     """
     check_kind("with_laws: system", system, System, "Make it by nonsmooth.System([...]).")
     if not system.declarations:
         raise InvalidInput("with_laws", "needs a system with contacts", 0, "Declare some with system.contact(...).")
+    if system.given_contacts:
+        raise InvalidInput(
+            "with_laws",
+            "needs contacts of System.contact or System.contact_all",
+            str(system.given_contacts[0]),
+            "Add the contacts of System.add_contact again, with the other laws.",
+        )
     made = system.without_contacts()
-    for said in system.declarations:
-        laws = said.laws
+    for declared in system.declarations:
+        laws = declared.laws
         kept = None if isinstance(normal, CompliantNormalLaw) else laws.impact
         made.contact(
-            said.first,
-            said.second,
+            declared.first,
+            declared.second,
             normal=laws.normal if normal is None else normal,
             friction=laws.friction if friction is None else friction,
             impact=kept if impact is None else impact,
-            shapes=said.shapes,
-            name=said.name,
+            shapes=declared.shapes,
+            name=declared.name,
         )
     return made

@@ -6,6 +6,7 @@ import copy
 import itertools
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -24,14 +25,12 @@ from nonsmooth.interfaces import (
     TangentialLaw,
 )
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.system.contact import Contact, Declaration, Tie, Watched
-from nonsmooth.system.given import check_bodies, start_of, stranger
-from nonsmooth.system.gravity import gravity_of
-from nonsmooth.system.materials import ContactLaws, Materials, check_laws
+from nonsmooth.system.contact import Contact, ContactDeclaration, Tie, Watched
+from nonsmooth.system.input_checks import check_bodies, gravity_of, start_of, stranger
+from nonsmooth.system.materials import ContactLaws, Materials, check_laws, check_sharing
 from nonsmooth.system.names import Names, Naming, between, kind_word
-from nonsmooth.system.pairing import Geometries
+from nonsmooth.system.pairing import ContactGeometries
 from nonsmooth.system.selection import Side, select
-from nonsmooth.system.sharing import check_sharing
 
 _Pair: TypeAlias = frozenset[int]
 _ShapePair: TypeAlias = frozenset[tuple[int, int]]
@@ -59,7 +58,8 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = gravity_of(gravity)
         self._contacts: list[Contact] = []
-        self._declared: list[Declaration] = []
+        self._declared: list[ContactDeclaration] = []
+        self._given: list[Contact] = []
         self._paired: set[_ShapePair] = set()
         self._excluded: list[tuple[Body, Body]] = []
         self._left_out: list[tuple[Body, Body]] = []
@@ -73,7 +73,7 @@ class System:
     def _count_bodies(self) -> None:
         # bodies are told apart as objects, however equal they are: copies have identities of their own
         self._numbers = {id(body): number for number, body in enumerate(self._bodies)}
-        self._geometries = Geometries()
+        self._geometries = ContactGeometries()
 
     def __repr__(self) -> str:
         """Return how many there are of its parts."""
@@ -130,9 +130,14 @@ class System:
         return tuple(self._contacts)
 
     @property
-    def declarations(self) -> tuple[Declaration, ...]:
+    def declarations(self) -> tuple[ContactDeclaration, ...]:
         """What was said of contacts, one entry for every two bodies or choice of their shapes, in that order."""
         return tuple(self._declared)
+
+    @property
+    def given_contacts(self) -> tuple[Contact, ...]:
+        """The contacts of :meth:`add_contact`, in the order added."""
+        return tuple(self._given)
 
     @property
     def excluded(self) -> tuple[tuple[Body, Body], ...]:
@@ -158,7 +163,7 @@ class System:
     def without_contacts(self) -> System:
         """Return the same system with no contacts, of which others may then be declared."""
         made = copy.copy(self)
-        made._contacts, made._declared, made._paired = [], [], set()
+        made._contacts, made._declared, made._given, made._paired = [], [], [], set()
         made._naming.forget("contact")
         return made
 
@@ -315,21 +320,7 @@ class System:
         shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
         name: str = "",
     ) -> tuple[Contact, ...]:
-        self._require(first, "System.contact")
-        self._require(second, "System.contact")
-        impact = laws.impact
-        present = next((contact.impact for contact in self._contacts if contact.impact is not None), impact)
-        if impact is not None and present is not None and not _same_kind(impact, present):
-            raise InvalidInput(
-                "System.contact",
-                f"needs an impact law of the kind of {type(present).__name__}",
-                type(impact).__name__,
-                "An impact owns the whole colliding set: give all contacts laws of one kind.",
-            )
-        if first is second:
-            raise InvalidInput(
-                "System.contact", "needs two different bodies", self.name_of(first), "Name the other body."
-            )
+        self._check_touch("System.contact", first, second, laws.impact)
         sides = select("System.contact", (first, second), shapes, self._geometries.shapes)
         pairs = {frozenset((self._key(one), self._key(other))) for one, other in itertools.product(*sides)}
         if pairs & self._paired:
@@ -346,9 +337,64 @@ class System:
         added = [_contact(*named, laws) for named in zip(names, facing, strict=True)]
         self._contacts += added
         chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
-        self._declared.append(Declaration(first, second, (chosen[0], chosen[1]), laws, name))
+        self._declared.append(ContactDeclaration(first, second, (chosen[0], chosen[1]), laws, name))
         self._paired |= pairs
         return tuple(added)
+
+    def _check_touch(self, where: str, first: Body, second: Body, impact: ImpactLaw | None) -> None:
+        """Raise InvalidInput unless two bodies may touch with an impact law."""
+        self._require(first, where)
+        self._require(second, where)
+        present = next((contact.impact for contact in self._contacts if contact.impact is not None), impact)
+        if impact is not None and present is not None and not _same_kind(impact, present):
+            raise InvalidInput(
+                where,
+                f"needs an impact law of the kind of {type(present).__name__}",
+                type(impact).__name__,
+                "An impact owns the whole colliding set: give all contacts laws of one kind.",
+            )
+        if first is second:
+            raise InvalidInput(where, "needs two different bodies", self.name_of(first), "Name the other body.")
+
+    def add_contact(self, contact: Contact) -> Contact:
+        """Add a contact with given kinematics.
+
+        :meth:`contact` finds the kinematics of two shapes among those that are installed. This method takes any, such
+        as kinematics that are being written, of shapes that no body has to carry. A scenario file cannot hold such a
+        contact.
+
+        Parameters
+        ----------
+        contact : Contact
+            The contact (:meth:`nonsmooth.system.contact.Contact.of_shapes`).
+
+        Returns
+        -------
+        Contact
+            The contact with its name, which is made from those of the bodies if it has none.
+
+        Raises
+        ------
+        InvalidInput
+            If it is not a Contact, a body is not of this system, the bodies are the same, a frame is unknown, the
+            kinematics are no ContactKinematics, a law is of the wrong kind or does not go with the others, or the name
+            is taken.
+        """
+        where = "System.add_contact"
+        check_kind(where, contact, Contact, "Make it by nonsmooth.system.contact.Contact.of_shapes(...).")
+        kinematics = contact.kinematics
+        check_kind(f"{where}: kinematics", kinematics, ContactKinematics, "See `nonsmooth list kinematics`.")
+        check_laws(where, contact.normal, contact.friction, contact.impact)
+        self._check_touch(where, contact.first, contact.second, contact.impact)
+        self._check_tie(where, contact.first, contact.second, contact.frames)
+        made = between(self.name_of(contact.first), self.name_of(contact.second))
+        (name,) = self._naming.give("contact", contact.name, [made])
+        added = replace(contact, name=name)
+        self._contacts.append(added)
+        self._given.append(added)
+        # the two bodies have said how they touch, though no shape of theirs need have
+        self._paired.add(frozenset((self._numbers[id(body)], -1) for body in (contact.first, contact.second)))
+        return added
 
     def contact_all(
         self,
@@ -477,8 +523,7 @@ class System:
 def _contact(name: str, facing: _Facing, laws: ContactLaws) -> Contact:
     one, two, geometry = facing
     bodies, frames, shapes = (one.body, two.body), (one.frame, two.frame), (one.shape, two.shape)
-    extents, levers = (one.shape.extent, two.shape.extent), (one.shape.lever, two.shape.lever)
-    return Contact(name, *bodies, frames, shapes, geometry, extents, levers, laws.normal, laws.friction, laws.impact)
+    return Contact.of_shapes(bodies, shapes, geometry, laws, frames=frames, name=name)
 
 
 def _same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:

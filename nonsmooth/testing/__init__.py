@@ -1,10 +1,12 @@
-"""The conformance kit: what must hold of laws, bodies, contact kinematics, scenarios and the rest, as named properties.
+"""The conformance kit: the properties of laws, bodies, contact kinematics, scenarios and other components, by name.
 
 Each ``check_...`` returns a list of :class:`Property`; nothing runs before a property is called::
 
     @pytest.mark.parametrize("prop", check_friction_law(MyLaw(0.3)), ids=str)
     def test_my_law(prop):
         prop()
+
+A property is checked in a child process, so that a component that does not come back is named.
 """
 
 from nonsmooth.testing.body import check_body
@@ -18,7 +20,8 @@ from nonsmooth.testing.kinematics import check_contact_kinematics
 from nonsmooth.testing.load import check_load
 from nonsmooth.testing.motion import check_motion
 from nonsmooth.testing.normal import check_normal_law
-from nonsmooth.testing.property import Departs, NotChecked, Property, PropertyFailed
+from nonsmooth.testing.outcome import NotChecked
+from nonsmooth.testing.property import Departs, Property, PropertyFailed
 from nonsmooth.testing.scenario import check_scenario
 from nonsmooth.testing.shape import check_shape
 from nonsmooth.testing.traction import check_traction_law

@@ -1,4 +1,8 @@
-"""The friction coefficient of a law, which all laws with one have, and what must hold of it."""
+"""The friction coefficient of a law, and the properties that all laws with a coefficient share.
+
+The bound of friction is made of two half ellipses along and across an axis. For a law without a direction it is a disc:
+all ratios are 1, and the axis may be any.
+"""
 
 from __future__ import annotations
 
@@ -9,21 +13,23 @@ from typing import Any, final
 
 import numpy as np
 
-from nonsmooth.interfaces import FrictionLaw, StatefulFrictionLaw
-from nonsmooth.testing.callers import plain_caller
-from nonsmooth.testing.component import numbers_of, remade, variants
-from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.examine import Trial, examine
-from nonsmooth.testing.functions import Function, scalar_function
-from nonsmooth.testing.property import NotChecked, Row
+from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
+from nonsmooth.testing.claims import Claim, claim
+from nonsmooth.testing.component import numbers_of, remade
+from nonsmooth.testing.functions import CheckedFunction, plain_caller, scalar_function
+from nonsmooth.testing.inputs import number
+from nonsmooth.testing.outcome import NotChecked, Row
 
-SPEED = Variable("slip_speed", 1e-4, 1e2, 1.0, log=True)
-HEADING = Variable("heading", -3.1, 3.1)
-FORCE = Variable("normal_force", 1e-2, 1e3, 1.0, log=True)
-SHARE = Variable("share", 0.0, 0.99)
+Pair = tuple[float, float]
+"""A vector along the axis of the law and across it."""
+SPEED = number("slip_speed", 1e-4, 1e2, 1.0, is_log=True)
+HEADING = number("heading", -3.1, 3.1)
+FORCE = number("normal_force", 1e-2, 1e3, 1.0, is_log=True)
+SHARE = number("share", 0.0, 0.99)
+TURN = number("turn", -3.1, 3.1, 1.0)
+DRAWS = 10
+_ANY_SPEED = number("slip_speed", 1e-9, 1e3, 1.0, is_log=True)
 _SPEEDS = (0.0, 1e-300, *np.geomspace(1e-12, 1e3, 16).tolist())
-_ANY_SPEED = Variable("slip_speed", 1e-9, 1e3, 1.0, log=True)
-_DRAWS, _MANY = 10, 60
 
 
 @final
@@ -40,14 +46,12 @@ class _Fresh(FrictionLaw):
     def coefficient(self) -> Callable[..., float]:
         return self.law.coefficient
 
-    def is_fulfilled(
-        self, slip: tuple[float, float], normal_force: float, tangential_force: tuple[float, float], tolerance: float
-    ) -> bool:
+    def is_fulfilled(self, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float) -> bool:
         return self.law.is_fulfilled(slip, normal_force, tangential_force, tolerance)
 
 
 def fresh(law: FrictionLaw) -> FrictionLaw:
-    """Return a law without inner states: itself, or what it is as long as they are the initial ones."""
+    """Return a law without inner states: itself, or the law that it is as long as they are the initial ones."""
     return _Fresh(law) if isinstance(law, StatefulFrictionLaw) else law
 
 
@@ -56,19 +60,48 @@ def offered(law: FrictionLaw) -> Mapping[str, Any]:
     return fresh(law).parameters()
 
 
-def coefficient_function(law: FrictionLaw) -> Function:
+def coefficient_function(law: FrictionLaw) -> CheckedFunction:
     """Return the coefficient with speeds to try."""
-    return scalar_function(law, "coefficient", law.coefficient, _SPEEDS, offered(law))
+    return scalar_function(law, "coefficient", _SPEEDS, offered(law))
 
 
 def mu(law: FrictionLaw, speed: float) -> float:
-    """Return the coefficient at a speed, of a fresh contact."""
+    """Return the coefficient of a contact that has just closed, at a speed [m/s]."""
     return float(plain_caller(law.coefficient, "scalar", offered(law))(speed))
 
 
-def along(size: float, heading: float) -> tuple[float, float]:
-    """Return the vector of a size and direction."""
+def along(size: float, heading: float) -> Pair:
+    """Return the vector of a size and direction [rad]."""
     return size * math.cos(heading), size * math.sin(heading)
+
+
+def times(share: float, vector: Pair) -> Pair:
+    """Return a multiple of a vector."""
+    return share * vector[0], share * vector[1]
+
+
+def ratios_of(law: FrictionLaw) -> tuple[float, float, float]:
+    """Return the ratios of the bound forward, backward and across: 1 for a law without a direction."""
+    return law.ratios if isinstance(law, AnisotropicFrictionLaw) else (1.0, 1.0, 1.0)
+
+
+def force_under_slip(law: FrictionLaw, slip: Pair) -> Pair:
+    """Return the force that takes out most energy at a slip, for a normal force of 1 N."""
+    forward, backward, across = ratios_of(law)
+    first = forward if slip[0] > 0.0 else backward
+    counted = first * slip[0], across * slip[1]
+    size = math.hypot(*counted)
+    factor = -mu(law, size) / size
+    return factor * first * counted[0], factor * across * counted[1]
+
+
+def force_on_bound(law: FrictionLaw, coefficient: float, heading: float) -> Pair:
+    """Return the largest force in a direction, for a normal force of 1 N."""
+    forward, backward, across = ratios_of(law)
+    c, s = along(1.0, heading)
+    # forces backward oppose slip forward
+    size = coefficient / math.hypot(c / (forward if c < 0.0 else backward), s / across)
+    return size * c, size * s
 
 
 def vanishing_names(law: FrictionLaw) -> tuple[str, ...]:
@@ -77,43 +110,66 @@ def vanishing_names(law: FrictionLaw) -> tuple[str, ...]:
     return tuple(name for name, (value, rule) in found if rule.unit == "1" and max(rule.minimum, rule.above) == 0.0)
 
 
-def coefficient_rows(law: FrictionLaw) -> list[Row]:
-    """Return the properties of the coefficient alone."""
-    return [
-        (
-            "not negative",
-            "the coefficient is never negative",
-            lambda: examine("not negative", variants(law), (_ANY_SPEED,), _not_negative, _MANY),
-        ),
-        (
-            "static limit",
-            "the coefficient at rest is not below that of incipient slip, to which those of slow slip tend",
-            lambda: examine("static limit", variants(law), (), _static_limit, _DRAWS),
-        ),
-    ]
+def verdict(law: FrictionLaw, slip: Pair, load: float, force: Pair, expected: bool) -> str:
+    """Return "refuses" or "accepts" if the certificate of a law is wrong about a force, else ""."""
+    if bool(law.is_fulfilled(slip, load, force, 1e-9 * load)) is expected:
+        return ""
+    return "refuses" if expected else "accepts"
 
 
-def limit_row(law: FrictionLaw, names: tuple[str, ...], vanishes: Trial) -> Row:
-    """Return the property that nothing is left of friction with the parameters of these names next to zero."""
-
-    def check() -> None:
-        if not names:
-            raise NotChecked(f"{type(law).__name__}: no parameter is a coefficient that may be zero")
-        low = {name: max(0.0, numbers_of(law)[name][1].above + 1e-12) for name in names}
-        examine("limit mu -> 0", [remade(law, **low)], (SPEED, HEADING), vanishes, _DRAWS)
-
-    return "limit mu -> 0", f"with {', '.join(names) or 'coefficients'} at zero nothing is left of friction", check
-
-
-def _not_negative(law: FrictionLaw, case: Case) -> str:
-    speed = case["slip_speed"]
+@claim(_ANY_SPEED, n_inputs=60)
+def _not_negative(law: FrictionLaw, speed: float) -> str:
+    """The coefficient is never negative."""
     return f"coefficient({speed:g}) is {mu(law, speed):g}" if mu(law, speed) < 0.0 else ""
 
 
-def _static_limit(law: FrictionLaw, case: Case) -> str:
+@claim()
+def _static_limit(law: FrictionLaw) -> str:
+    """The coefficient at rest is not below that of incipient slip, to which those of slow slip tend."""
     rest, slow, slower = mu(law, 0.0), mu(law, 1e-12), mu(law, 1e-300)
     if slower > rest * (1.0 + 1e-12) + 1e-12:
         return f"coefficient(0) is {rest:g}, below {slower:g} of incipient slip"
     if abs(slow - slower) > 1e-6 * (1.0 + abs(slow)):
         return f"coefficient(1e-12) is {slow:g} and coefficient(1e-300) {slower:g}: slow slip has no limit"
     return ""
+
+
+@claim(SPEED, HEADING, FORCE)
+def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load: float) -> str:
+    """The force of the law, on the bound against the slip, obeys it; one along the slip or off the bound does not."""
+    slip = along(speed, heading)
+    force = times(load, force_under_slip(law, slip))
+    wrong = (-1.0, 0.5, 1.5, 0.0) if math.hypot(*force) > 1e-6 * load else ()
+    for share in (1.0, *wrong):
+        if word := verdict(law, slip, load, times(share, force), share == 1.0):
+            return f"is_fulfilled {word} {share:g} of the force ({force[0]:g}, {force[1]:g}) N of the law"
+    return ""
+
+
+@claim(HEADING, FORCE, SHARE)
+def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: float) -> str:
+    """A force within the static bound obeys it, one outside does not."""
+    bound = times(load, force_on_bound(law, mu(law, 0.0), heading))
+    size = math.hypot(*bound)
+    outside = along(1.01 * size + 1e-3 * load, heading)
+    for force, expected in ((times(share, bound), True), (outside, False)):
+        if word := verdict(law, (0.0, 0.0), load, force, expected):
+            return f"is_fulfilled {word} {math.hypot(*force):g} N at rest, where {size:g} N is the bound"
+    return ""
+
+
+COEFFICIENT = [_not_negative, _static_limit, _certificate_under_slip, _certificate_at_rest]
+"""The claims about every law with a coefficient."""
+
+
+def limit_row(law: FrictionLaw, names: tuple[str, ...], vanishes: Claim) -> Row:
+    """Return the property that nothing is left of friction with the parameters of these names next to zero."""
+
+    def check() -> None:
+        if not names:
+            raise NotChecked(f"{type(law).__name__}: no parameter is a coefficient that may be zero")
+        low = {name: max(0.0, numbers_of(law)[name][1].above + 1e-12) for name in names}
+        vanishes.examine([remade(law, **low)], DRAWS)
+
+    says = f"With {', '.join(names) or 'coefficients'} at zero nothing is left of friction"
+    return Row("limit mu -> 0", says, check)

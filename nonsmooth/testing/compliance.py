@@ -12,30 +12,38 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.testing.callers import compiled_caller, plain_caller
+from nonsmooth.system.materials import ContactLaws
+from nonsmooth.testing.claims import FEWEST, claim, rows
 from nonsmooth.testing.component import component_rows, variants
-from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.examine import FEWEST, Trial, examine
-from nonsmooth.testing.functions import Function, Functions
-from nonsmooth.testing.property import NotChecked, Property, Row, properties
+from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller
+from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
+from nonsmooth.testing.outcome import NotChecked, Row
 from nonsmooth.testing.puck import Array, Puck, run
-from nonsmooth.testing.reference import Constant
+from nonsmooth.testing.reference import ReferenceFriction
 
 _DRAWS = 8
-_DEPTH = Variable("depth", 1e-2, 1e2, 1.0, log=True)
+_DEPTH = number("depth", 1e-2, 1e2, 1.0, is_log=True)
 """Indentation, in units of that under 1 N at rest."""
-_SPEED = Variable("closing_rate", 1e-3, 10.0, 1.0, log=True)
-_SHARE = Variable("share", 0.01, 1.0, 1.0)
+_SPEED = number("closing_rate", 1e-3, 10.0, 1.0, is_log=True)
+_SHARE = number("share", 0.01, 1.0, 1.0)
+_FACTOR = number("factor", 1.001, 3.0, 2.0)
+_RATE = number("rate", -1.0, 1.0)
+_RATE_BACK = number("rate_back", 0.01, 3.0, 1.0, is_log=True)
+_WAVE = Drawn(
+    (DrawnNumber("second", -0.4, 0.4), DrawnNumber("phase", -3.1, 3.1)),
+    lambda case: _wave(case["second"], case["phase"]),
+)
 _NEAREST, _FARTHEST = 1e-15, 1e3
-"""Where the indentation under 1 N is looked for [m]."""
+"""Where the indentation under 1 N is searched [m]."""
 _PAST = 1e-6
-"""How far past its reach a force is asked for [m]."""
+"""Distance past the reach at which a force is asked for [m]."""
 _NOTHING = 1e-9
-"""A force that counts as none [N]."""
+"""A force that counts as zero [N]."""
 _POINTS = 2048
 _GAIN = 1e-4
 """Part of the energy exchanged in a cycle that may be the error of its sum."""
-_SAME = 1e-6
+_SAME = 3e-6
+"""Deviation of two impacts that counts as none, by the engine's 1e-9 per step, in units of depth and speed."""
 _EXACT = 1e-11
 _SHORT, _FREE = 1e-6, 0.5
 """How long it is followed before its end is looked for, and after its end, in the unit below."""
@@ -44,78 +52,24 @@ _LONGEST = 30.0
 _MOST_CALLS = 200_000
 
 
-def compliant_properties(law: CompliantNormalLaw) -> list[Property]:
+def compliant_rows(law: CompliantNormalLaw) -> list[Row]:
     """Return the properties of a compliant normal law: its force, its certificate, and impacts of a mass."""
     functions = Functions(lambda: [_force(one) for one in variants(law)])
-
-    def row(name: str, says: str, trial: Trial, *space: Variable, fewest: int | None = None) -> Row:
-        return name, says, lambda: examine(name, variants(law), space, trial, _DRAWS, fewest=fewest)
-
-    rows = [
-        row("reach", "the gap at which it lets go is finite and not negative", _reach, _SPEED),
-        row("nothing at zero", "without indentation and at rest there is no force", _nothing, _SPEED),
-        row(
-            "rises",
-            "at rest the force does not fall with the indentation, and comes to 1 N",
-            _rises,
-            _DEPTH,
-            Variable("factor", 1.001, 3.0, 2.0),
-            _SPEED,
-        ),
-        row(
-            "pulls within its reach",
-            "at rest it does not push where there is a gap, and does not pull where there is none",
-            _pulls,
-            _DEPTH,
-            _SHARE,
-            _SPEED,
-        ),
-        row(
-            "dissipation",
-            "round closed cycles, and from the closing of the contact to its end, it takes energy out or none",
-            _dissipates,
-            _DEPTH,
-            _SPEED,
-            Variable("rate_back", 0.01, 3.0, 1.0, log=True),
-            Variable("second", -0.4, 0.4),
-            Variable("phase", -3.1, 3.1),
-        ),
-        row(
-            "certificate",
-            "it accepts the force of the law, and none that differs by a hundredth",
-            _certificate,
-            _DEPTH,
-            _SPEED,
-            Variable("rate", -1.0, 1.0),
-        ),
-        row(
-            "impact",
-            "a mass that strikes in the engine leaves, or stays, as an independent integration of m x'' = -F has it",
-            _impact,
-            _DEPTH,
-            _SPEED,
-            fewest=FEWEST,
-        ),
+    return [
+        *component_rows(law),
+        *functions.rows(),
+        *functions.guarded(rows(_COMPLIANT, lambda: variants(law), _DRAWS)),
     ]
-    return properties(law, [*component_rows(law), *functions.rows(), *functions.guarded(rows)])
 
 
-def _force(law: CompliantNormalLaw) -> Function:
-    name, offered = type(law).__name__, law.parameters()
+def _force(law: CompliantNormalLaw) -> CheckedFunction:
     # steps end past the reach before it is located
     places = (0.0, 1e-300, *np.geomspace(1e-12, 1e-1, 6).tolist(), -_PAST - max(law.reach, 0.0))
     if 0.0 < law.reach < math.inf:
         places += (-0.5 * law.reach, -law.reach)
-    inputs = [
-        (f"{x:g}, {rate:g}, {first:g}", (x, rate, first))
-        for x, rate, first in itertools.product(places, (0.0, -3.0, 1e-6, 3.0), (0.0, 1.0))
-    ]
-
-    def compiled() -> Callable[[Any], Any]:
-        call = compiled_caller(law.force, "compliance", offered, name)
-        return lambda at: call(*at)
-
-    return Function(law, "force", law.force, "compliance", offered, lambda at: _plain(law)(*at), compiled, inputs)
+    given = itertools.product(places, (0.0, -3.0, 1e-6, 3.0), (0.0, 1.0))
+    inputs = [(f"{x:g}, {rate:g}, {first:g}", (x, rate, first)) for x, rate, first in given]
+    return CheckedFunction(law, "force", "compliance", law.parameters(), inputs)
 
 
 def _plain(law: CompliantNormalLaw) -> Callable[..., Any]:
@@ -123,7 +77,7 @@ def _plain(law: CompliantNormalLaw) -> Callable[..., Any]:
 
 
 def _unit(law: CompliantNormalLaw) -> float:
-    """Return the indentation under 1 N at rest [m], NaN where there is none."""
+    """Return the indentation under 1 N at rest [m], NaN if the force never comes to 1 N."""
     force, low, high = _plain(law), math.log(_NEAREST), math.log(_FARTHEST)
     if force(_FARTHEST, 0.0, 1.0) < 1.0:
         return math.nan
@@ -133,67 +87,79 @@ def _unit(law: CompliantNormalLaw) -> float:
     return math.exp(high)
 
 
-def _depth(law: CompliantNormalLaw, case: Case) -> float:
+def _depth(law: CompliantNormalLaw, depth: float) -> float:
+    """Return an indentation given in units of that under 1 N [m]."""
     unit = _unit(law)
     if not math.isfinite(unit):
         raise NotChecked(f"not checked, as its force at rest does not come to 1 N within {_FARTHEST:g} m")
-    return unit * case["depth"]
+    return unit * depth
 
 
-def _reach(law: CompliantNormalLaw, case: Case) -> str:
+@claim()
+def _reach(law: CompliantNormalLaw) -> str:
+    """The gap at which it lets go is finite and not negative."""
     return "" if 0.0 <= law.reach < math.inf else f"it is {law.reach:g} m"
 
 
-def _nothing(law: CompliantNormalLaw, case: Case) -> str:
-    force = _plain(law)(0.0, 0.0, case["closing_rate"])
+@claim(_SPEED)
+def _nothing_at_zero(law: CompliantNormalLaw, speed: float) -> str:
+    """Without indentation and at rest there is no force."""
+    force = _plain(law)(0.0, 0.0, speed)
     return f"the force is {force:g} N" if abs(force) > _NOTHING else ""
 
 
-def _rises(law: CompliantNormalLaw, case: Case) -> str:
-    unit = _unit(law)
-    if not math.isfinite(unit) and _pulling(law, case):
+@claim(_DEPTH, _FACTOR, _SPEED, n_inputs=24)
+def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -> str:
+    """At rest the force does not fall with the indentation, and comes to 1 N."""
+    unit, force = _unit(law), _plain(law)
+    if not math.isfinite(unit) and _pulling(law, speed):
         raise NotChecked("not checked, as it pulls where it is pressed")
     if not math.isfinite(unit):
-        return f"it is {_plain(law)(_FARTHEST, 0.0, case['closing_rate']):g} N at {_FARTHEST:g} m"
-    x, deeper = case["depth"] * unit, case["factor"] * case["depth"] * unit
-    less, more = (_plain(law)(one, 0.0, case["closing_rate"]) for one in (x, deeper))
+        return f"it is {force(_FARTHEST, 0.0, speed):g} N at {_FARTHEST:g} m"
+    x, deeper = depth * unit, factor * depth * unit
+    less, more = force(x, 0.0, speed), force(deeper, 0.0, speed)
     if more < less - _NOTHING * (1.0 + abs(less)):
         return f"it is {less:g} N at {x:g} m and {more:g} N at {deeper:g} m"
     return ""
 
 
-def _pulling(law: CompliantNormalLaw, case: Case) -> str:
-    """Return what is wrong where the force pulls however far the contact is pressed."""
-    force = _plain(law)(_FARTHEST, 0.0, case["closing_rate"])
+def _pulling(law: CompliantNormalLaw, speed: float) -> str:
+    """Return the fault of a force that pulls however far the contact is pressed; "" if it does not."""
+    force = _plain(law)(_FARTHEST, 0.0, speed)
     if force >= 0.0:
         return ""
     return f"it is {force:g} N at an indentation of {_FARTHEST:g} m, and a negative force pulls: it has the wrong sign"
 
 
-def _pulls(law: CompliantNormalLaw, case: Case) -> str:
-    if not math.isfinite(_unit(law)) and (found := _pulling(law, case)):
+@claim(_DEPTH, _SHARE, _SPEED)
+def _pulls_within_its_reach(law: CompliantNormalLaw, depth: float, share: float, speed: float) -> str:
+    """At rest it does not push across a gap, and does not pull without a gap."""
+    if not math.isfinite(_unit(law)) and (found := _pulling(law, speed)):
         return found
-    inside, first = _depth(law, case), case["closing_rate"]
-    pressed = _plain(law)(inside, 0.0, first)
+    inside, gap = _depth(law, depth), share * law.reach
+    pressed = _plain(law)(inside, 0.0, speed)
     if pressed < -_NOTHING:
         return f"at {inside:g} m it pulls with {-pressed:g} N"
-    gap = case["share"] * law.reach
-    apart = _plain(law)(-gap, 0.0, first) if gap > 0.0 else 0.0
+    apart = _plain(law)(-gap, 0.0, speed) if gap > 0.0 else 0.0
     return f"across a gap of {gap:g} m it pushes with {apart:g} N" if apart > _NOTHING else ""
 
 
-def _dissipates(law: CompliantNormalLaw, case: Case) -> str:
-    depth, speed = _depth(law, case), case["closing_rate"]
+def _wave(second: float, phase: float) -> Array:
+    """Return the course of a closed cycle between 0 and 1."""
     angle = np.linspace(0.0, 2.0 * math.pi, _POINTS + 1)
-    wave = np.sin(angle) + case["second"] * np.sin(2.0 * angle + case["phase"])
-    share = (wave - np.min(wave)) / np.ptp(wave)
-    quarter = angle / 4.0
+    wave = np.sin(angle) + second * np.sin(2.0 * angle + phase)
+    return np.asarray((wave - np.min(wave)) / np.ptp(wave))
+
+
+@claim(_DEPTH, _SPEED, _RATE_BACK, _WAVE)
+def _dissipation(law: CompliantNormalLaw, drawn: float, speed: float, rate_back: float, wave: Array) -> str:
+    """Round closed cycles, and from the closing of the contact to its end, it takes energy out or none."""
+    depth = _depth(law, drawn)
+    span, quarter = depth + law.reach, np.linspace(0.0, 0.5 * math.pi, _POINTS + 1)
+    inward, outward = depth * np.sin(quarter), -law.reach + span * np.cos(quarter)
     strokes = {
-        "a closed cycle": [(-law.reach + (depth + law.reach) * share, speed)],
-        "an impact": [
-            (depth * np.sin(quarter), speed),
-            (-law.reach + (depth + law.reach) * np.cos(quarter), case["rate_back"] * speed),
-        ],
+        "a closed cycle": [(-law.reach + span * wave, speed)],
+        "an impact": [(inward, speed), (outward, rate_back * speed)],
     }
     for words, parts in strokes.items():
         powers = np.concatenate([_energies(law, x, fastest, speed) for x, fastest in parts])
@@ -204,7 +170,7 @@ def _dissipates(law: CompliantNormalLaw, case: Case) -> str:
 
 
 def _energies(law: CompliantNormalLaw, x: Array, fastest: float, closing_rate: float) -> Array:
-    """Return the energy that the contact takes in every step of a motion through ``x``, at most ``fastest``."""
+    """Return the energy that the contact takes in every step of a motion through ``x``, at most ``fastest`` [J]."""
     steps = np.diff(x)
     rates = steps * (fastest / np.max(np.abs(steps)))
     force, middles = _plain(law), 0.5 * (x[1:] + x[:-1])
@@ -212,36 +178,38 @@ def _energies(law: CompliantNormalLaw, x: Array, fastest: float, closing_rate: f
     return np.asarray(forces * steps)
 
 
-def _certificate(law: CompliantNormalLaw, case: Case) -> str:
-    x, first = _depth(law, case), case["closing_rate"]
-    rate = case["rate"] * first
-    force = _plain(law)(x, rate, first)
+@claim(_DEPTH, _SPEED, _RATE)
+def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: float) -> str:
+    """It accepts the force of the law, and none that differs by a hundredth."""
+    x, rate = _depth(law, depth), share * speed
+    force = _plain(law)(x, rate, speed)
     off = 0.01 * abs(force) + _NOTHING
-    for told, expected in ((force, True), (force + off, False), (force - off, False)):
-        if bool(law.is_fulfilled(x, rate, first, told, 0.1 * off)) is not expected:
+    for given, expected in ((force, True), (force + off, False), (force - off, False)):
+        if bool(law.is_fulfilled(x, rate, speed, given, 0.1 * off)) is not expected:
             word = "refuses" if expected else "accepts"
-            return f"is_fulfilled {word} {told:g} N at {x:g} m and {rate:g} m/s, where the law has {force:g} N"
+            return f"is_fulfilled {word} {given:g} N at {x:g} m and {rate:g} m/s, where the law has {force:g} N"
     return ""
 
 
-def _impact(law: CompliantNormalLaw, case: Case) -> str:
-    depth, speed = _depth(law, case), case["closing_rate"]
-    force = _plain(law)
+@claim(_DEPTH, _SPEED, fewest=FEWEST)
+def _impact(law: CompliantNormalLaw, drawn: float, speed: float) -> str:
+    """A mass that strikes in the engine leaves, or stays, as an independent integration of m x'' = -F has it."""
+    depth, force = _depth(law, drawn), _plain(law)
     # a mass that the largest of these forces stops within the depth, or that is heavier
     load = max(abs(force(x, rate, speed)) for x in (1e-9 * depth, depth) for rate in (0.0, speed))
     mass, unit = load * depth / speed**2, depth / speed
     duration, x, rate = _integrated(law, load, depth, speed)
     puck = Puck(mass, mass * depth**2, length=depth, speed=speed)
-    u = (0.0, 0.0, -speed, 0.0, 0.0, 0.0)
-    solution = run(puck, depth, u, (law, Constant(0.0), None), (1.0 + duration) * unit)
+    laws, end = ContactLaws(law, ReferenceFriction(0.0)), (1.0 + duration) * unit
+    solution = run(puck, depth, (0.0, 0.0, -speed, 0.0, 0.0, 0.0), laws, end)
     given = -float(solution.q_end[2]) / depth, -float(solution.u_end[2]) / speed
-    if abs(given[1] - rate) > _SAME or abs(given[0] - x) > _SAME * max(1.0, abs(x)):
-        return (
-            f"{duration * unit:g} s after it has struck with {speed:g} m/s, a mass of {mass:g} kg is "
-            f"{given[0] * depth:.9g} m in, at {given[1] * speed:.9g} m/s; "
-            f"by an independent integration {x * depth:.9g} m, at {rate * speed:.9g} m/s"
-        )
-    return ""
+    if abs(given[1] - rate) <= _SAME and abs(given[0] - x) <= _SAME * max(1.0, abs(x)):
+        return ""
+    return (
+        f"{duration * unit:g} s after it has struck with {speed:g} m/s, a mass of {mass:g} kg is "
+        f"{given[0] * depth:.9g} m in, at {given[1] * speed:.9g} m/s; "
+        f"by an independent integration {x * depth:.9g} m, at {rate * speed:.9g} m/s"
+    )
 
 
 @final
@@ -269,19 +237,22 @@ def _integrated(law: CompliantNormalLaw, load: float, depth: float, speed: float
             raise ArithmeticError(f"an impact at {speed:g} m/s asks for more than {_MOST_CALLS} calls of the force")
         return [float(y[1]), -force(depth * float(y[0]), speed * float(y[1]), speed) / load]
 
-    start = [0.0, 1.0]
+    exactly: Any = {"method": "DOP853", "rtol": _EXACT, "atol": 1e-3 * _EXACT}
     # past the closing, where the gap may be the one at which the contact opens
-    found = solve_ivp(slope, (0.0, _SHORT), start, method="DOP853", rtol=_EXACT, atol=1e-3 * _EXACT)
-    found = solve_ivp(
-        slope,
-        (_SHORT, _LONGEST),
-        found.y[:, -1],
-        method="DOP853",
-        rtol=_EXACT,
-        atol=1e-3 * _EXACT,
-        events=_Opening(law.reach / depth),
-    )
+    found = solve_ivp(slope, (0.0, _SHORT), [0.0, 1.0], **exactly)
+    found = solve_ivp(slope, (_SHORT, _LONGEST), found.y[:, -1], events=_Opening(law.reach / depth), **exactly)
     x, rate, duration = float(found.y[0, -1]), float(found.y[1, -1]), float(found.t[-1])
     if found.status == 1:
         x, duration = x + rate * _FREE, duration + _FREE
     return duration, x, rate
+
+
+_COMPLIANT = [
+    _reach,
+    _nothing_at_zero,
+    _rises,
+    _pulls_within_its_reach,
+    _dissipation,
+    _certificate,
+    _impact,
+]

@@ -1,4 +1,4 @@
-"""What holds of everything that has parameters: bounds, round trip, immutability; and values to try."""
+"""Properties of everything that has parameters: bounds, round trip, immutability; and components at other values."""
 
 from __future__ import annotations
 
@@ -12,13 +12,11 @@ from typing import Any
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import components as files
+from nonsmooth.files.formats import text_of as toml_text
 from nonsmooth.files.gate import TRUSTED
-from nonsmooth.files.text import text_of as toml_text
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
-from nonsmooth.testing.property import Broken, NotChecked, Row
-
-_FAR = 3.0
-_JUST = 1e-9
+from nonsmooth.testing.inputs import inside, outside
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
 
 
 def remade(component: Any, **values: Any) -> Any:
@@ -48,28 +46,6 @@ def numbers_of(component: Any) -> dict[str, tuple[Any, Rule]]:
     return {name: (value, rule) for name, (value, rule) in found.items() if rule.unit != ""}
 
 
-def inside(value: float | None, rule: Rule) -> tuple[float, ...]:
-    """Return values within the declared range: bounds that belong to it and something between."""
-    low, high = max(rule.minimum, rule.above), rule.maximum
-    tried = [rule.minimum, rule.maximum]
-    if value is not None:
-        tried += [value, value / _FAR, value * _FAR]
-    if low > -math.inf and high < math.inf:
-        tried.append(0.5 * (low + high))
-    return tuple(x for x in dict.fromkeys(tried) if math.isfinite(x) and low <= x <= high and x > rule.above)
-
-
-def outside(rule: Rule) -> tuple[float, ...]:
-    """Return values outside of the declared range, and what is no finite number."""
-    found = [math.nan, math.inf, -math.inf]
-    for bound, sign in ((rule.minimum, -1.0), (rule.maximum, 1.0)):
-        if math.isfinite(bound):
-            found += [bound + sign * (_JUST + _JUST * abs(bound)), bound + sign * (1.0 + abs(bound))]
-    if math.isfinite(rule.above):
-        found += [rule.above, rule.above - 1.0]
-    return tuple(found)
-
-
 def variants(component: Any) -> list[Any]:
     """Return the component as given and with every single parameter at other values of its range."""
     found = [component]
@@ -83,19 +59,15 @@ def variants(component: Any) -> list[Any]:
 
 def component_rows(component: Any) -> list[Row]:
     """Return the properties that every component has."""
+    bounds = (
+        "A parameter outside of its declared range, or not a finite number, raises InvalidInput; "
+        "one inside is accepted, if need be with other values of the others"
+    )
+    trip = "Made anew from words, from JSON and from a scenario file, it is equal and offers the same parameters"
     return [
-        (
-            "declared bounds",
-            "a parameter outside of its declared range, or not a finite number, raises InvalidInput; "
-            "one inside is accepted, if need be with other values of the others",
-            lambda: _check_bounds(component),
-        ),
-        (
-            "round trip",
-            "made anew from words, from JSON and from a scenario file, it is equal and offers the same parameters",
-            lambda: _check_round_trip(component),
-        ),
-        ("immutable", "no parameter can be set after it is made", lambda: _check_immutable(component)),
+        Row("declared bounds", bounds, lambda: _check_bounds(component)),
+        Row("round trip", trip, lambda: _check_round_trip(component)),
+        Row("immutable", "No parameter can be set after it is made", lambda: _check_immutable(component)),
     ]
 
 
@@ -115,7 +87,7 @@ def _check_bounds(component: Any) -> None:
 
 
 def _acceptable(component: Any, name: str, value: float, rule: Rule) -> bool:
-    """Return whether a value, rounded or, if it is a bound, next to it, is accepted with some others."""
+    """True if a value, rounded or, if it is a bound, next to it, is accepted with some values of the others."""
     low, high = max(rule.minimum, rule.above), rule.maximum
     near = [value, float(round(value))]
     if value in (low, high):
@@ -156,11 +128,8 @@ def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
 def _check_round_trip(component: Any) -> None:
     owner = type(component)
     declared = {name: getattr(component, name) for name, (field, _) in rules(owner).items() if field.init}
-    rest = {
-        field.name: getattr(component, field.name)
-        for field in dataclasses.fields(component)
-        if field.init and field.name not in declared
-    }
+    fields = [field.name for field in dataclasses.fields(component) if field.init]
+    rest = {name: getattr(component, name) for name in fields if name not in declared}
     # words and numbers go as words; a tuple comes out of JSON as a list
     words = {name: str(value) for name, value in declared.items() if isinstance(value, (int, float, str))}
     others = rest | {name: value for name, value in declared.items() if name not in words}
@@ -174,10 +143,9 @@ def _check_round_trip(component: Any) -> None:
             warnings.simplefilter("ignore", UnusualValue)
             again = read()
         for name, value in declared.items():
-            if getattr(again, name) != value:
-                raise Broken(
-                    f"made anew from {route}, it has another value", name, f"{value!r} -> {getattr(again, name)!r}"
-                )
+            other = getattr(again, name)
+            if other != value:
+                raise Broken(f"made anew from {route}, it has another value", name, f"{value!r} -> {other!r}")
         if again != component or dict(again.parameters()) != dict(component.parameters()):
             raise Broken(f"made anew from {route}, it is not equal", "parameters()", dict(again.parameters()))
 
@@ -187,7 +155,7 @@ def _as_tuple(value: Any) -> Any:
 
 
 def _through_file(component: Any) -> Any:
-    """Return a component as a scenario file holds it; itself where none can, as one with a nameless function."""
+    """Return a component as a scenario file holds it; itself if no file can, as for a nameless function."""
     owner = type(component)
     try:
         table = files.table_of(component, owner.__name__, owner)

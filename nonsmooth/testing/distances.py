@@ -6,7 +6,7 @@ import inspect
 import itertools
 import warnings
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,11 @@ from nonsmooth.interfaces.distance_backend import Place, Separation
 from nonsmooth.parameters import UnusualValue
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation
+from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.make import make
-from nonsmooth.testing.property import Broken, NotChecked, Property, properties
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.property import Property, properties
+from nonsmooth.testing.registered import make
 
 _POSES = 6
 _SAME = 1e-5
@@ -33,43 +35,51 @@ def check_distance_backend(backend: DistanceBackend) -> list[Property]:
     backend : DistanceBackend
         The library.
     """
-    rows = [
-        ("points", "nearest points are the distance apart, along the normal", lambda: _check_points(backend)),
-        ("order", "in the other order of two solids the answer is the same", lambda: _check_order(backend)),
-        ("planes", "no plane across the normal leaves more between convex solids", lambda: _check_planes(backend)),
-    ]
-    return properties(backend, [*component_rows(backend), *rows])
+    return properties(backend, _rows)
 
 
-def _shapes() -> list[Shape]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UnusualValue)
-        kinds = registry.load_all("shapes").items()
-        return [make(owner, name, {}) for name, owner in kinds if not inspect.isabstract(owner)]
+def _rows(backend: DistanceBackend) -> list[Row]:
+    return [*component_rows(backend), *rows([_points, _order, _planes], lambda: [backend], 1)]
+
+
+class _Answer(NamedTuple):
+    """An answer about two solids that do not overlap, and the sum of their extents [m]."""
+
+    shapes: tuple[Shape, Shape]
+    solids: tuple[Any, Any]
+    places: tuple[Place, Place]
+    found: Separation
+    size: float
+
+    def broken(self, reason: str, parameter: str, value: object) -> Broken:
+        return Broken(f"of {self.shapes[0]} and {self.shapes[1]} {reason}", parameter, value)
 
 
 def _known(backend: DistanceBackend) -> list[tuple[Shape, Any]]:
     if not backend.installed:
         raise NotChecked("its packages are not installed")
-    known = [(shape, solid) for shape in _shapes() if (solid := backend.solid(shape)) is not None]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnusualValue)
+        kinds = registry.load_all("shapes").items()
+        shapes = [make(owner, name, {}) for name, owner in kinds if not inspect.isabstract(owner)]
+    known = [(shape, solid) for shape in shapes if (solid := backend.solid(shape)) is not None]
     if not known:
         raise Broken("it knows none of the installed shapes")
     return known
 
 
-def _answers(backend: DistanceBackend) -> Iterator[tuple[tuple[Any, ...], tuple[Place, Place], Separation, float]]:
-    """Yield shapes and solids, places, the answer, and the size, of solids that do not overlap."""
+def _answers(backend: DistanceBackend) -> Iterator[_Answer]:
     rng = np.random.default_rng(0)
     for one, two in itertools.combinations_with_replacement(_known(backend), 2):
         size = one[0].extent + two[0].extent
         for _ in range(_POSES):
-            places = tuple(_place(rng, size) for _ in range(2))
+            places = _place(rng, size), _place(rng, size)
             try:
                 found = backend.separation(one[1], places[0], two[1], places[1])
             except DoubtfulDistance:
                 continue
             if not found.overlap:
-                yield (*one, *two), (places[0], places[1]), found, size
+                yield _Answer((one[0], two[0]), (one[1], two[1]), places, found, size)
 
 
 def _place(rng: np.random.Generator, size: float) -> Place:
@@ -77,31 +87,41 @@ def _place(rng: np.random.Generator, size: float) -> Place:
     return rng.uniform(-size, size, 3), rotation(q / np.linalg.norm(q))
 
 
-def _check_points(backend: DistanceBackend) -> None:
-    for (one, _, two, _), _, found, size in _answers(backend):
+@claim()
+def _points(backend: DistanceBackend) -> str:
+    """Nearest points are the distance apart, along the normal."""
+    for one in _answers(backend):
+        found = one.found
         off = found.second - found.first - found.distance * found.normal
-        if not (np.max(np.abs(off)) <= _SAME * size and abs(float(found.normal @ found.normal) - 1.0) <= _SAME):
-            raise Broken(f"of {one} and {two} they are not", "separation", found)
+        if not (np.max(np.abs(off)) <= _SAME * one.size and abs(float(found.normal @ found.normal) - 1.0) <= _SAME):
+            raise one.broken("they are not", "separation", found)
+    return ""
 
 
-def _check_order(backend: DistanceBackend) -> None:
-    for (one, first, two, second), places, found, size in _answers(backend):
+@claim()
+def _order(backend: DistanceBackend) -> str:
+    """In the other order of two solids the answer is the same."""
+    for one in _answers(backend):
         try:
-            back = backend.separation(second, places[1], first, places[0])
+            back = backend.separation(one.solids[1], one.places[1], one.solids[0], one.places[0])
         except DoubtfulDistance:
             continue
-        if back.overlap or not abs(back.distance - found.distance) <= found.error + back.error + _SAME * size:
-            raise Broken(f"of {one} and {two} it is not", "separation", (found, back))
+        allowed = one.found.error + back.error + _SAME * one.size
+        if back.overlap or not abs(back.distance - one.found.distance) <= allowed:
+            raise one.broken("it is not", "separation", (one.found, back))
+    return ""
 
 
-def _check_planes(backend: DistanceBackend) -> None:
-    for (one, _, two, _), places, found, size in _answers(backend):
-        solids = one.solid, two.solid
-        if any(solid is None or solid.hollow for solid in solids):
+@claim()
+def _planes(backend: DistanceBackend) -> str:
+    """No plane across the normal leaves more between convex solids."""
+    for one in _answers(backend):
+        first, second = one.shapes[0].solid, one.shapes[1].solid
+        if first is None or second is None or first.hollow or second.hollow:
             continue
-        n = found.normal
-        (place, axes), (other, turned) = places
-        low = other + turned @ solids[1].support(-turned.T @ n)
-        between = float(n @ (low - place - axes @ solids[0].support(axes.T @ n)))
-        if not abs(between - found.distance) <= found.error + 1e-3 * size:
-            raise Broken(f"of {one} and {two} they leave {between:.9g} m", "distance", found.distance)
+        n, (place, axes), (other, turned) = one.found.normal, *one.places
+        low = other + turned @ second.support(-turned.T @ n)
+        between = float(n @ (low - place - axes @ first.support(axes.T @ n)))
+        if not abs(between - one.found.distance) <= one.found.error + 1e-3 * one.size:
+            raise one.broken(f"they leave {between:.9g} m", "distance", one.found.distance)
+    return ""

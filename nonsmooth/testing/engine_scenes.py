@@ -12,12 +12,12 @@ from nonsmooth.interfaces import Body
 from nonsmooth.plugins import registry
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from nonsmooth.testing.reference import Constant, Rigid, Spring
+from nonsmooth.testing.reference import ReferenceContact, ReferenceFriction, ReferenceImpact
 
 GRAVITY = 9.81
 """[m/s^2]."""
 FREQUENCY, AMPLITUDE = 5.0, 5e-3
-"""Of the driven plate [Hz], [m]."""
+"""Frequency [Hz] and amplitude [m] of the driven plate."""
 RADIUS, BALLS = 0.01, 10
 """Radius [m] and number of the balls of the heap."""
 _SHARE = 0.5
@@ -32,7 +32,8 @@ def _made(group: str, name: str, *given: Any, **parameters: Any) -> Any:
 
 
 def _touch(system: System, first: Body, second: Body, share: float) -> None:
-    system.contact(first, second, normal=Rigid(), friction=Constant(0.5), impact=Spring(share))
+    laws = ReferenceContact(), ReferenceFriction(0.5), ReferenceImpact(share)
+    system.contact(first, second, normal=laws[0], friction=laws[1], impact=laws[2])
 
 
 def tumbling() -> System:
@@ -91,7 +92,7 @@ def heap() -> System:
 
 
 def overlap(solution: Solution) -> float:
-    """Return by how much balls of the heap pass into each other or the plate at most at the samples [m]."""
+    """Return the deepest overlap of balls of the heap with each other or the plate at the samples [m]."""
     centres = np.stack([solution.of(body)[0][:, :3] for body in solution.system.bodies[1:]], axis=1)
     i, j = np.triu_indices(BALLS, 1)
     apart = np.linalg.norm(centres[:, i] - centres[:, j], axis=2) - 2.0 * RADIUS

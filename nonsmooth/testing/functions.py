@@ -1,33 +1,116 @@
-"""What holds of every function that the engine calls: it comes back, with finite numbers, compiled as plain."""
+"""Properties of every function that the engine calls: it comes back, with finite numbers, compiled as plain."""
 
 from __future__ import annotations
 
-import math
+import functools
+import inspect
+import types
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from nonsmooth.binding.compile import parameter_names
+from nonsmooth.binding.compile import bind, caller, parameter_names
 from nonsmooth.engine.native.forms import FORMS
-from nonsmooth.engine.native.kernel import entry_addresses
-from nonsmooth.parameters import not_offered
-from nonsmooth.testing.budget import Call, OutOfTime, make_all, where
-from nonsmooth.testing.examine import described
-from nonsmooth.testing.property import Broken, NotChecked, Row
+from nonsmooth.engine.native.kernel import PLAIN, at, entry_addresses, unshared
+from nonsmooth.parameters import Value, not_offered
+from nonsmooth.testing.child import CALL, about_to
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, described
 
+Array = NDArray[np.float64]
+Caller = Callable[..., Any]
 ROOM = 4
-"""Numbers behind what a function is to write."""
+"""Numbers behind the block that a function writes."""
 OLD = 7.0e3
-"""What stands there, and must stay."""
+"""Value of these numbers, which must stay."""
 _SAME = 1e-9
+"""Difference of compiled and plain results that counts as round-off, relative to their size."""
+
+
+def plain_caller(function: Caller, form: str, values: Mapping[str, Any]) -> Caller:
+    """Return the function with its parameters filled in; of the form "map" they are one number per contact."""
+    names = parameter_names(function, form)
+    plain = _without_pointers(function)
+
+    def call(*arguments: Any) -> Any:
+        return plain(*arguments, **{name: values[name] for name in names})
+
+    return call
+
+
+@functools.cache
+def _without_pointers(function: Caller) -> Caller:
+    """Return a function that moves pointers, as those put together from parts do, with slices in their place."""
+    scope = getattr(function, "__globals__", {})
+    if PLAIN or not any(value is at for value in scope.values()):
+        return function
+    sliced = {name: _slice if value is at else value for name, value in scope.items()}
+    copy = types.FunctionType(function.__code__, sliced, function.__name__, function.__defaults__, function.__closure__)
+    copy.__qualname__ = function.__qualname__
+    return copy
+
+
+def _slice(heap: Array, offset: int) -> Array:
+    return heap[offset:]
+
+
+def compiled_caller(function: Caller, form: str, values: Mapping[str, Value], owner: str) -> Caller:
+    """Return the same, compiled; arguments are numbers and contiguous arrays, as the engine has them.
+
+    Raises
+    ------
+    UnknownName
+        If the function asks for a parameter that nobody gives.
+    PluginError
+        If the function cannot be compiled.
+    """
+    address, heap = bind(function, form, values, owner)
+    if PLAIN:
+        return plain_caller(function, form, values)
+    return caller(form, address, np.array([*heap, 0.0]))
+
+
+def compiled_map(function: Caller, vectors: Mapping[str, Array], owner: str) -> Caller:
+    """Return a compiled function of the form "map", its parameters one number per contact."""
+    address, _ = bind(function, "map", dict.fromkeys(vectors, 0.0), owner)
+    if PLAIN:
+        return plain_caller(function, "map", vectors)
+    numbers = np.concatenate([vectors[name] for name in parameter_names(function, "map")] + [np.zeros(1)])
+    return caller("map", address, numbers)
+
+
+def place_of_function(function: Caller) -> str:
+    """Return name, file and line of a function."""
+    code = inspect.unwrap(unshared(function)).__code__
+    return f"{function.__qualname__} in {code.co_filename}, line {code.co_firstlineno}"
+
+
+def written(call: Callable[[Array], Any], size: int, old: float | Array = 0.0) -> Array:
+    """Return what a function writes into a block of ``size`` numbers that holds ``old``, with some room behind it."""
+    out = np.full(size + ROOM, OLD)
+    out[:size] = old
+    call(out)
+    return out
+
+
+def left_over(call: Callable[[Array], Any], other: Callable[[Array], Any], size: int, row: int = 0) -> str:
+    """Return the number of a block that a function leaves as another call wrote it; "" if it writes all.
+
+    ``row`` is the length of the rows of the block, 0 if it has none.
+    """
+    wrong = np.flatnonzero(written(call, size, written(other, size)[:size]) != written(call, size))
+    if len(wrong) == 0:
+        return ""
+    place = f"{wrong[0] % row} of row {wrong[0] // row}" if row else f"{wrong[0]} of the block"
+    return f"number {place} is left from the call before"
 
 
 @final
 @dataclass(frozen=True)
-class Function:
+class CheckedFunction:
     """A function of a component with inputs to try.
 
     Attributes
@@ -35,135 +118,134 @@ class Function:
     owner : object
         The component.
     name : str
-        What the interface calls it.
-    function : callable
-        The function.
+        Its name in the interface.
     form : str
         Its form (:data:`nonsmooth.engine.native.forms.FORMS`).
     offered : mapping
         The parameters that it may ask for.
-    plain, compiled : callable
-        Take one of the inputs, return a number or an array; ``compiled`` is made first, from no arguments.
     inputs : sequence
         The inputs, each with words for it.
+    size : int
+        Length of the block that it writes.
     """
 
     owner: Any
     name: str
-    function: Callable[..., Any]
     form: str
     offered: Mapping[str, Any]
-    plain: Callable[[Any], Any]
-    compiled: Callable[[], Callable[[Any], Any]]
-    inputs: Sequence[tuple[str, Any]]
+    inputs: Sequence[tuple[str, tuple[Any, ...]]]
+    size: int = 0
+
+    @property
+    def function(self) -> Caller:
+        """The function."""
+        return getattr(self.owner, self.name)  # type: ignore[no-any-return]
 
     @property
     def title(self) -> str:
-        """Return component and name."""
+        """Component and name."""
         return f"{type(self.owner).__name__}.{self.name}"
+
+    def plain(self, *given: Any) -> Any:
+        """Return what it returns or writes, in plain Python."""
+        return self._result(plain_caller(self.function, self.form, self.offered), given)
+
+    def compiled(self) -> Caller:
+        """Return the same, compiled."""
+        call = compiled_caller(self.function, self.form, self.offered, type(self.owner).__name__)
+        return lambda *given: self._result(call, given)
+
+    def _result(self, call: Caller, given: tuple[Any, ...]) -> Any:
+        # an array is the function's own, as it may write to it by mistake
+        own = tuple(one.copy() if isinstance(one, np.ndarray) else one for one in given)
+        if FORMS[self.form].returns:
+            return call(*own)
+        return written(lambda out: call(*own, out), self.size)
+
+
+def scalar_function(owner: Any, name: str, values: Sequence[float], offered: Mapping[str, Any]) -> CheckedFunction:
+    """Return a function of a single number, with numbers to try."""
+    return CheckedFunction(owner, name, "scalar", offered, [(f"{x:g}", (x,)) for x in values])
 
 
 class Functions:
-    """The functions of a component, looked at once, before anything else runs them.
+    """The functions of a component, checked once, before anything else runs them.
 
-    The compiled ones cannot be stopped, so nothing else is looked at where a plain one does not come back.
+    Nothing else is checked if one of them is not fit to be run: the engine calls the compiled ones.
     """
 
-    def __init__(self, functions: Callable[[], Sequence[Function]]) -> None:
+    def __init__(self, functions: Callable[[], Sequence[Any]]) -> None:
         self._make = functions
+        self._found: dict[str, Broken | None] = {}
 
     @cached_property
-    def all(self) -> Sequence[Function]:
+    def all(self) -> Sequence[Any]:
         """The functions."""
         return self._make()
 
-    @cached_property
-    def _faults(self) -> dict[str, Broken]:
-        for name, look in _STAGES.items():
-            for function in self.all:
-                try:
-                    look(function)
-                except Broken as fault:
-                    return {name: fault}
-        return {}
-
     def check(self, name: str) -> None:
-        """Raise what was found under a name; the others were not looked at then."""
-        if name in self._faults:
-            raise self._faults[name]
-        self.sound(but=name)
+        """Raise the fault of a stage, or NotChecked if an earlier one has a fault."""
+        for stage in _STAGES:
+            if stage not in self._found:
+                self._found[stage] = self._first_fault(stage)
+            fault = self._found[stage]
+            if fault is not None and stage == name:
+                raise fault
+            if fault is not None:
+                raise NotChecked(f"not checked, as {stage!r} does not hold: {fault.reason}") from fault
+            if stage == name:
+                return
 
-    def sound(self, but: str = "") -> None:
-        """Raise NotChecked if a function is not fit to be run."""
-        order = list(_STAGES)
-        for name, fault in self._faults.items():
-            if but not in order or order.index(name) < order.index(but):
-                raise NotChecked(f"not checked, as {name!r} does not hold: {fault.reason}") from fault
+    def _first_fault(self, stage: str) -> Broken | None:
+        for function in self.all:
+            try:
+                _STAGES[stage](function)
+            except Broken as fault:
+                return fault
+        return None
 
     def guarded(self, rows: list[Row]) -> list[Row]:
-        """Return properties that are looked at only if the functions are fit to be run."""
+        """Return properties that are checked only if the functions are fit to be run."""
+        return [row._replace(check=functools.partial(self._behind, row)) for row in rows]
 
-        def behind(name: str, check: Callable[[], None]) -> Callable[[], None]:
-            def run() -> None:
-                self.check(name)
-                entry_addresses()
-                check()
-
-            return run
-
-        return [(name, says, behind(name, check)) for name, says, check in rows]
+    def _behind(self, row: Row) -> None:
+        self.check(row.name)
+        entry_addresses()
+        row.check()
 
     def rows(self) -> list[Row]:
         """Return the properties of the functions."""
-        return [
-            (
-                "known parameters",
-                "its functions ask for parameters that it offers",
-                lambda: self.check("known parameters"),
-            ),
-            (
-                "time budget",
-                "its functions come back within a second, in plain Python",
-                lambda: self.check("time budget"),
-            ),
-            (
-                "finite numbers",
-                "its functions return finite numbers and raise nothing",
-                lambda: self.check("finite numbers"),
-            ),
-            *self.guarded(
-                [
-                    ("compiled equals plain", "compiled, its functions return the same numbers", self._same_compiled),
-                    ("determinism", "its functions return the same whenever they are called", self._repeatable),
-                ]
-            ),
-        ]
+        own = [Row(name, says, functools.partial(self.check, name)) for name, says in _SAYS.items()]
+        equal = Row("compiled equals plain", "Compiled, its functions return the same numbers", self._same_compiled)
+        again = Row("determinism", "Its functions return the same whenever they are called", self._repeatable)
+        return [*own, *self.guarded([equal, again])]
 
     def _same_compiled(self) -> None:
         for function in self.all:
+            # compiling takes its time
+            about_to("it {takes}", function.owner)
             compiled = function.compiled()
-            for words, value in function.inputs:
-                one, other = np.asarray(function.plain(value)), np.asarray(compiled(value))
+            for words, given in function.inputs:
+                one = np.asarray(function.plain(*given))
+                _about_to(function, f"compiled, {function.title}({words})", "compiled equals plain")
+                other = np.asarray(compiled(*given))
                 size = float(np.max(np.abs(one), initial=0.0))
                 if not np.allclose(other, one, rtol=_SAME, atol=_SAME * size):
-                    raise Broken(
-                        f"{function.title}({words}) is {_short(one)} plain and {_short(other)} compiled",
-                        *described(function.owner),
-                    )
+                    reason = f"{function.title}({words}) is {_short(one)} plain and {_short(other)} compiled"
+                    raise Broken(reason, *described(function.owner))
+            about_to("it {takes}", function.owner)
 
     def _repeatable(self) -> None:
         for function in self.all:
             one, other = (dict(function.owner.parameters()) for _ in range(2))
             if one != other:
                 raise Broken(f"its parameters are {one} first and {other} later", "parameters()", other)
-            first = [np.array(function.plain(value)) for _, value in function.inputs]
-            for (words, value), once in reversed(list(zip(function.inputs, first, strict=True))):
-                again = np.asarray(function.plain(value))
+            first = [np.array(function.plain(*given)) for _, given in function.inputs]
+            for (words, given), once in reversed(list(zip(function.inputs, first, strict=True))):
+                again = np.asarray(function.plain(*given))
                 if not np.array_equal(again, once):
-                    raise Broken(
-                        f"{function.title}({words}) is {_short(once)} first and {_short(again)} later",
-                        *described(function.owner),
-                    )
+                    reason = f"{function.title}({words}) is {_short(once)} first and {_short(again)} later"
+                    raise Broken(reason, *described(function.owner))
 
 
 def _short(value: Any) -> str:
@@ -171,65 +253,67 @@ def _short(value: Any) -> str:
     return f"{float(array):.9g}" if array.ndim == 0 else np.array2string(array, precision=6, threshold=8)
 
 
-def _names(function: Function) -> None:
+def _about_to(function: CheckedFunction, words: str, prop: str) -> None:
+    place = place_of_function(function.function)
+    about_to(f"{words} {{takes}} in {place}", function.owner, seconds=CALL, prop=prop)
+
+
+def _names(function: CheckedFunction) -> None:
     for name in parameter_names(function.function, function.form):
         if name not in function.offered:
             error = not_offered(function.title, name, function.offered)
-            raise Broken(f"{where(function.function)}: {error}".rstrip("."), name, "not offered")
+            raise Broken(f"{place_of_function(function.function)}: {error}".rstrip("."), name, "not offered")
 
 
-def _calls(function: Function) -> list[Call]:
-    return [
-        Call(f"{function.title}({words})", function.function, lambda value=value: function.plain(value))  # type: ignore[misc]
-        for words, value in function.inputs
-    ]
+def _time(function: CheckedFunction) -> None:
+    for words, given in function.inputs:
+        _about_to(function, f"{function.title}({words})", "time budget")
+        try:
+            function.plain(*given)
+        except Exception:
+            break  # the next property tells what it raises
+    # what follows has more time than a call
+    about_to("it {takes}", function.owner)
 
 
-def _time(function: Function) -> None:
-    try:
-        make_all(_calls(function))
-    except OutOfTime as slow:
-        raise Broken(str(slow), *described(function.owner)) from None
-    except Exception:
-        return  # what it raises is the business of the next property
-
-
-def _finite(function: Function) -> None:
-    for words, value in function.inputs:
+def _finite(function: CheckedFunction) -> None:
+    place = place_of_function(function.function)
+    for words, given in function.inputs:
         title = f"{function.title}({words})"
         try:
-            result = function.plain(value)
+            result = function.plain(*given)
         except Exception as error:
-            line = _raised_at(error)
-            raise Broken(
-                f"{title} raises {type(error).__name__}: {error}, in {where(function.function)}{line}",
-                *described(function.owner),
-            ) from error
-        # what is written comes as an array
+            reason = f"{title} raises {type(error).__name__}: {error}, in {place}{_raised_at(error)}"
+            raise Broken(reason, *described(function.owner)) from error
+        # a block comes as an array
         kinds = (int, float) if FORMS[function.form].returns else (np.ndarray,)
         if isinstance(result, bool) or not isinstance(result, kinds):
             cause = " (a power of a negative number)" if isinstance(result, complex) else ""
             raise Broken(
-                f"{title} returns {result!r}{cause}, in {where(function.function)}, and not one number",
-                *described(function.owner),
+                f"{title} returns {result!r}{cause}, in {place}, and not one number", *described(function.owner)
             )
         if not np.all(np.isfinite(result)):
-            raise Broken(f"{title} is {_short(result)}, in {where(function.function)}", *described(function.owner))
+            raise Broken(f"{title} is {_short(result)}, in {place}", *described(function.owner))
 
 
-def _inside(function: Function) -> None:
-    for words, value in function.inputs if not FORMS[function.form].returns else ():
-        if np.any(np.asarray(function.plain(value))[-ROOM:] != OLD):
+def _inside(function: CheckedFunction) -> None:
+    for words, given in function.inputs if not FORMS[function.form].returns else ():
+        if np.any(np.asarray(function.plain(*given))[-ROOM:] != OLD):
             raise Broken(f"{function.title}({words}) writes beyond its block", *described(function.owner))
 
 
-_STAGES: dict[str, Callable[[Function], None]] = {
+_STAGES: dict[str, Callable[[CheckedFunction], None]] = {
     "known parameters": _names,
     "time budget": _time,
     "finite numbers": _finite,
     "writes its block": _inside,
 }
-"""What is looked at first, in this order; the rest only if all of it holds."""
+"""What is checked first, in this order; all else only if this holds."""
+_SAYS = {
+    "known parameters": "Its functions ask for parameters that it offers",
+    "time budget": "Its functions come back within a second, in plain Python",
+    "finite numbers": "Its functions return finite numbers and raise nothing",
+}
 
 
 def _raised_at(error: Exception) -> str:
@@ -237,19 +321,3 @@ def _raised_at(error: Exception) -> str:
     while trace is not None:
         line, trace = trace.tb_lineno, trace.tb_next
     return f", at line {line}" if line else ""
-
-
-def scalar_function(
-    owner: Any, name: str, function: Callable[..., Any], values: Sequence[float], offered: Mapping[str, Any]
-) -> Function:
-    """Return a function of one number with numbers to try."""
-    from nonsmooth.testing.callers import compiled_caller, plain_caller
-
-    def plain(x: float) -> Any:
-        return plain_caller(function, "scalar", offered)(x)
-
-    def compiled() -> Callable[[float], Any]:
-        return compiled_caller(function, "scalar", offered, type(owner).__name__)
-
-    inputs = [(f"{x:g}", x) for x in values if math.isfinite(x)]
-    return Function(owner, name, function, "scalar", offered, plain, compiled, inputs)

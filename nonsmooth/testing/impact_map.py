@@ -2,120 +2,115 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import ImpactLaw, ImpactMap
-from nonsmooth.testing.callers import compiled_map
-from nonsmooth.testing.component import variants
-from nonsmooth.testing.draws import Case, Variable, draws
-from nonsmooth.testing.examine import examine
-from nonsmooth.testing.functions import OLD, ROOM, Function
-from nonsmooth.testing.property import Row
-from nonsmooth.testing.reference import Problem, problem, problem_space
-from nonsmooth.testing.respond import vectors_of
+from nonsmooth.testing.claims import GIVEN, claim
+from nonsmooth.testing.functions import OLD, compiled_map, written
+from nonsmooth.testing.inputs import draws, number
+from nonsmooth.testing.reference import ImpactProblem, problem_of, vectors_of
 
 Array = NDArray[np.float64]
-_MU = 0.3
+_MU = number("friction", 0.0, 0.6)
+_OF_FUNCTION = 0.3
+"""Friction coefficient with which the function is tried."""
 _OBEYS = 1e-6
 """Deviation of velocities that counts as zero, relative to the largest."""
 
 
 def is_alone(law: ImpactLaw) -> bool:
-    """Tell whether a law is one of a single contact, and of no more."""
+    """True for a law of a single contact."""
     return isinstance(law, ImpactMap) and law.one_contact
 
 
-def _spaces(law: ImpactLaw) -> dict[int, list[Variable]]:
-    """Return the numbers that make problems that the law takes, by the number of contacts."""
-    return {n: problem_space(n) for n in ((1,) if is_alone(law) else (1, 2))}
+@final
+@dataclass(frozen=True)
+class _MapFunction:
+    """The function of a map, as a :class:`nonsmooth.testing.functions.CheckedFunction`."""
+
+    owner: ImpactMap
+    inputs: Sequence[tuple[str, tuple[ImpactProblem]]]
+    form: ClassVar[str] = "map"
+
+    @property
+    def function(self) -> Callable[..., None]:
+        return self.owner.impulses
+
+    @property
+    def title(self) -> str:
+        return f"{type(self.owner).__name__}.impulses"
+
+    @property
+    def offered(self) -> dict[str, Any]:
+        return {"friction": _OF_FUNCTION, **self.owner.numbers()}
+
+    def plain(self, p: ImpactProblem) -> Array:
+        return _impulses(self.owner, p, _OF_FUNCTION)
+
+    def compiled(self) -> Callable[[ImpactProblem], Array]:
+        name, (_, (first,)) = type(self.owner).__name__, self.inputs[0]
+        # compiled now, and not in the first call, whose time is limited
+        compiled_map(self.function, _own(self.owner, first, _OF_FUNCTION), name)
+        return lambda p: _written(p, compiled_map(self.function, _own(self.owner, p, _OF_FUNCTION), name))
 
 
-def map_function(law: ImpactMap) -> Function:
+def map_function(law: ImpactMap) -> Any:
     """Return the function of a map with problems of one and two contacts to try."""
-    inputs: list[tuple[str, Problem]] = []
-    for n, space in _spaces(law).items():
-        for case in draws(space, 3, "map"):
-            inputs.append((f"{n} contact{'s' * (n > 1)}", problem(case, n)))
-    offered = {"friction": _MU, **law.numbers()}
-
-    def plain(p: Problem) -> Array:
-        vectors = vectors_of([law] * p.n, [_MU] * p.n)
-        own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
-        return _written(p, lambda *given: law.impulses(*given, **own))
-
-    def compiled() -> Callable[[Problem], Array]:
-        def call(p: Problem) -> Array:
-            vectors = vectors_of([law] * p.n, [_MU] * p.n)
-            own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
-            return _written(p, compiled_map(law.impulses, own, type(law).__name__))
-
-        return call
-
-    return Function(law, "impulses", law.impulses, "map", offered, plain, compiled, inputs)
-
-
-def _written(p: Problem, call: Callable[..., Any], old: float = 0.0) -> Array:
-    """Return what a map writes, and what stands behind it, which is not its own."""
-    columns = p.columns
-    delassus = columns.T @ np.linalg.solve(p.mass, columns)
-    out = np.full(3 * p.n + ROOM, OLD)
-    out[: 3 * p.n] = old
-    call(p.n, np.ascontiguousarray(delassus).ravel(), columns.T @ p.velocity, out)
-    return out
-
-
-def map_rows(law: ImpactMap) -> list[Row]:
-    """Return the properties that only a map has."""
-    space = [*list(_spaces(law).values())[-1], Variable("friction", 0.0, 0.6)]
-    return [
-        (
-            "writes its block",
-            "it writes every impulse, whatever stood there, and nothing beyond",
-            lambda: examine("writes its block", variants(law), space, _writes, 4),
-        ),
-        (
-            "certificate",
-            "the impulses of the law obey it; larger ones, other friction and none where a contact approaches do not",
-            lambda: examine("certificate", variants(law), space, _certifies, 4),
-        ),
+    problems = [
+        (f"{n} contact{'s' * (n > 1)}", (drawn.made(case),))
+        for n, drawn in {n: problem_of(n) for n in ((1,) if is_alone(law) else (1, 2))}.items()
+        for case in draws([drawn], 3)
     ]
+    return _MapFunction(law, problems)
 
 
-def _writes(law: ImpactMap, case: Case) -> str:
-    p = problem(case, max(_spaces(law)))
-    vectors = vectors_of([law] * p.n, [case["friction"]] * p.n)
-    own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
-    clean, used = (_written(p, lambda *given: law.impulses(*given, **own), old) for old in (0.0, OLD))
-    return (
-        ""
-        if np.allclose(clean[: 3 * p.n], used[: 3 * p.n], rtol=1e-9, atol=1e-12)
-        else "numbers that stood there before are left"
-    )
+def _own(law: ImpactMap, p: ImpactProblem, mu: float) -> dict[str, Array]:
+    vectors = vectors_of([law] * p.n, [mu] * p.n)
+    return {name: vectors[name] for name in parameter_names(law.impulses, "map")}
 
 
-def _certifies(law: ImpactMap, case: Case) -> str:
-    p = problem(case, max(_spaces(law)))
-    vectors = vectors_of([law] * p.n, [case["friction"]] * p.n)
-    own = {name: vectors[name] for name in parameter_names(law.impulses, "map")}
-    obeying = _written(p, lambda *given: law.impulses(*given, **own))[: 3 * p.n]
-    delassus, before = p.columns.T @ np.linalg.solve(p.mass, p.columns), p.columns.T @ p.velocity
+def _written(p: ImpactProblem, call: Callable[..., Any], old: float = 0.0) -> Array:
+    delassus = np.ascontiguousarray(p.delassus).ravel()
+    return written(lambda out: call(p.n, delassus, p.rates, out), 3 * p.n, old)
+
+
+def _impulses(law: ImpactMap, p: ImpactProblem, mu: float, old: float = 0.0) -> Array:
+    own = _own(law, p, mu)
+    return _written(p, lambda *given: law.impulses(*given, **own), old)
+
+
+@claim(GIVEN, _MU)
+def _writes_its_block(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
+    """It writes every impulse, whatever stood there, and nothing beyond."""
+    clean, used = (_impulses(law, p, mu, old)[: 3 * p.n] for old in (0.0, OLD))
+    return "" if np.allclose(clean, used, rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"
+
+
+@claim(GIVEN, _MU)
+def _certificate(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
+    """The impulses of the law obey it; larger ones, other friction and none where a contact approaches do not."""
+    obeying, delassus, before = _impulses(law, p, mu)[: 3 * p.n], p.delassus, p.rates
     tolerance = _OBEYS * float(np.max(np.abs(before)))
     across = obeying * np.tile([0.0, 1.0, 1.0], p.n)
-    tried = [("its impulses", obeying, True)]
-    for words, wrong in (
-        ("1.1 times its impulses", 1.1 * obeying),
-        ("1.2 times its friction", obeying + 0.2 * across),
-        ("no impulses", 0.0 * obeying),
-    ):
-        # what changes no velocity is no other solution
-        if np.max(np.abs(delassus @ (wrong - obeying))) > 1e3 * tolerance:
-            tried.append((words, wrong, False))
-    for words, impulses, expected in tried:
-        if bool(law.is_fulfilled(delassus, before, impulses, vectors["friction"], tolerance)) is not expected:
+    wrong = {
+        "1.1 times its impulses": 1.1 * obeying,
+        "1.2 times its friction": obeying + 0.2 * across,
+        "no impulses": 0.0 * obeying,
+    }
+    # impulses that change no velocity are the same solution
+    others = {k: v for k, v in wrong.items() if np.max(np.abs(delassus @ (v - obeying))) > 1e3 * tolerance}
+    friction = vectors_of([law] * p.n, [mu] * p.n)["friction"]
+    for words, impulses in {"its impulses": obeying, **others}.items():
+        expected = impulses is obeying
+        if bool(law.is_fulfilled(delassus, before, impulses, friction, tolerance)) is not expected:
             return f"is_fulfilled {'refuses' if expected else 'accepts'} {words}"
     return ""
+
+
+MAP = [_writes_its_block, _certificate]

@@ -2,35 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+import functools
 
 import numpy as np
 
-from nonsmooth.engine.memory.blocks import JOINT_ROW
+from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_A, POINT_B, RESIDUAL, ROW_BIAS
 from nonsmooth.interfaces import Joint
 from nonsmooth.rotations import rotation, turned
-from nonsmooth.testing import moving
-from nonsmooth.testing.callers import compiled_caller, plain_caller
+from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.draws import Case, draws
-from nonsmooth.testing.examine import Trial, examine
-from nonsmooth.testing.functions import OLD, ROOM, Function, Functions
-from nonsmooth.testing.look import check_ends
-from nonsmooth.testing.moving import Array, Frames
-from nonsmooth.testing.property import Broken, Property, Row, properties
+from nonsmooth.testing.differences import slope
+from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
+from nonsmooth.testing.inputs import draws
+from nonsmooth.testing.movement import MOVEMENT, SHIFT, STEP, TURN, Array, Frames, Movement, moved
+from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.property import Property, properties
+from nonsmooth.testing.shape import require_ends
 
 _DRAWS = 24
-_SAME = 1e-7
-_PARTS = (
-    ("residual", slice(0, 1)),
-    ("axis", slice(1, 4)),
-    ("moment", slice(4, 7)),
-    ("first point", slice(7, 10)),
-    ("second point", slice(10, 13)),
-    ("bias", slice(13, 14)),
-)
-"""What a row is made of."""
+_SAME, _ROUND_OFF = 1e-7, 1e-9
+_PARTS = {
+    "residual": slice(RESIDUAL, AXIS),
+    "axis": slice(AXIS, MOMENT),
+    "moment": slice(MOMENT, POINT_A),
+    "first point": slice(POINT_A, POINT_B),
+    "second point": slice(POINT_B, ROW_BIAS),
+    "bias": slice(ROW_BIAS, JOINT_ROW),
+}
+"""The parts of a row."""
 _MOST_ROWS = 6
 _TRIES, _STEPS = 12, 40
 _CLOSED = 1e-12
@@ -43,61 +42,39 @@ def check_joint(joint: Joint) -> list[Property]:
     Parameters
     ----------
     joint : Joint
-        The joint; it is looked at between two frames about a metre apart.
+        The joint; it is checked between two frames about a metre apart.
     """
+    return properties(joint, _rows)
+
+
+def _rows(joint: Joint) -> list[Row]:
     functions = Functions(lambda: [_evaluator(joint)])
-
-    def row(name: str, says: str, trial: Trial) -> Row:
-        return name, says, lambda: examine(name, [joint], moving.space(), trial, _DRAWS)
-
-    rows = [
-        row("writes its block", "it writes every number that can be non-zero, and nothing beyond its rows", _writes),
-        row("rate", "axis and moment give the derivative of the residual, by differences", _rate),
-        row("bias", "it is the derivative of the rate while u' = 0, by differences", _bias),
-        row("frame invariance", "where both bodies are moved together, residuals stay and axes turn with them", _moved),
-        ("can be closed", "there are poses at which all residuals vanish", lambda: _check_closed(joint)),
-        ("ends", "it can be drawn where it holds", lambda: check_ends(joint.ends)),
-        ("independent rows", "where it is closed, no row follows from the others", lambda: _check_rank(joint)),
+    table = functools.partial(rows, components=lambda: [joint], count=_DRAWS)
+    return [
+        *component_rows(joint),
+        *table([_number_of_rows]),
+        *functions.rows(),
+        *functions.guarded(table(_JOINT)),
     ]
-    sizes: list[Row] = [("number of rows", "it takes one to six degrees of freedom", lambda: _check_number(joint))]
-    return properties(joint, [*component_rows(joint), *sizes, *functions.rows(), *functions.guarded(rows)])
 
 
-def _evaluator(joint: Joint) -> Function:
-    inputs = [("a, b", moving.frames(case)) for case in draws(moving.space(), 8, "frames")]
-    offered, function = joint.parameters(), joint.evaluator
-
-    def compiled() -> Callable[[Frames], Array]:
-        call = compiled_caller(function, "pair", offered, type(joint).__name__)
-        return lambda at: _written(joint, call, at)
-
-    return Function(
-        joint, "evaluator", function, "pair", offered, lambda at: _written(joint, _plain(joint), at), compiled, inputs
-    )
-
-
-def _plain(joint: Joint) -> Callable[..., Any]:
-    return plain_caller(joint.evaluator, "pair", joint.parameters())
-
-
-def _written(joint: Joint, call: Callable[..., Any], at: Frames, old: Array | None = None) -> Array:
-    out = np.full(JOINT_ROW * joint.n_rows + ROOM, OLD) if old is None else old.copy()
-    if old is None:
-        out[:-ROOM] = 0.0
-    call(*at, out)
-    return out
+def _evaluator(joint: Joint) -> CheckedFunction:
+    inputs = [("a, b", Movement(case).at()) for case in draws([MOVEMENT], 8)]
+    return CheckedFunction(joint, "evaluator", "pair", joint.parameters(), inputs, JOINT_ROW * joint.n_rows)
 
 
 def _look(joint: Joint, at: Frames) -> Array:
     """Return the rows, shape [n_rows, 14]."""
-    return _written(joint, _plain(joint), at)[:-ROOM].reshape(joint.n_rows, JOINT_ROW)
+    size, call = JOINT_ROW * joint.n_rows, plain_caller(joint.evaluator, "pair", joint.parameters())
+    return written(lambda out: call(*at, out), size)[:size].reshape(joint.n_rows, JOINT_ROW)
 
 
 def _sides(row: Array, at: Frames) -> Array:
-    """Return what a row makes of velocity and angular velocity of both frames, shape [12]."""
+    """Return the coefficients of velocity and angular velocity of both frames in the rate of a row, shape [12]."""
     a, b = at
-    axis, moment = row[1:4], row[4:7]
-    first, second = np.cross(row[7:10] - a[:3], axis) + moment, np.cross(row[10:13] - b[:3], axis) + moment
+    axis, moment = row[_PARTS["axis"]], row[_PARTS["moment"]]
+    first = np.cross(row[_PARTS["first point"]] - a[:3], axis) + moment
+    second = np.cross(row[_PARTS["second point"]] - b[:3], axis) + moment
     return np.concatenate([-axis, -first, axis, second])
 
 
@@ -106,63 +83,58 @@ def _rates(joint: Joint, at: Frames) -> Array:
     return np.array([_sides(row, at) @ velocities for row in _look(joint, at)])
 
 
-def _check_number(joint: Joint) -> None:
+@claim()
+def _number_of_rows(joint: Joint) -> str:
+    """It takes one to six degrees of freedom."""
     if joint.n_rows not in range(1, _MOST_ROWS + 1):
         raise Broken(f"it must be a whole number from 1 to {_MOST_ROWS}", "n_rows", joint.n_rows)
+    return ""
 
 
-def _writes(joint: Joint, case: Case) -> str:
-    call, other = _plain(joint), {name: -0.9 * value + 0.11 for name, value in case.items()}
-    clean = _written(joint, call, moving.frames(case))
-    again = _written(joint, call, moving.frames(case), _written(joint, call, moving.frames(other)))
-    wrong = np.flatnonzero(again != clean)
-    if len(wrong) == 0:
-        return ""
-    return f"number {wrong[0] % JOINT_ROW} of row {wrong[0] // JOINT_ROW} is left from the call before"
+@claim(MOVEMENT)
+def _writes_its_block(joint: Joint, move: Movement) -> str:
+    """It writes every number that can be non-zero, and nothing beyond its rows."""
+    call, here, there = plain_caller(joint.evaluator, "pair", joint.parameters()), move.at(), move.mirrored.at()
+    size = JOINT_ROW * joint.n_rows
+    return left_over(lambda out: call(*here, out), lambda out: call(*there, out), size, JOINT_ROW)
 
 
-def _compare(name: str, given: Array, found: Array, known: float) -> str:
+def _unlike(name: str, given: Array, found: Array, known: float) -> str:
+    """Return the row of which a number is not its derivative by differences, which are known that well."""
     worst = int(np.argmax(np.abs(given - found)))
     if abs(given[worst] - found[worst]) <= _SAME * (1.0 + float(np.max(np.abs(found)))) + 10.0 * known:
         return ""
     return f"the {name} of row {worst} is {given[worst]:.9g}, the differences give {found[worst]:.9g}"
 
 
-def _rate(joint: Joint, case: Case) -> str:
-    found, known = moving.slope(lambda dt: _look(joint, moving.frames(case, dt))[:, 0])
-    return _compare("rate", _rates(joint, moving.frames(case)), found, known)
+@claim(MOVEMENT)
+def _rate(joint: Joint, move: Movement) -> str:
+    """Axis and moment give the derivative of the residual, by differences."""
+    return _unlike("rate", _rates(joint, move.at()), *slope(lambda dt: _look(joint, move.at(dt))[:, RESIDUAL], STEP))
 
 
-def _bias(joint: Joint, case: Case) -> str:
+@claim(MOVEMENT)
+def _bias(joint: Joint, move: Movement) -> str:
+    """It is the derivative of the rate while u' = 0, by differences."""
     # the frames' accelerations are those that their bodies have while u' = 0
-    found, known = moving.slope(lambda dt: _rates(joint, moving.frames(case, dt)))
-    return _compare("bias", _look(joint, moving.frames(case))[:, 13], found, known)
+    bias = _look(joint, move.at())[:, ROW_BIAS]
+    return _unlike("bias", bias, *slope(lambda dt: _rates(joint, move.at(dt)), STEP))
 
 
-def _moved(joint: Joint, case: Case) -> str:
-    a, b = moving.frames(case)
-    here = _look(joint, (a, b))
-    there = _look(joint, (moving.moved(a, moving.TURN, moving.SHIFT), moving.moved(b, moving.TURN, moving.SHIFT)))
-    turned_rows = here.copy()
-    for part in (1, 4, 7, 10):
-        turned_rows[:, part : part + 3] = here[:, part : part + 3] @ moving.TURN.T
-    acts = np.any(here[:, 1:4] != 0.0, axis=1)
+@claim(MOVEMENT)
+def _frame_invariance(joint: Joint, move: Movement) -> str:
+    """If both bodies are moved together, residuals stay and axes turn with them."""
+    here, there = _look(joint, move.at()), _look(joint, moved(move.at()))
     # the points of a row without an axis mean nothing
-    turned_rows[acts, 7:10] += moving.SHIFT
-    turned_rows[acts, 10:13] += moving.SHIFT
-    turned_rows[~acts, 7:13] = there[~acts, 7:13] = 0.0
-    for name, part in (
-        ("residual", 0),
-        ("axis", 1),
-        ("moment", 4),
-        ("first point", 7),
-        ("second point", 10),
-        ("bias", 13),
-    ):
-        width = 1 if part in (0, 13) else 3
-        one, other = there[:, part : part + width], turned_rows[:, part : part + width]
+    acts = np.any(here[:, _PARTS["axis"]] != 0.0, axis=1)
+    for name, part in _PARTS.items():
+        one, other = there[:, part], here[:, part]
+        if part.stop - part.start == 3:
+            other = other @ TURN.T
+        if name.endswith("point"):
+            one, other = one * acts[:, None], (other + SHIFT) * acts[:, None]
         row = int(np.argmax(np.max(np.abs(one - other), axis=1)))
-        if np.max(np.abs(one[row] - other[row])) > 1e-9 * (1.0 + float(np.max(np.abs(other[row])))):
+        if np.max(np.abs(one[row] - other[row])) > _ROUND_OFF * (1.0 + float(np.max(np.abs(other[row])))):
             return f"the {name} of row {row} becomes {one[row]}, moved with the bodies it would be {other[row]}"
     return ""
 
@@ -170,37 +142,50 @@ def _moved(joint: Joint, case: Case) -> str:
 def _closed(joint: Joint) -> list[Frames]:
     """Return poses at which the joint is closed, found by Newton's method on the second body from drawn ones."""
     found = []
-    for case in draws(moving.space(), _TRIES, "closed"):
-        still = {name: 0.0 if name.split("_")[0] not in ("place", "turn") else value for name, value in case.items()}
-        a, b = moving.frames(still)
+    for case in draws([MOVEMENT], _TRIES):
+        a, b = Movement(case).still.at()
         for _ in range(_STEPS):
-            rows = _look(joint, (a, b))
-            if np.max(np.abs(rows[:, 0])) < _CLOSED:
+            lines = _look(joint, (a, b))
+            residuals = lines[:, RESIDUAL]
+            if np.max(np.abs(residuals)) < _CLOSED:
                 found.append((a, b))
                 break
-            lines = np.array([_sides(row, (a, b))[6:] for row in rows])
-            way = -np.linalg.lstsq(lines, rows[:, 0], rcond=1e-9)[0]
-            way *= min(1.0, 0.5 / max(float(np.linalg.norm(way)), 1e-300))
+            sides = np.array([_sides(row, (a, b))[6:] for row in lines])
+            step = -np.linalg.lstsq(sides, residuals, rcond=1e-9)[0]
+            step *= min(1.0, 0.5 / max(float(np.linalg.norm(step)), 1e-300))
             b = b.copy()
-            b[:3] += way[:3]
-            b[3:12] = (rotation(turned((1.0, 0.0, 0.0, 0.0), way[3:])) @ b[3:12].reshape(3, 3)).ravel()
+            b[:3] += step[:3]
+            b[3:12] = (rotation(turned((1.0, 0.0, 0.0, 0.0), step[3:])) @ b[3:12].reshape(3, 3)).ravel()
     return found
 
 
-def _check_closed(joint: Joint) -> None:
-    if not _closed(joint):
-        raise Broken(f"Newton's method finds none from {_TRIES} places")
+@claim()
+def _can_be_closed(joint: Joint) -> str:
+    """There are poses at which all residuals vanish."""
+    return "" if _closed(joint) else f"Newton's method finds none from {_TRIES} places"
 
 
-def _check_rank(joint: Joint) -> None:
-    closed = _closed(joint)
+@claim()
+def _ends(joint: Joint) -> str:
+    """It can be drawn where it holds."""
+    require_ends(joint.ends)
+    return ""
+
+
+@claim()
+def _independent_rows(joint: Joint) -> str:
+    """If it is closed, no row follows from the others."""
     ranks = []
-    for at in closed:
+    for at in _closed(joint):
         lines = np.array([_sides(row, at) for row in _look(joint, at)])
         sizes = np.linalg.norm(lines, axis=1)
         if np.min(sizes) == 0.0:
             raise Broken("it has neither axis nor moment", "row", int(np.argmin(sizes)))
         ranks.append(int(np.sum(np.linalg.svd(lines / sizes[:, None], compute_uv=False) > _INDEPENDENT)))
-    # a pose of its own may be singular
+    # a single pose may be singular
     if ranks and max(ranks) < joint.n_rows:
         raise Broken(f"only {max(ranks)} of its rows are independent", "n_rows", joint.n_rows)
+    return ""
+
+
+_JOINT = [_writes_its_block, _rate, _bias, _frame_invariance, _can_be_closed, _ends, _independent_rows]

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from nonsmooth.contact import solve_contact
 from nonsmooth.interfaces import CompliantNormalLaw, NormalLaw, RigidNormalLaw
-from nonsmooth.testing.compliance import compliant_properties
+from nonsmooth.problems.contact import solve_contact
+from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.compliance import compliant_rows
 from nonsmooth.testing.component import component_rows, variants
-from nonsmooth.testing.draws import Case, Variable
-from nonsmooth.testing.examine import Trial, examine
-from nonsmooth.testing.property import Property, Row, properties
-from nonsmooth.testing.reference import Constant
+from nonsmooth.testing.inputs import number
+from nonsmooth.testing.outcome import Row
+from nonsmooth.testing.property import Property, properties
+from nonsmooth.testing.reference import ReferenceFriction, point
 
-_SIZE = Variable("size", 1e-3, 1e3, 1.0, log=True)
+_SIZE = number("size", 1e-3, 1e3, 1.0, is_log=True)
+_LOAD = number("load", -1e3, 1e3, -1.0)
 _TOLERANCE = 1e-9
 _DRAWS = 12
 
@@ -29,59 +29,58 @@ def check_normal_law(law: NormalLaw) -> list[Property]:
     law : NormalLaw
         The law, with parameters.
     """
-    if isinstance(law, CompliantNormalLaw):
-        return compliant_properties(law)
-
-    def row(name: str, says: str, trial: Trial, *space: Variable) -> Row:
-        return name, says, lambda: examine(name, variants(law), space or (_SIZE,), trial, _DRAWS)
-
-    load = Variable("load", -1e3, 1e3, -1.0)
-    return properties(
-        law,
-        [
-            *component_rows(law),
-            row(
-                "accepts sustained contact",
-                "accelerations and forces that the engine finds for closed contacts, pressed or pulled, obey it",
-                _accepts,
-                load,
-            ),
-            row(
-                "no penetration",
-                "a closed contact whose bodies accelerate into one another does not obey it",
-                _refuses(-1, 0),
-            ),
-            row("no tension", "a normal force that pulls does not obey it", _refuses(0, -1)),
-            row("complementarity", "a force on a contact that opens does not obey it", _refuses(1, 1)),
-            row("scaling", "other units, and tolerances with them, do not change its verdict", _scales, _SIZE, load),
-        ],
-    )
+    return properties(law, compliant_rows if isinstance(law, CompliantNormalLaw) else _rows)
 
 
-def _accepts(law: RigidNormalLaw, case: Case) -> str:
-    result = solve_contact(
-        np.eye(3), np.eye(3)[:, 2:], np.eye(3)[:, None, :2], [0.0, 0.0, case["load"]], [Constant(0.0)]
-    )
+def _rows(law: RigidNormalLaw) -> list[Row]:
+    return [*component_rows(law), *rows(_RIGID, lambda: variants(law), _DRAWS)]
+
+
+@claim(_LOAD)
+def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
+    """Accelerations and forces that the engine finds for closed contacts, pressed or pulled, obey it."""
+    p = point((0.0, 0.0, 0.0))
+    result = solve_contact(p.mass, p.normal, p.tangential, [0.0, 0.0, load], [ReferenceFriction(0.0)])
     g, force = float(result.contact_acceleration[0, 0]), float(result.normal_force[0])
-    if law.is_fulfilled(g, force, _TOLERANCE * abs(case["load"]) + _TOLERANCE):
+    if law.is_fulfilled(g, force, _TOLERANCE * abs(load) + _TOLERANCE):
         return ""
     return f"is_fulfilled refuses acceleration {g:g} m/s^2 with force {force:g} N"
 
 
-def _refuses(acceleration: int, force: int) -> Trial:
-    def trial(law: RigidNormalLaw, case: Case) -> str:
-        g, f = acceleration * case["size"], force * case["size"]
-        if not law.is_fulfilled(g, f, _TOLERANCE * case["size"]):
-            return ""
-        return f"is_fulfilled accepts acceleration {g:g} m/s^2 with force {f:g} N"
-
-    return trial
+def _accepted(law: RigidNormalLaw, acceleration: float, force: float, size: float) -> str:
+    """Return that the law accepts a pair which it must refuse; "" if it refuses it."""
+    g, f = acceleration * size, force * size
+    if not law.is_fulfilled(g, f, _TOLERANCE * size):
+        return ""
+    return f"is_fulfilled accepts acceleration {g:g} m/s^2 with force {f:g} N"
 
 
-def _scales(law: RigidNormalLaw, case: Case) -> str:
-    size = case["size"]
-    for g, f in ((max(case["load"], 0.0), max(-case["load"], 0.0)), (case["load"], 1.0)):
+@claim(_SIZE)
+def _no_penetration(law: RigidNormalLaw, size: float) -> str:
+    """A closed contact whose bodies accelerate into one another does not obey it."""
+    return _accepted(law, -1.0, 0.0, size)
+
+
+@claim(_SIZE)
+def _no_tension(law: RigidNormalLaw, size: float) -> str:
+    """A normal force that pulls does not obey it."""
+    return _accepted(law, 0.0, -1.0, size)
+
+
+@claim(_SIZE)
+def _complementarity(law: RigidNormalLaw, size: float) -> str:
+    """A force on a contact that opens does not obey it."""
+    return _accepted(law, 1.0, 1.0, size)
+
+
+@claim(_SIZE, _LOAD)
+def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
+    """Other units, and tolerances with them, do not change its verdict."""
+    for g, f in ((max(load, 0.0), max(-load, 0.0)), (load, 1.0)):
         one, other = (bool(law.is_fulfilled(c * g, c * f, c * _TOLERANCE)) for c in (1.0, size))
         if one is not other:
             return f"is_fulfilled says {one} of ({g:g}, {f:g}) and {other} of {size:g} times that"
     return ""
+
+
+_RIGID = [_accepts_sustained_contact, _no_penetration, _no_tension, _complementarity, _scaling]

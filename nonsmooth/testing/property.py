@@ -1,16 +1,20 @@
-"""Property: a named statement about a component, and what is raised where it does not hold."""
+"""Property: a named statement about a component, and the exceptions of a property that does not hold."""
 
 from __future__ import annotations
 
-import unittest
+import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import NonsmoothError
-from nonsmooth.parameters import Component
-from nonsmooth.testing.places import place_of, told
+from nonsmooth.testing.child import ask
+from nonsmooth.testing.inputs import require_packages
+from nonsmooth.testing.outcome import NotChecked, Outcome, Row, Subject, outcome_of, place_of
+
+_DYNAMIC = "<dynamic-code>"
+"""File that cloudpickle gives the functions that it carries."""
 
 
 class PropertyFailed(NonsmoothError, AssertionError):
@@ -23,15 +27,15 @@ class PropertyFailed(NonsmoothError, AssertionError):
     prop : str
         The name of the property.
     reason : str
-        What was found.
+        The fault that was found.
     parameter : str
-        The parameters of the failing object, or the one at fault.
+        The parameters of the failing object, or the parameter at fault.
     value : object
         Their values.
     case : mapping of str to float
-        The smallest failing input that was found; empty where the property has no inputs.
+        The simplest failing input that was found; empty for a property without inputs.
     place : str
-        Name, file and line of the class, told where the reason names no line.
+        Name, file and line of the class. The message ends with it unless the reason names a line.
     """
 
     def __init__(
@@ -57,36 +61,14 @@ class PropertyFailed(NonsmoothError, AssertionError):
         super().__init__(" ".join(parts))
 
 
-class NotChecked(NonsmoothError, unittest.SkipTest):
-    """A property that could not be looked at, with the reason; pytest counts it as skipped."""
-
-
 class Departs(NotChecked):
     """A property that does not hold, as the class says in its ``departures``."""
-
-
-class Broken(Exception):
-    """What a check raises inside the kit; :class:`Property` adds the names.
-
-    Parameters
-    ----------
-    reason : str
-        What was found.
-    parameter, value, case
-        Those of :class:`PropertyFailed`.
-    """
-
-    def __init__(
-        self, reason: str, parameter: str = "", value: object = "", case: Mapping[str, float] | None = None
-    ) -> None:
-        super().__init__(reason)
-        self.reason, self.parameter, self.value, self.case = reason, parameter, value, case or {}
 
 
 @final
 @dataclass(frozen=True)
 class Property:
-    """One thing that must hold of a component.
+    """A statement that must hold of a component.
 
     Attributes
     ----------
@@ -94,75 +76,73 @@ class Property:
         A few words.
     says : str
         The statement in full.
-    owner : type
-        The class of the component.
-    check : callable
-        Looks at it; call the property instead, which turns whatever goes wrong into PropertyFailed.
+    subject : Subject
+        The component.
     departure : str
-        Why the component is known not to have it; nothing otherwise.
+        Why the class is known not to have the property; empty otherwise.
     """
 
     name: str
     says: str
-    owner: type
-    check: Callable[[], None]
+    subject: Subject
     departure: str = ""
 
     @property
-    def subject(self) -> str:
-        """The name of the class."""
-        return self.owner.__name__
+    def owner(self) -> type:
+        """The class of the component."""
+        return type(self.subject.component)
 
     def __str__(self) -> str:
-        return f"{self.subject}: {self.name}"
+        return f"{self.owner.__name__}: {self.name}"
 
     def __call__(self) -> None:
-        """Look whether it holds.
+        """Check the property in a child process, which is ended if the component does not come back.
 
         Raises
         ------
         PropertyFailed
-            If it does not, or does although the component says that it departs from it.
+            If it does not hold, or if it holds although the class says that it departs from it.
         NotChecked
-            If it could not be looked at.
+            If it could not be checked.
         Departs
-            If it does not, and the component says so.
+            If it does not hold, and the class says so.
         """
-        try:
-            self._look()
-        except PropertyFailed as failure:
-            if self.departure:
-                raise Departs(f"{self}, as it says: {self.departure}. {failure}") from failure
-            raise
-        if self.departure and not PLAIN:  # fewer inputs are tried in plain mode
-            reason = f"it holds, although the class departs from it, as it says, because {self.departure}"
-            raise PropertyFailed(self.subject, self.name, reason, "departures", self.name, {})
+        self._judge(ask(self.subject, self.name))
 
-    def _look(self) -> None:
-        try:
-            self.check()
-        except (PropertyFailed, NotChecked):
-            raise
-        except Broken as found:
-            raise PropertyFailed(
-                self.subject, self.name, found.reason, found.parameter, found.value, found.case, place_of(self.owner)
-            ) from None
-        except Exception as error:
-            raise PropertyFailed(self.subject, self.name, told(error), "", "", {}, place_of(self.owner)) from error
+    def check(self) -> None:
+        """Check the property in this process, without a limit of time: for a debugger. Raises as a call does."""
+        self._judge(outcome_of(self.subject.all[self.name].check))
+
+    def _judge(self, found: Outcome) -> None:
+        print(found.printed, end="")
+        thing, holds = self.owner.__name__, found.kind == "holds"
+        # a function of a script or a notebook has lost its file on the way to the other process
+        reason = (
+            found.reason.replace(_DYNAMIC, inspect.getfile(self.owner)) if _DYNAMIC in found.reason else found.reason
+        )
+        if found.kind == "not checked":
+            raise NotChecked(reason)
+        if holds and self.departure and not PLAIN:  # fewer inputs are tried in plain mode
+            held = f"it holds, although the class departs from it, as it says, because {self.departure}"
+            raise PropertyFailed(thing, self.name, held, "departures", self.name, {})
+        if holds:
+            return
+        failure = PropertyFailed(
+            thing, self.name, reason, found.parameter, found.value, found.case, place_of(self.owner)
+        )
+        if self.departure:
+            raise Departs(f"{self}, as it says: {self.departure}. {failure}") from failure
+        raise failure
 
 
-Row = tuple[str, str, Callable[[], None]]
-"""Name, statement and check of a property."""
+def properties(component: Any, rows: Callable[..., list[Row]], **options: Any) -> list[Property]:
+    """Return the properties of a component; those that its class departs from are marked.
 
-
-def properties(component: Any, rows: list[Row]) -> list[Property]:
-    """Return the properties of a component; those that its class departs from are marked."""
-    owner: type[Component] = type(component)
-    unknown = sorted(set(owner.departures) - {name for name, _, _ in rows})
-    if unknown:
-
-        def refuse() -> None:
-            raise Broken("there are no such properties", "departures", unknown)
-
-        rows = [*rows, ("departures", "they name properties", refuse)]
-    return [Property(name, says, owner, check, owner.departures.get(name, "")) for name, says, check in rows]
+    Raises
+    ------
+    MissingPackagesError
+        If hypothesis or cloudpickle is not installed.
+    """
+    require_packages()
+    subject, departures = Subject(component, rows, options), type(component).departures
+    return [Property(row.name, row.says, subject, departures.get(row.name, "")) for row in subject.all.values()]

@@ -1,22 +1,28 @@
-"""A puck that lies, slides, turns or falls on a slab: the smallest system in which a law runs in the engine."""
+"""A puck that slides, turns or falls on a slab: the smallest system in which a law runs in the engine.
+
+And a rig: two pucks that can be put anywhere, and the geometry of a contact between them.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import (
-    FRAME,
     GAP,
     JACOBIAN,
     NORMAL,
+    PAIR,
     POINT_A,
     POINT_B,
+    POSITION,
     ROTATION,
     SIDE_A,
     SIDE_B,
@@ -26,65 +32,76 @@ from nonsmooth.engine.memory.blocks import (
     TURN_MATRIX,
     VELOCITY,
 )
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, ImpactLaw, NormalLaw, Shape, TangentialLaw
-from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits
-from nonsmooth.simulate import simulate
+from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, Shape
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS
+from nonsmooth.model.assembly import lay_out
+from nonsmooth.parameters import parameter
+from nonsmooth.rotations import rotation
+from nonsmooth.runs.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.contact import Contact
+from nonsmooth.system.materials import ContactLaws
 from nonsmooth.system.system import System
+from nonsmooth.testing.body_block import BlockPlaces
+from nonsmooth.testing.reference import ReferenceContact, ReferenceFriction, ReferenceImpact
 from nonsmooth.types import Floats
 
 Array = NDArray[np.float64]
 Numbers = tuple[float, ...]
-_UPRIGHT: Numbers = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-_RATES = FRAME + 36
-"""Where the coordinate rates of the puck stand,"""
-_FORCE = _RATES + 3
-"""its forces,"""
-_INVERSE = _FORCE + 6
-"""its inverse masses,"""
-_ENERGY = _INVERSE + 36
-"""and its energies."""
+Pose = tuple[Array, Array]
+"""Position [m] and unit quaternion, scalar first."""
+_UNTURNED = (1.0, 0.0, 0.0, 0.0)
+_PLACES = BlockPlaces(n_frames=1, n_q=7, n_u=6)
+_RATES, _FORCE, _INVERSE_MASS, _ENERGY = _PLACES.rates, _PLACES.force, _PLACES.inverse_mass, _PLACES.energy
 _FINE = 1e-9
 """Tolerances of gap, velocity and time, in units of the puck's length and speed."""
 
 
-def _evaluate_slab(t: float, q: Floats, u: Floats, out: Floats, axes: Floats) -> None:
-    for i in range(9):
-        out[ROTATION + i] = axes[i]
+@compiled
+def _write_vector(out: Floats, place: int, x: float, y: float, z: float) -> None:
+    out[place], out[place + 1], out[place + 2] = x, y, z
+
+
+@compiled
+def _write_diagonal(out: Floats, place: int, first: float, last: float) -> None:
+    """Write the diagonal of a matrix of six rows: three numbers ``first``, then three ``last``."""
+    for i in range(3):
+        out[place + 7 * i], out[place + 21 + 7 * i] = first, last
+
+
+@compiled
+def _write_rotation(out: Floats, a: float, b: float, c: float, d: float) -> None:
+    """Write the rotation matrix of a unit quaternion."""
+    xx, yy, zz = a * a + b * b - c * c - d * d, a * a - b * b + c * c - d * d, a * a - b * b - c * c + d * d
+    _write_vector(out, ROTATION, xx, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c))
+    _write_vector(out, ROTATION + 3, 2.0 * (b * c + a * d), yy, 2.0 * (c * d - a * b))
+    _write_vector(out, ROTATION + 6, 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), zz)
+
+
+def _evaluate_slab(t: float, q: Floats, u: Floats, out: Floats, turn: Floats) -> None:
+    _write_rotation(out, turn[0], turn[1], turn[2], turn[3])
 
 
 def _evaluate_puck(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    axes: Floats,
-    mass: float,
-    inertia: float,
-    push: Floats,
-    gravity_z: float,
+    t: float, q: Floats, u: Floats, out: Floats, mass: float, inertia: float, push: Floats, gravity_z: float
 ) -> None:
-    for i in range(9):
-        out[ROTATION + i] = axes[i]
-    for i in range(3):
-        out[i] = q[i]
-        out[VELOCITY + i], out[SPIN + i] = u[i], u[3 + i]
-        out[_RATES + i] = u[i]
-        out[_FORCE + i] = push[i]
-        out[_INVERSE + 7 * i], out[_INVERSE + 21 + 7 * i] = 1.0 / mass, 1.0 / inertia
-    for i in range(6):
-        out[JACOBIAN + 7 * i] = 1.0
-    out[_FORCE + 2] = push[2] + mass * gravity_z
-    energy = 0.0
-    for i in range(3):
-        energy += 0.5 * mass * u[i] * u[i] + 0.5 * inertia * u[3 + i] * u[3 + i]
-    out[_ENERGY] = energy
+    _write_vector(out, POSITION, q[0], q[1], q[2])
+    _write_rotation(out, q[3], q[4], q[5], q[6])
+    _write_vector(out, VELOCITY, u[0], u[1], u[2])
+    _write_vector(out, SPIN, u[3], u[4], u[5])
+    _write_diagonal(out, JACOBIAN, 1.0, 1.0)
+    _write_vector(out, _RATES, u[0], u[1], u[2])
+    _write_vector(out, _FORCE, push[0], push[1], push[2] + mass * gravity_z)
+    _write_diagonal(out, _INVERSE_MASS, 1.0 / mass, 1.0 / inertia)
+    square, spin = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], u[3] * u[3] + u[4] * u[4] + u[5] * u[5]
+    out[_ENERGY] = 0.5 * (mass * square + inertia * spin)
     out[_ENERGY + 1] = -mass * gravity_z * q[2] - push[0] * q[0] - push[1] * q[1] - push[2] * q[2]
 
 
 def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: Floats) -> None:
+    """Write the geometry of a point over a plane through the first body, whose axes are given in its frame."""
     gap = 0.0
     for i in range(3):
         n = t = 0.0
@@ -104,71 +121,45 @@ def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: 
 @final
 @dataclass(frozen=True)
 class _Spot(Shape):
-    @property
-    def length(self) -> float:
-        return 0.0
+    """A point at the origin, or with an infinite length a plane through it."""
+
+    length: float = 0.0
 
 
 @final
 @dataclass(frozen=True)
 class _Touch(ContactKinematics):
-    """The point of the puck over the plane of the slab, whose normal and tangent are in the slab's frame."""
+    """The point of the puck over the plane of the slab; normal and tangent are in the slab's frame."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (_Spot, _Spot)
-    normal: Numbers = (0.0, 0.0, 1.0)
-    tangent: Numbers = (1.0, 0.0, 0.0)
+    features = ("puck-slab",)
+    normal: Numbers
+    tangent: Numbers
 
     def parameters(self) -> dict[str, Any]:
         return {"normal": self.normal, "tangent": self.tangent}
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[_Touch, ...]:
-        return (cls(),)
+        return (cls((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),)
 
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return _evaluate_touch
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        return ("puck-slab",)
+    evaluator = staticmethod(_evaluate_touch)
 
 
 @final
 @dataclass(frozen=True)
 class _Slab(Body):
-    axes: Numbers = _UPRIGHT
+    """A driven body that stays; ``turn`` is the quaternion of its axes."""
+
+    turn: Numbers = _UNTURNED
+    frames = ((_Spot(math.inf),),)
+    q_labels = u_labels = ()
+    quaternion, time_scale = -1, math.inf
+    scales = (np.ones(0), np.ones(0))
+    evaluator = staticmethod(_evaluate_slab)
 
     def parameters(self) -> dict[str, Any]:
-        return {"axes": self.axes}
-
-    @property
-    def frames(self) -> tuple[tuple[Shape, ...], ...]:
-        return ((_Spot(),),)
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        return ()
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        return ()
-
-    @property
-    def quaternion(self) -> int:
-        return -1
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return _evaluate_slab
-
-    @property
-    def scales(self) -> tuple[Array, Array]:
-        return np.ones(0), np.ones(0)
-
-    @property
-    def time_scale(self) -> float:
-        return math.inf
+        return {"turn": self.turn}
 
     def state(self, **start: Any) -> tuple[Array, Array]:
         return np.zeros(0), np.zeros(0)
@@ -177,10 +168,10 @@ class _Slab(Body):
 @final
 @dataclass(frozen=True)
 class Puck(Body):
-    """A body whose mass centre touches the slab; its moments of inertia are equal, and its axes stay where they are.
+    """A body whose mass centre touches the slab; its moments of inertia are equal, and its axes do not turn.
 
-    Velocity and angular velocity are in world axes.  That the axes do not turn disturbs no law but one that has an
-    axis fixed to the puck, and such a one is looked at without spin.
+    Velocity and angular velocity are in world axes. Fixed axes matter only for a law with an axis fixed to the puck,
+    which is checked without spin.
 
     Attributes
     ----------
@@ -188,81 +179,52 @@ class Puck(Body):
         [kg], [kg m^2].
     push : tuple of float
         A constant force [N].
-    axes : tuple of float
-        Its axes in the world as columns, row by row.
     length, speed : float
         Sizes of its motion [m], [m/s].
+    shape : Shape
+        The shape that it carries.
     """
 
     mass: float = 1.0
     inertia: float = 1.0
     push: Numbers = (0.0, 0.0, 0.0)
-    axes: Numbers = _UPRIGHT
     length: float = 1.0
     speed: float = 1.0
+    shape: Shape = _Spot()
+    q_labels, u_labels = POSE_LABELS, TWIST_LABELS
+    quaternion, time_scale = 3, math.inf
+    evaluator = staticmethod(_evaluate_puck)
 
     def parameters(self) -> dict[str, Any]:
-        """Return mass, inertia, push and axes."""
-        return {"mass": self.mass, "inertia": self.inertia, "push": self.push, "axes": self.axes}
+        """Return mass, inertia and push."""
+        return {"mass": self.mass, "inertia": self.inertia, "push": self.push}
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
-        """One, with the point that touches."""
-        return ((_Spot(),),)
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        """Its position."""
-        return POSE_LABELS[:3]
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """Velocity and angular velocity."""
-        return TWIST_LABELS
-
-    @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The equations of Newton and Euler."""
-        return _evaluate_puck
+        """A single frame with the shape."""
+        return ((self.shape,),)
 
     @property
     def scales(self) -> tuple[Array, Array]:
-        """Those given; angular velocities by the speed and the radius of gyration."""
+        """The sizes given; angular velocities by the speed and the radius of gyration."""
         spin = self.speed * math.sqrt(self.mass / self.inertia)
-        return np.full(3, self.length), np.array([self.speed] * 3 + [spin] * 3)
-
-    @property
-    def time_scale(self) -> float:
-        """Infinite [s]: nothing is prescribed."""
-        return math.inf
+        return np.array([self.length] * 3 + [1.0] * 4), np.array([self.speed] * 3 + [spin] * 3)
 
     def state(self, **start: Any) -> tuple[Array, Array]:
         """Return the origin, at rest."""
-        return np.zeros(3), np.zeros(6)
+        return np.array([0.0, 0.0, 0.0, *_UNTURNED]), np.zeros(6)
 
 
 def run(
-    puck: Puck,
-    height: float,
-    u: Sequence[float] | Array,
-    laws: tuple[NormalLaw, TangentialLaw, ImpactLaw | None],
-    t_end: float,
-    *,
-    gravity: float = 0.0,
-    slab: Numbers = _UPRIGHT,
+    puck: Puck, height: float, u: Sequence[float] | Array, laws: ContactLaws, t_end: float, **place: Any
 ) -> Solution:
     """Let a puck start over the slab, and run.
 
     Parameters
     ----------
     t_end : float
-        When the run ends [s].
-    puck, height, u, laws, gravity, slab
+        End time [s].
+    puck, height, u, laws, place
         Those of :func:`over_slab`.
     """
     engine = EventDriven(
@@ -270,18 +232,18 @@ def run(
         velocity_tolerance=min(2e-8, _FINE * puck.speed),
         time_tolerance=min(1e-12, _FINE * puck.length / puck.speed),
     )
-    system = over_slab(puck, height, u, laws, gravity=gravity, slab=slab)
-    return simulate(system, t_end, sample_interval=t_end, engine=engine)
+    return simulate(over_slab(puck, height, u, laws, **place), t_end, sample_interval=t_end, engine=engine)
 
 
 def over_slab(
     puck: Puck,
     height: float,
     u: Sequence[float] | Array,
-    laws: tuple[NormalLaw, TangentialLaw, ImpactLaw | None],
+    laws: ContactLaws,
     *,
     gravity: float = 0.0,
-    slab: Numbers = _UPRIGHT,
+    turn: Numbers = _UNTURNED,
+    slab_turn: Numbers = _UNTURNED,
 ) -> System:
     """Return a puck over a slab whose normal is the world's z axis.
 
@@ -293,23 +255,19 @@ def over_slab(
         Gap at the start [m].
     u : array
         Velocity and angular velocity at the start [m/s, rad/s], shape [6].
-    laws : tuple
-        Normal, tangential and impact law.
+    laws : ContactLaws
+        The laws of the contact.
     gravity : float
         Along -z [m/s^2].
-    slab : tuple of float
-        Axes of the slab in the world as columns, row by row.
+    turn, slab_turn : tuple of float
+        Unit quaternions of the axes of puck and slab.
     """
-    base = _Slab(slab)
-    system = System([base, puck], gravity)
-    rows = np.reshape(slab, (3, 3))
-    touch = _Touch(tuple(rows[2].tolist()), tuple(rows[0].tolist()))
-    # not by System.contact, which looks for kinematics among those installed
-    spots, reaches = (_Spot(), _Spot()), (math.inf, 0.0)
-    system._contacts.append(
-        Contact("contact of puck and slab", base, puck, (0, 0), spots, touch, reaches, reaches, *laws)
-    )
-    system.set_start(puck, np.array([0.0, 0.0, height]), np.array(u, dtype=float))
+    slab = _Slab(slab_turn)
+    system = System([slab, puck], gravity)
+    x, _, z = rotation(slab_turn).tolist()
+    shapes, touch = (slab.frames[0][0], puck.shape), _Touch(tuple(z), tuple(x))
+    system.add_contact(Contact.of_shapes((slab, puck), shapes, touch, laws, name="contact of puck and slab"))
+    system.set_start(puck, np.array([0.0, 0.0, height, *turn]), np.array(u, dtype=float))
     return system
 
 
@@ -319,8 +277,8 @@ def _level(indentation: float, rate: float, closing_rate: float, load: float) ->
 
 @final
 @dataclass(frozen=True)
-class Cushion(CompliantNormalLaw):
-    """A normal law whose force is the same at any indentation, so that a load can be given to a law of traction.
+class ConstantLoad(CompliantNormalLaw):
+    """A normal law with the same force at any indentation, which gives a law of traction its load.
 
     Attributes
     ----------
@@ -328,24 +286,51 @@ class Cushion(CompliantNormalLaw):
         The force [N].
     """
 
-    load: float = 1.0
-
-    def parameters(self) -> dict[str, Any]:
-        """Return the load."""
-        return {"load": self.load}
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """The load."""
-        return _level
-
-    @property
-    def reach(self) -> float:
-        """None."""
-        return 0.0
+    load: float = parameter(1.0, doc="force", unit="N")
+    reach = 0.0
+    force = staticmethod(_level)
 
     def is_fulfilled(
         self, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
     ) -> bool:
-        """Tell whether the force is the load."""
+        """True if the force is the load."""
         return abs(force - self.load) <= tolerance
+
+
+class ContactRig:
+    """Two pucks with a shape each and a contact with given kinematics."""
+
+    def __init__(self, kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
+        bodies = Puck(shape=shapes[0]), Puck(shape=shapes[1])
+        system, laws = System(bodies), ContactLaws(ReferenceContact(), ReferenceFriction(), ReferenceImpact())
+        system.add_contact(Contact.of_shapes(bodies, shapes, kinematics, laws))
+        self._model = lay_out(system, EventDriven())
+
+    def put(self, poses: Sequence[Pose], u: Array) -> None:
+        """Put the bodies somewhere, with velocities and angular velocities in world axes, shape [12]."""
+        q = np.concatenate([np.concatenate(pose) for pose in poses])
+        self._model.memory[owners.Island.y][:26] = np.concatenate([q, u])
+        call_entry("evaluate_at", self._model.memory)
+
+    def _row(self, declared: Any) -> Array:
+        return np.array(self._model.memory[declared][0])
+
+    @property
+    def geometry(self) -> Array:
+        """The geometry block, shape [31]."""
+        return self._row(owners.Contact.geometry)[:PAIR]
+
+    @property
+    def axes(self) -> Array:
+        """Normal and tangents, shape [3, 3]."""
+        return self._row(owners.Contact.axes).reshape(3, 3)
+
+    @property
+    def rate(self) -> Array:
+        """Gap rate and slip velocity [m/s], shape [3]."""
+        return self._row(owners.Contact.rate)
+
+    @property
+    def bias(self) -> Array:
+        """Their derivatives while u' = 0, shape [3]."""
+        return self._row(owners.Contact.bias)

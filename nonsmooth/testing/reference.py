@@ -1,21 +1,26 @@
-"""Laws and matrices that the checks put beside what they look at."""
+"""Laws and bodies with contacts that the checks put beside the component: closed forms are known of them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.interfaces import FrictionLaw, ImpactProcess, RigidNormalLaw
+from nonsmooth.binding.compile import parameter_names
+from nonsmooth.interfaces import FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess, RigidNormalLaw
 from nonsmooth.parameters import parameter
+from nonsmooth.problems.impact import solve_impact
 from nonsmooth.rotations import cross
-from nonsmooth.testing.draws import Case, Variable
+from nonsmooth.testing.functions import compiled_map
+from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber
 
 Array = NDArray[np.float64]
+_TOLERANCE = 1e-11
+"""Tolerance of the integration of impacts, well below the deviations that the checks allow."""
 
 
 def _force(indentation: float) -> float:
@@ -28,28 +33,15 @@ def _efficiency(rate: float, share: float) -> float:
 
 @final
 @dataclass(frozen=True)
-class Spring(ImpactProcess):
-    """A linear spring that gives back a share of what it stores."""
+class ReferenceImpact(ImpactProcess):
+    """A linear spring that gives back a share of the energy that it stores."""
 
     share: float = parameter(0.5, doc="share", minimum=0.0, maximum=1.0)
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """The indentation."""
-        return _force
-
-    @property
-    def efficiency(self) -> Callable[..., float]:
-        """The share in expansion."""
-        return _efficiency
-
-    @property
-    def contact_time(self) -> float:
-        """A common one [s]."""
-        return 2e-5
+    contact_time = 2e-5
+    force, efficiency = staticmethod(_force), staticmethod(_efficiency)
 
     def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        """Tell whether the share came back."""
+        """True if the share came back."""
         return abs(returned - self.share * stored) <= tolerance
 
 
@@ -59,37 +51,33 @@ def _constant(speed: float, level: float) -> float:
 
 @final
 @dataclass(frozen=True)
-class Constant(FrictionLaw):
-    """The same coefficient at every speed."""
+class ReferenceFriction(FrictionLaw):
+    """Friction with the same coefficient at every speed."""
 
     level: float = parameter(0.3, doc="coefficient", minimum=0.0)
-
-    @property
-    def coefficient(self) -> Callable[..., float]:
-        """The level."""
-        return _constant
+    coefficient = staticmethod(_constant)
 
     def is_fulfilled(
         self, slip: tuple[float, float], normal_force: float, tangential_force: tuple[float, float], tolerance: float
     ) -> bool:
-        """Tell whether the force lies in the disc."""
+        """True if the force lies in the disc."""
         return math.hypot(*tangential_force) <= self.level * normal_force + tolerance
 
 
 @final
 @dataclass(frozen=True)
-class Rigid(RigidNormalLaw):
+class ReferenceContact(RigidNormalLaw):
     """A contact without any indentation."""
 
     def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
-        """Tell whether the pair is complementary."""
+        """True if the pair is complementary."""
         return acceleration >= -tolerance and force >= -tolerance and min(abs(acceleration), abs(force)) <= tolerance
 
 
 @final
 @dataclass(frozen=True)
-class Problem:
-    """A rigid body with contacts: M, W, N and the velocity before."""
+class ImpactProblem:
+    """A rigid body with contacts: M, W, N and the velocity before the impact."""
 
     mass: Array
     normal: Array
@@ -107,49 +95,117 @@ class Problem:
         joined = np.concatenate([self.normal[:, :, None], self.tangential], axis=2)
         return np.asarray(joined.reshape(len(self.mass), 3 * self.n))
 
-    def energy(self, velocity: Array) -> float:
-        """Return the kinetic energy [J]."""
-        return 0.5 * float(velocity @ self.mass @ velocity)
+    @property
+    def delassus(self) -> Array:
+        """Delassus matrix of all contacts, shape [3 n, 3 n]."""
+        return np.asarray(self.columns.T @ np.linalg.solve(self.mass, self.columns))
 
     @property
-    def approaches(self) -> bool:
-        """Whether any contact approaches."""
-        return bool(np.any(self.normal.T @ self.velocity < 0.0))
+    def rates(self) -> Array:
+        """Gap rates and slip velocities before the impact, shape [3 n]."""
+        return np.asarray(self.columns.T @ self.velocity)
+
+    def energy(self, velocity: Array) -> float:
+        """Kinetic energy at a velocity [J]."""
+        return 0.5 * float(velocity @ self.mass @ velocity)
+
+    def turned(self, angle: float) -> ImpactProblem:
+        """Return the same problem with the tangents of all contacts turned by an angle [rad]."""
+        c, s = math.cos(angle), math.sin(angle)
+        tangential = self.tangential @ np.array([[c, -s], [s, c]])
+        return ImpactProblem(self.mass, self.normal, tangential, self.velocity)
 
 
-def problem_space(contacts: int) -> list[Variable]:
-    """Return the numbers that make a problem of one body and some contacts; the simplest falls straight down."""
-    space = [
-        Variable("velocity_x", -2.0, 2.0),
-        Variable("velocity_y", -2.0, 2.0),
-        Variable("velocity_z", -2.0, -0.1, -1.0),
-        Variable("spin_x", -1.0, 1.0),
-        Variable("spin_y", -1.0, 1.0),
-        Variable("spin_z", -1.0, 1.0),
-    ]
-    for i in range(1, contacts + 1):
-        space += [Variable(f"arm_{c}_{i}", -0.3, 0.3) for c in "xyz"]
-        space += [Variable(f"lean_{c}_{i}", -0.4, 0.4) for c in "xy"]
-    return space
+def problem_of(n_contacts: int) -> Drawn:
+    """Return a drawn problem of a body with some contacts; in the simplest it falls straight down."""
+    numbers = [DrawnNumber(f"velocity_{c}", -2.0, 2.0) for c in "xy"]
+    numbers.append(DrawnNumber("velocity_z", -2.0, -0.1, -1.0))
+    numbers += [DrawnNumber(f"spin_{c}", -1.0, 1.0) for c in "xyz"]
+    for i in range(1, n_contacts + 1):
+        numbers += [DrawnNumber(f"arm_{c}_{i}", -0.3, 0.3) for c in "xyz"]
+        numbers += [DrawnNumber(f"lean_{c}_{i}", -0.4, 0.4) for c in "xy"]
+    return Drawn(tuple(numbers), lambda case: problem(case, n_contacts))
 
 
-def problem(case: Case, contacts: int) -> Problem:
+def problem(case: Case, n_contacts: int) -> ImpactProblem:
     """Return the problem of an input."""
-    normal, tangential = np.zeros((6, contacts)), np.zeros((6, contacts, 2))
-    for i in range(contacts):
-        place = np.array([0.0 if contacts == 1 else i - 0.5 * (contacts - 1), 0.1 * i, -0.5])
+    normal, tangential = np.zeros((6, n_contacts)), np.zeros((6, n_contacts, 2))
+    for i in range(n_contacts):
+        place = np.array([0.0 if n_contacts == 1 else i - 0.5 * (n_contacts - 1), 0.1 * i, -0.5])
         arm = place + np.array([case[f"arm_{c}_{i + 1}"] for c in "xyz"])
         n = np.array([case[f"lean_x_{i + 1}"], case[f"lean_y_{i + 1}"], 1.0])
         n /= np.linalg.norm(n)
         first = np.array([1.0, 0.0, 0.0]) - n[0] * n
         first /= np.linalg.norm(first)
-        axes = n, first, cross(n, first)
-        columns = np.array([[*axis, *cross(arm, axis)] for axis in axes]).T
+        columns = np.array([[*axis, *cross(arm, axis)] for axis in (n, first, cross(n, first))]).T
         normal[:, i], tangential[:, i] = columns[:, 0], columns[:, 1:]
-    velocity = np.array([case[f"velocity_{c}"] for c in "xyz"] + [case[f"spin_{c}"] for c in "xyz"])
-    return Problem(np.diag([1.0, 1.0, 1.0, 0.3, 0.4, 0.5]), normal, tangential, velocity)
+    velocity = np.array([case[f"{name}_{c}"] for name in ("velocity", "spin") for c in "xyz"])
+    return ImpactProblem(np.diag([1.0, 1.0, 1.0, 0.3, 0.4, 0.5]), normal, tangential, velocity)
 
 
-def point(velocity: tuple[float, float, float]) -> Problem:
+def point(velocity: tuple[float, float, float]) -> ImpactProblem:
     """Return a point of unit mass above a plane."""
-    return Problem(np.eye(3), np.eye(3)[:, 2:], np.eye(3)[:, None, :2], np.array(velocity))
+    return ImpactProblem(np.eye(3), np.eye(3)[:, 2:], np.eye(3)[:, None, :2], np.array(velocity))
+
+
+@final
+@dataclass(frozen=True)
+class ImpactResponse:
+    """The result of an impact.
+
+    Attributes
+    ----------
+    velocity : array
+        Velocity after it.
+    impulse, before, after : array
+        Impulses, and gap rates with slip before and after it, shape [n, 3].
+    stored, returned : array
+        Energies of the contacts [J], shape [n]; zero for a map, which has none.
+    """
+
+    velocity: Array
+    impulse: Array
+    before: Array
+    after: Array
+    stored: Array
+    returned: Array
+
+    @property
+    def size(self) -> float:
+        """Largest speed of the contacts before or after [m/s]."""
+        return float(max(np.max(np.abs(self.before)), np.max(np.abs(self.after)), 1e-300))
+
+
+def respond(laws: Sequence[ImpactLaw], frictions: Sequence[float], p: ImpactProblem) -> ImpactResponse:
+    """Solve an impact with a law and a friction coefficient per contact."""
+    n, before = p.n, p.rates
+    stored, returned = np.zeros(n), np.zeros(n)
+    processes = [law for law in laws if isinstance(law, ImpactProcess)]
+    if processes:
+        friction = [ReferenceFriction(mu) for mu in frictions]
+        result = solve_impact(p.mass, p.normal, p.tangential, p.velocity, processes, friction, tolerance=_TOLERANCE)
+        impulse = np.column_stack([result.normal_impulse, result.tangential_impulse])
+        stored, returned = result.stored, result.returned
+    else:
+        impulse = map_impulses(laws, frictions, p.delassus, before).reshape(n, 3)
+    velocity = p.velocity + np.linalg.solve(p.mass, p.columns) @ impulse.ravel()
+    after = (p.columns.T @ velocity).reshape(n, 3)
+    return ImpactResponse(velocity, impulse, before.reshape(n, 3), after, stored, returned)
+
+
+def vectors_of(laws: Sequence[ImpactLaw], frictions: Sequence[float]) -> dict[str, Array]:
+    """Return the parameters that the function of a map may ask for, one number per contact."""
+    own = {name: np.array([float(law.numbers()[name]) for law in laws]) for name in laws[0].parameters()}
+    return {"friction": np.array(frictions, dtype=float), **own}
+
+
+def map_impulses(laws: Sequence[ImpactLaw], frictions: Sequence[float], delassus: Array, rates: Array) -> Array:
+    """Return the impulses of laws that are maps, shape [3 n]."""
+    law = laws[0]
+    assert isinstance(law, ImpactMap)
+    offered = vectors_of(laws, frictions)
+    vectors = {name: offered[name] for name in parameter_names(law.impulses, "map")}
+    out = np.zeros(len(rates))
+    call = compiled_map(law.impulses, vectors, type(law).__name__)
+    call(len(laws), np.ascontiguousarray(delassus).ravel(), np.array(rates, dtype=float), out)
+    return out

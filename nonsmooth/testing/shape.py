@@ -1,4 +1,4 @@
-"""Properties of shapes; what they do in a contact is looked at with the kinematics of their pairs."""
+"""Properties of shapes, and of everything that is drawn; contacts of shapes have properties of their own."""
 
 from __future__ import annotations
 
@@ -7,12 +7,15 @@ import math
 import numpy as np
 
 from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.look import Look
+from nonsmooth.interfaces.solid import Vector
+from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.look import check_look
-from nonsmooth.testing.property import Broken, Property, properties
+from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.property import Property, properties
 
-_DIRECTIONS = 60
-"""Directions along which what a shape encloses is looked at."""
+_DIRECTIONS = np.random.default_rng(0).normal(size=(60, 3))
+"""Directions along which a solid is checked."""
 _ROUND_OFF = 1e-9
 
 
@@ -24,58 +27,62 @@ def check_shape(shape: Shape) -> list[Property]:
     shape : Shape
         The shape.
     """
-    rows = [
-        ("length", "its length is finite and not negative", lambda: _check_length(shape)),
-        ("extent", "a ball of its extent holds what is as far away as its length", lambda: _check_extent(shape)),
-        ("ceiling", "no point of what it encloses is above its ceiling", lambda: _check_ceiling(shape)),
-        (
-            "solid",
-            "no point of what it encloses is farther along a direction than that which is told, all are within its "
-            "bounds and its extent, and points inside are",
-            lambda: _check_solid(shape),
-        ),
-        ("parts", "its convex parts lie within what it encloses", lambda: _check_parts(shape)),
-        ("look", "what is seen of it can be drawn", lambda: check_look("look", shape.look)),
-    ]
-    return properties(shape, [*component_rows(shape), *rows])
+    return properties(shape, _rows)
 
 
-def _check_length(shape: Shape) -> None:
+def _rows(shape: Shape) -> list[Row]:
+    return [*component_rows(shape), *rows(_SHAPE, lambda: [shape], 1)]
+
+
+@claim()
+def _length(shape: Shape) -> str:
+    """Its length is finite and not negative."""
     if not (math.isfinite(shape.length) and shape.length >= 0.0):
         raise Broken("it must be finite and not negative [m]", "length", shape.length)
+    return ""
 
 
-def _check_extent(shape: Shape) -> None:
+@claim()
+def _extent(shape: Shape) -> str:
+    """A ball of its extent holds a point as far away as its length."""
     if not shape.extent >= shape.length:
         raise Broken(f"it must not be below the length {shape.length:g} m", "extent", shape.extent)
+    return ""
 
 
-def _check_ceiling(shape: Shape) -> None:
+@claim()
+def _ceiling(shape: Shape) -> str:
+    """No point of its solid is above its ceiling."""
     if math.isnan(shape.ceiling):
         raise Broken("it must be a height [m], or infinite", "ceiling", shape.ceiling)
     if shape.solid is not None:
         top = float(shape.solid.support(np.array([0.0, 0.0, 1.0]))[2])
         if top > shape.ceiling + _ROUND_OFF * shape.length:
             raise Broken(f"a point of the solid is at the height {top:g} m", "ceiling", shape.ceiling)
+    return ""
 
 
-def _check_solid(shape: Shape) -> None:
+@claim()
+def _solid(shape: Shape) -> str:
+    """No point of its solid is farther along a direction than the support point.
+
+    All points are within its bounds and its extent, and its inner point lies inside.
+    """
     solid = shape.solid
     if solid is None:
-        return
-    directions = np.random.default_rng(0).normal(size=(_DIRECTIONS, 3))
-    points = np.array([solid.support(n) for n in directions])
-    if points.shape != directions.shape or not np.all(np.isfinite(points)):
+        return ""
+    points = np.array([solid.support(n) for n in _DIRECTIONS])
+    if points.shape != _DIRECTIONS.shape or not np.all(np.isfinite(points)):
         raise Broken("a point must be three finite numbers [m]", "support", points.tolist())
     none = _ROUND_OFF * (float(np.ptp(points)) + float(np.max(np.abs(points))))
-    reach = directions @ points.T
-    for i, n in enumerate(directions):
-        far = float(np.max(reach[i]) - reach[i, i])
-        if far > none * float(np.linalg.norm(n)):
+    reach = _DIRECTIONS @ points.T
+    for i, n in enumerate(_DIRECTIONS):
+        size = float(np.linalg.norm(n))
+        if float(np.max(reach[i]) - reach[i, i]) > none * size:
             raise Broken(f"another point is farther along {n.tolist()}", "support", points[i].tolist())
-        if abs(float(n @ solid.support(3.0 * n)) - reach[i, i]) > none * float(np.linalg.norm(n)):
+        if abs(float(n @ solid.support(3.0 * n)) - reach[i, i]) > none * size:
             raise Broken("it must not depend on the length of the direction", "direction", n.tolist())
-        if np.min((points[i] - solid.inner) @ n) < -none * float(np.linalg.norm(n)):
+        if np.min((points[i] - solid.inner) @ n) < -none * size:
             raise Broken("a point inside must not lie beyond it", "inner", solid.inner.tolist())
     low, high = solid.bounds
     if np.any(points < low - none) or np.any(points > high + none):
@@ -83,16 +90,51 @@ def _check_solid(shape: Shape) -> None:
     farthest = float(np.max(np.linalg.norm(points, axis=1)))
     if farthest > shape.extent + none + solid.set_back:
         raise Broken(f"a point of the solid is {farthest:g} m away", "extent", shape.extent)
+    return ""
 
 
-def _check_parts(shape: Shape) -> None:
-    """Look whether the convex parts lie within the solid, or as far beyond it as contacts may see its surface."""
+@claim()
+def _parts(shape: Shape) -> str:
+    """Its convex parts lie within its solid, or as far beyond it as contacts may see its surface."""
     solid = shape.solid
     for part in shape.parts:
         if solid is None or part.function or part.is_half_space:
             continue
-        for n in np.random.default_rng(0).normal(size=(_DIRECTIONS, 3)):
+        for n in _DIRECTIONS:
             size = float(np.linalg.norm(n))
             beyond = part.height(n) / size - float(n @ solid.support(n)) / size
             if not beyond <= _ROUND_OFF * (shape.extent + part.radius) + solid.set_back:
                 raise Broken(f"a part must not reach {beyond:.3g} m out of the solid along {n.tolist()}", "parts", part)
+    return ""
+
+
+@claim()
+def _look(shape: Shape) -> str:
+    """It can be drawn."""
+    require_look("look", shape.look)
+    return ""
+
+
+_SHAPE = [_length, _extent, _ceiling, _solid, _parts, _look]
+
+
+def require_look(name: str, look: Look) -> None:
+    """Raise Broken if a look cannot be drawn."""
+    if not isinstance(look, Look):
+        raise Broken("it must be a nonsmooth.interfaces.look.Look", name, look)
+    if np.ndim(look.vertices) != 2 or np.shape(look.vertices)[1] != 3 or not np.all(np.isfinite(look.vertices)):
+        raise Broken("its vertices must be finite numbers, three in a row [m]", name, look.vertices)
+    if look.sheet and len(look.vertices) != 1:
+        raise Broken("a sheet must have one vertex", name, len(look.vertices))
+    for part, lines, width in (("triangles", look.triangles, 3), ("lines", look.lines, 2)):
+        is_whole = np.issubdtype(np.asarray(lines).dtype, np.integer)
+        if np.ndim(lines) != 2 or np.shape(lines)[1] != width or not is_whole:
+            raise Broken(f"its {part} must be integers, {width} in a row", name, lines)
+        if np.any((lines < 0) | (lines >= len(look.vertices))):
+            raise Broken(f"its {part} must be numbers of its {len(look.vertices)} vertices", name, lines)
+
+
+def require_ends(ends: Vector) -> None:
+    """Raise Broken if the place of a load or a joint cannot be drawn."""
+    if np.shape(ends) != (2, 3) or not np.all(np.isfinite(ends)):
+        raise Broken("it must be two points, shape [2, 3] [m]", "ends", ends)

@@ -32,7 +32,7 @@ from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.system.pairing import nearest_pair
-from nonsmooth.testing.rig import Rig
+from nonsmooth.testing.puck import ContactRig
 from tests.benchmarks.mesh_pairs import MESHES
 from tests.benchmarks.round_pairs import ROUND_PAIRS
 from tests.benchmarks.swept_pairs import SWEPT
@@ -196,7 +196,7 @@ def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[ContactKinematics, ...]:
 def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float], tuple[float, ...] | None]:
     """Return errors of gap, normal and witness; rate, its error, acceleration, its error, if the motion is smooth."""
     contact = kinematics_of(found.shapes)[found.contact]
-    rig = Rig(contact, found.shapes)
+    rig = ContactRig(contact, found.shapes)
     u = np.concatenate([rng.normal(size=3) * size for size in (_SPEED, _SPIN, _SPEED, _SPIN)])
     rig.put(found.poses, u)
     block, rate, acceleration = rig.geometry, float(rig.rate[0]), float(rig.bias[0])

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from nonsmooth import simulate
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
+from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.layout import BOOKED
 from scenarios.dumbbell import DumbbellScenario
 

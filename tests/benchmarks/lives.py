@@ -1,8 +1,8 @@
 """Random systems with poison, and in turns: ``python -m tests.benchmarks.lives poison|poison_false|turns FIRST COUNT``.
 
-A run must not change a bit if numbers whose life has ended are unusable (:mod:`nonsmooth.testing.poison`), nor if other
-runs take steps in the same memory (:mod:`nonsmooth.testing.turns`). Each run has a process of its own, which an index
-that is poison may end.
+A run must not change a bit if numbers whose life has ended are unusable, nor if other runs take
+steps in the same memory (:mod:`tests.engine.life_engines`). Each run has a process of its own, which an index that is
+poison may end.
 """
 
 from __future__ import annotations
@@ -17,9 +17,8 @@ import numpy as np
 
 import nonsmooth as ns
 from nonsmooth.interfaces import Engine
-from nonsmooth.testing.poison import Poisoned
-from nonsmooth.testing.turns import Turns
 from tests.benchmarks.random_systems.generate import case_of
+from tests.engine.life_engines import Poisoned, Turns
 
 ENGINES: dict[str, Callable[[], Engine]] = {
     "poison": Poisoned,

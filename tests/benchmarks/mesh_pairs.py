@@ -19,7 +19,7 @@ from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
 from bodies.shapes.smooth import extent
 from nonsmooth.interfaces import Shape
-from nonsmooth.testing.rig import Rig
+from nonsmooth.testing.puck import ContactRig
 from tests.benchmarks.swept_pairs import capsule, rounded_box, rounded_hull
 from tests.bodies.meshes.parts import bracket
 from tests.bodies.rounds import PosedRound, tangent, touch_round
@@ -204,7 +204,7 @@ def _with_frustum(name: str, part: str, other: str) -> Callable[[float, Generato
         # which half of a rim it is, only the contacts know
         for contact, one in enumerate(FrustumMesh.between(*shapes)):
             if _are_of(one.features, part, f"{other if other != 'vertex' else 'corner'} {number}"):
-                rig = Rig(one, shapes)
+                rig = ContactRig(one, shapes)
                 rig.put(posed.poses, np.zeros(12))
                 if posed.found_in(rig.geometry[None]):
                     return shapes, posed.poses, gap, posed.normal, np.array(posed.witness), contact

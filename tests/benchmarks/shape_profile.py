@@ -35,7 +35,7 @@ from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.loop import EngineLoop
+from nonsmooth.runs.loop import Callbacks, EngineLoop
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from scenarios.dice_throw import DiceThrow
@@ -78,7 +78,7 @@ def _timed(inner: int, account: np.ndarray) -> int:
     """Return the address of a function that calls the pair at another and adds cycles and calls to an account."""
     scope: dict[str, Any] = {"clock": intrinsic(_clock), "call_pair": call_pair, "add": intrinsic(_add)}
     exec(_SHIM.format(inner=inner, account=account.ctypes.data), scope)
-    return address_of(scope["shim"], "pair", "")
+    return address_of(lambda: scope["shim"], "pair", "")
 
 
 def _nothing(a: Any, b: Any, out: Any) -> None:
@@ -102,7 +102,7 @@ def _cycles_per_second() -> float:
     account = np.zeros(2, np.int64)
     scope: dict[str, Any] = {"clock": intrinsic(_clock), "add": intrinsic(_add)}
     exec(f"def shim(a, b, p, out): add({account.ctypes.data}, clock())", scope)
-    read = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address_of(scope["shim"], "pair", ""))
+    read = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address_of(lambda: scope["shim"], "pair", ""))
     read(None, None, None, None)
     began, first = time.perf_counter(), int(account[0])
     time.sleep(0.1)
@@ -176,7 +176,9 @@ def profile(build: Callable[[], ns.System], t_end: float, engine: Engine | None 
         model.memory[owners.Request.t_end], model.memory[owners.Request.sample_interval] = t_end, t_end / 10.0
         kept = _instrument(model, accounts, searches) if instrumented else None
         began = time.perf_counter()
-        EngineLoop(integrator, model, Records(model), Checkpoint.of(model.memory), OutputSink()).run()
+        EngineLoop(
+            integrator, model, Records(model), Checkpoint.of(model.memory), OutputSink(), Callbacks(None, None)
+        ).run()
         wall = time.perf_counter() - began
         del kept
         return wall, searches, accounts

@@ -161,7 +161,7 @@ ONE_OF_A_KIND = {
     "engines": "event_driven",
     "guards": "tilt_guard",
     "joints": "ball_joint",
-    "kinematics": "plane_vertex",
+    "kinematics": "ground-point",
     "laws": "stribeck",
     "loads": "function_load",
     "motions": "table",
@@ -204,7 +204,7 @@ def test_an_example_takes_parameters(call: Call) -> None:
         (("coulomb", "--set", "frction=0.2"), "Did you mean 'friction'"),
         (("coulomb", "--set", "friction=-1"), "must be >= 0"),
         (("rigid_body", "--set", "mass=-1"), "RigidBody.mass must be > 0"),
-        (("plane_sphere", "--set", "radius_b=1"), "must be left out"),
+        (("ground-sphere", "--set", "radius_b=1"), "must be left out"),
     ],
 )
 def test_wrong_requests(call: Call, words: tuple[str, ...], told: str) -> None:

@@ -71,7 +71,7 @@ def test_the_readme_begins_with_what_its_tests_need(call: Call, tmp_path: Path) 
     assert call("new", "plugin", "wet_sand", "--dir", str(tmp_path))[0] == 0
     commands = [line.strip() for line in (tmp_path / "README.md").read_text().splitlines() if line.startswith("    ")]
     assert commands[:2] == ["python -m pip install -e '.[test]'", "python -m pytest"]
-    assert 'test = ["pytest>=8"]' in (tmp_path / "pyproject.toml").read_text()
+    assert 'test = ["pytest>=8", "nonsmooth[testing]"]' in (tmp_path / "pyproject.toml").read_text()
 
 
 def test_a_folder_that_cannot_be_made_is_a_wrong_request(call: Call, tmp_path: Path) -> None:

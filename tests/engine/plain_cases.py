@@ -51,8 +51,8 @@ from laws import (
     Unilateral,
 )
 from nonsmooth import engine
-from nonsmooth.engine.memory.modes import POLICIES
 from nonsmooth.engine.memory.solvers import SOLVERS
+from nonsmooth.engines.event_driven import PainlevePolicy
 from tests.bodies.meshes.parts import hills
 from tests.engine.test_inelastic import impact, wedged
 from tests.laws.test_stiff_slips import rod
@@ -410,7 +410,7 @@ CASES: dict[str, Callable[[], Numbers]] = {
     "bristle": lambda: _dumbbell(_soft(Bristle(0.2, 0.25)), 1),
     "anisotropic": lambda: _dumbbell(_rigid(friction=Anisotropic(0.2, 0.3)), 1),
     "rate and state": lambda: _dumbbell(_rigid(friction=RateAndState(0.2, 0.01, 0.02, 1e-3, 1e-4)), 1),
-    **{f"no force, {policy}": lambda policy=policy: _jam(policy, 1.001) for policy in POLICIES},  # type: ignore[misc]
+    **{f"no force, {policy}": lambda policy=policy: _jam(policy, 1.001) for policy in PainlevePolicy},  # type: ignore[misc]
     "into the singularity": lambda: _jam("impact", 0.999),
     "axis along the normal": lambda: _dumbbell(_rigid(friction=Anisotropic(0.2, 0.3, (0.0, 0.0, 1.0), "first")), 0.5),
     "tower": lambda: _tower(2),

@@ -157,7 +157,7 @@ def test_all_who_read_a_number_by_its_name_read_the_same(name: str) -> None:
     call_entry(step(Seen)(function), memory)
     assert dict(zip(texts, memory[Seen.numbers].tolist(), strict=False)) == dict(zip(texts, expected, strict=True))
     memory[Seen.numbers] = 0.0
-    workspace = plain.Workspace(memory)
+    workspace = plain.PlainWorkspace(memory)
     function(workspace)
     workspace.write_back(memory)
     assert memory[Seen.numbers][: len(read)].tolist() == expected
@@ -175,7 +175,7 @@ def test_a_number_is_written_where_it_is_read(name: str) -> None:
     function = _step(f"write_{name}", [f"{text} = {i}.5" for i, (text, *_) in enumerate(written)])
     memory, other = _memory(), _memory()
     call_entry(step(Seen)(function), memory)
-    workspace = plain.Workspace(other)
+    workspace = plain.PlainWorkspace(other)
     function(workspace)
     workspace.write_back(other)
     for heap in ("scalars", "floats", "integers"):

@@ -17,8 +17,8 @@ from laws import Coulomb, EnergeticImpact, HuntCrossley, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Life, declarations
 from nonsmooth.engine.memory.tables import OWNERS
-from nonsmooth.testing.poison import poison
 from tests.benchmarks.lives import ENGINES, compared, digest
+from tests.engine.life_engines import poison
 
 RIGID = ns.ContactLaws(Unilateral(), Coulomb(0.3), EnergeticImpact(0.7))
 

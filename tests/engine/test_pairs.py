@@ -109,7 +109,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let no contact be seen."""
     known = registry.load_all
 
-    def load_all(group: str) -> dict[str, Any]:
+    def load_all(group: str, some: object = None) -> dict[str, Any]:
         return {"blind": Blind} if group == "kinematics" else known(group)
 
     monkeypatch.setattr(registry, "load_all", load_all)

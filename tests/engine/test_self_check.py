@@ -213,7 +213,7 @@ def test_springs_hand_over_to_the_next_feature_though_the_first_seems_to_lift_of
     """Its gap jumps from an overlap to a number above zero, on one side or the other of its end by round-off."""
     system = _over(Handing(jump, x=place), RADIUS, 9.81, SPRING)
     following = Handing(0.0, x=0.999 * place, onto=1.0)
-    system._contacts.append(dataclasses.replace(system.contacts[0], kinematics=following))
+    system.add_contact(dataclasses.replace(system.contacts[0], kinematics=following, name=""))
     solution = ns.simulate(system, 1.1 * place)
     assert solution.status == "done"
     causes = solution.events.causes()

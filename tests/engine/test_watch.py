@@ -20,7 +20,7 @@ from nonsmooth import watch
 from nonsmooth.engine.native.kernel import PLAIN
 
 RADIUS = 0.01
-_half = importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else 'address_calls'}")
+_half = importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else 'machine_code'}")
 
 
 @pytest.fixture(autouse=True)

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import nonsmooth as ns
-from nonsmooth.files.text import text_of
+from nonsmooth.files.formats import text_of
 
 _words = st.text(st.characters(codec="utf-8", exclude_characters="\x00"), max_size=8)
 _scalars = st.booleans() | st.integers(-(2**63), 2**63 - 1) | st.floats() | _words

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from laws import MoreauImpact, PoissonImpact
 from laws.impact.cone import cone_deviation
 from nonsmooth.interfaces import ImpactMap
-from nonsmooth.testing.callers import compiled_map
+from nonsmooth.testing.functions import compiled_map
 
 Array = NDArray[np.float64]
 

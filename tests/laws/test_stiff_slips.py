@@ -11,18 +11,18 @@ from scipy.optimize import brentq
 
 import nonsmooth as ns
 from laws import Coulomb, EnergeticImpact
-from nonsmooth.testing.draws import Case
-from nonsmooth.testing.reference import Problem, problem, problem_space
+from nonsmooth.testing.reference import ImpactProblem, problem_of
 
 _SEEDS = st.integers(0, 10**6)
 
 
-def _random(seed: int, contacts: int) -> tuple[Problem, float]:
+def _random(seed: int, contacts: int) -> tuple[ImpactProblem, float]:
     """Return a body with leaning contacts on long arms, half of its numbers zero, and a coefficient up to 2."""
     random = np.random.default_rng(seed)
-    case: Case = {v.name: random.uniform(v.low, v.high) * random.integers(2) for v in problem_space(contacts)}
+    drawn = problem_of(contacts)
+    case = {v.name: float(random.uniform(v.low, v.high) * random.integers(2)) for v in drawn.numbers}
     case["velocity_z"] -= 0.1
-    return problem(case, contacts), float(random.uniform(0.1, 2.0))
+    return drawn.made(case), float(random.uniform(0.1, 2.0))
 
 
 @settings(max_examples=60)

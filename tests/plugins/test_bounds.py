@@ -64,11 +64,8 @@ def _joint() -> ns.System:
 def _pair() -> ns.System:
     bodies = body_dummies.Ball(), body_dummies.Ball()
     system, kinematics = ns.System(bodies), pair_dummies.Pair(pair_dummies.BEYOND)
-    shapes, sizes = (pair_dummies.FIRST, pair_dummies.SECOND), (0.5, 0.5)
-    # not by System.contact, which looks for kinematics among those installed
-    system._contacts.append(
-        Contact("the contact", *bodies, (0, 0), shapes, kinematics, sizes, sizes, friction=Coulomb(0.2), **RIGID)
-    )
+    shapes, laws = (pair_dummies.FIRST, pair_dummies.SECOND), ns.ContactLaws(friction=Coulomb(0.2), **RIGID)
+    system.add_contact(Contact.of_shapes(bodies, shapes, kinematics, laws, name="the contact"))
     return system
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.metadata
+import re
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -135,3 +136,10 @@ def test_a_group_that_nobody_reads_is_told(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.syspath_prepend(str(tmp_path))
     with pytest.warns(registry.BrokenPlugin, match=r"'nonsmooth.law' of slip 1.0 \(wax:Wax\) is unknown. Did you mean"):
         registry.check_groups()
+
+
+def test_kinematics_are_named_by_their_shapes() -> None:
+    """A name with a hyphen tells for which shapes the class is imported; a wrong one would hide it."""
+    for name, kinematics in registry.load_all("kinematics").items():
+        words = [re.sub(r"(?<!^)(?=[A-Z])", "_", shape.__name__).lower() for shape in kinematics.pair]
+        assert name == "-".join(words)

@@ -117,11 +117,10 @@ def _approaching(function: Callable[..., None], second: Shape | None = None, sta
     system.place(two, position=(start, 0.0, 0.0), velocity=(-1.0, 0.0, 0.0))
     search = CandidateSearch(function, {}, COUNTS)
     shapes = Sphere(0.2, x=0.1), second or Sphere(0.3, y=-0.05)
-    sizes = (0.3, math.inf if second else 0.35)
-    # not by System.contact, which looks for kinematics among those installed
-    system._contacts += [
-        Contact(f"pair {i}", one, two, (0, 0), shapes, Near(search, i), sizes, sizes, **LAWS) for i in range(2)
-    ]
+    for i in range(2):
+        system.add_contact(
+            Contact.of_shapes((one, two), shapes, Near(search, i), ns.ContactLaws(**LAWS), name=f"pair {i}")
+        )
     return system
 
 

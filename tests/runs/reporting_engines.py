@@ -10,7 +10,7 @@ from nonsmooth.engine.memory import modes
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.memory.owners import Contact, Island, Model, Output, Request, Tolerance, Totals
-from nonsmooth.interfaces import Cause, Measure
+from nonsmooth.interfaces import EndCause, Measure
 from nonsmooth.parameters import parameter
 from nonsmooth.steps import Life, Part, real
 from tests.runs.faulty_engines import Blind
@@ -94,10 +94,10 @@ class Judged(Blind):
         return (Measure("fastest_fall", "m/s", "largest speed downwards at the end of a step"),)
 
     @property
-    def causes(self) -> tuple[Cause, ...]:
+    def causes(self) -> tuple[EndCause, ...]:
         return (
-            Cause(TOO_FAST, "too_fast", "the body falls too fast", "Take a parachute."),
-            Cause(SLOW, "fast_enough", "the body falls fast enough", is_failure=False),
+            EndCause(TOO_FAST, "too_fast", "the body falls too fast", "Take a parachute."),
+            EndCause(SLOW, "fast_enough", "the body falls fast enough", is_failure=False),
         )
 
     @property

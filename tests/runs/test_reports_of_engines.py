@@ -15,7 +15,7 @@ from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import plot
 from nonsmooth.cli.telling import report
-from nonsmooth.interfaces import Cause, Engine, Measure
+from nonsmooth.interfaces import EndCause, Engine, Measure
 from nonsmooth.solution import modes
 from tests.runs.faulty_engines import Blind
 from tests.runs.reporting_engines import IMPULSE, Judged, Resting
@@ -174,14 +174,14 @@ class NoScalar(Judged):
 
 class TakenCode(Judged):
     @property
-    def causes(self) -> tuple[Cause, ...]:
-        return (Cause(99, "early", "nothing"),)
+    def causes(self) -> tuple[EndCause, ...]:
+        return (EndCause(99, "early", "nothing"),)
 
 
 class OneCode(Judged):
     @property
-    def causes(self) -> tuple[Cause, ...]:
-        return (Cause(100, "one", "nothing"), Cause(100, "two", "nothing"))
+    def causes(self) -> tuple[EndCause, ...]:
+        return (EndCause(100, "one", "nothing"), EndCause(100, "two", "nothing"))
 
 
 class Boastful(Judged):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,10 +12,11 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, Box, Coordinate, Dumbbell, GeneralisedBody, Harmonic, Plate, PointFrame, Sphere
+from bodies import Ball, Box, Coordinate, Dumbbell, GeneralisedBody, Harmonic, PlaneSphere, Plate, PointFrame, Sphere
 from laws import Coulomb, EnergeticImpact, Frictionless, NewtonImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.parameters import parameter
+from nonsmooth.system.contact import Contact
 
 
 def _raises(words: tuple[str, ...], action: Callable[[], Any]) -> None:
@@ -128,6 +130,55 @@ def test_impact_laws_must_be_of_one_kind(build: Any) -> None:
     )
     system.contact(plate, other, **build.laws(restitution=0.9))
     assert len(system.contacts) == 2
+
+
+def _given(plate: Plate, ball: Ball, **changes: Any) -> Contact:
+    """Return a contact of a plate and a ball with given kinematics."""
+    shapes = plate.frames[0][0], ball.frames[0][0]
+    laws = ns.ContactLaws(Unilateral(), Coulomb(0.2), EnergeticImpact(0.5))
+    made = Contact.of_shapes((plate, ball), shapes, PlaneSphere.between(*shapes)[0], laws)
+    return dataclasses.replace(made, **changes)
+
+
+def test_a_contact_with_given_kinematics_is_that_of_installed_ones(build: Any) -> None:
+    """The same motion, to the last bit; it is no contact of contact_all, no file can hold it, and it has its laws."""
+    ends = []
+    for is_given in (False, True):
+        plate, ball = Plate(), Ball(0.01)
+        system = ns.System([plate, ball])
+        system.place(ball, position=(0.0, 0.0, 0.05), velocity=(0.1, 0.0, 0.0))
+        if is_given:
+            added = system.add_contact(_given(plate, ball))
+            assert system.contacts == system.given_contacts == (added,)
+            assert system.contact_all(ns.ContactLaws(Unilateral(), Coulomb(0.2), EnergeticImpact(0.5))) == ()
+        else:
+            (added,) = system.contact(plate, ball, **build.laws())
+        assert added.name == "plate - ball"
+        ends.append(ns.simulate(system, 0.5).q_end.tolist())
+    assert ends[0] == ends[1]
+    _raises(("save_system", "System.add_contact"), lambda: ns.save_system(system, "system.toml", t_end=1.0))
+    assert system.without_contacts().given_contacts == ()
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"first": Plate()}, "needs a body of this system"),
+        ({"frames": (0, 1)}, "must be below 1 for ball"),
+        ({"kinematics": "a plane and a sphere"}, "System.add_contact: kinematics"),
+        ({"normal": Coulomb(0.2)}, "normal"),
+        ({"impact": None}, "impact"),
+        ({"name": "plate - ball"}, "must not have any of"),
+    ],
+)
+def test_contacts_that_cannot_be_added(changes: dict[str, Any], told: str) -> None:
+    """Bodies, frames, kinematics, laws and names are checked, and nothing is added."""
+    plate, ball = Plate(), Ball(0.01)
+    system = ns.System([plate, ball])
+    _raises((told,), lambda: system.add_contact(_given(plate, ball, **changes)))
+    _raises(("System.add_contact", "Contact"), lambda: system.add_contact("a contact"))  # type: ignore[arg-type]
+    _raises(("two different bodies",), lambda: system.add_contact(_given(plate, ball, second=plate)))
+    assert system.contacts == ()
 
 
 def test_a_dumbbell_has_two_contacts_whatever_the_order(build: Any) -> None:

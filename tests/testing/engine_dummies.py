@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from nonsmooth.engine.events.record import CODE_HEAD
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.event_rows import CODE_HEAD
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
@@ -23,7 +23,7 @@ def _none(memory: Memory, call: int) -> None:
 
 def _push(memory: Memory, call: int) -> None:
     if memory[owners.Island.time] == 0.0 and memory[owners.Model.n_bodies] == 1:
-        memory[owners.Island.y][3] += 0.1
+        memory[owners.Island.y][7] += 0.1  # the velocity, behind position and quaternion
 
 
 def _late(memory: Memory, call: int) -> None:

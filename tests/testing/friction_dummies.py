@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -29,6 +30,10 @@ def endless(speed: float, level: float) -> float:
     while speed > 10.0:
         level = level * 1.0
     return level
+
+
+def crashing(speed: float, level: float) -> float:
+    os._exit(3)
 
 
 def nan(speed: float, level: float) -> float:

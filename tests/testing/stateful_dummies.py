@@ -57,6 +57,16 @@ def cooling(speed: float, state: Floats, out: Floats) -> None:
     out[0] = -1.0 - state[0] * speed
 
 
+def wrapping(speed: float, state: Floats, out: Floats) -> None:
+    """Count with an integer that stays below 2^64 in compiled code only."""
+    number, part = 3, 0.5
+    for _ in range(62):
+        number = number * 3
+    while number < 2.0**64 and part > 0.0:
+        part = 3.7 * part * (1.0 - part)
+    out[0] = -state[0] * (part + 0.5)
+
+
 @dataclass(frozen=True)
 class Warm(StatefulFrictionLaw):
     """A law put together from a coefficient, rates, and where they start."""

@@ -114,8 +114,7 @@ from nonsmooth.testing import (
     check_shape,
     check_traction_law,
 )
-from nonsmooth.testing.make import make
-from nonsmooth.testing.registered import check_class
+from nonsmooth.testing.registered import check_class, make
 from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
 from tests.bodies.meshes import parts

@@ -16,6 +16,7 @@ from nonsmooth.testing import (
     check_normal_law,
     check_traction_law,
 )
+from nonsmooth.testing.child import stop_child
 from tests.testing import (
     anisotropic_dummies,
     compliant_dummies,
@@ -133,6 +134,14 @@ def test_message_names_all() -> None:
     for word in ("Friction", "'not negative'", "level = 0.3", "Smallest failing input: slip_speed = "):
         assert word in str(failure)
     assert isinstance(failure, AssertionError)
+
+
+@_compiled
+def test_a_property_alone_has_its_own_time() -> None:
+    """A property that is called first compiles and loads the engine before its first trial, for more than a second."""
+    (prop,) = (p for p in check_friction_law(friction_dummies.Friction()) if p.name == "sustained contact")
+    stop_child()
+    prop()
 
 
 @pytest.mark.slow

@@ -15,17 +15,17 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, FreeBody, Plate, Sphere
 from bodies.values import read_start
-from nonsmooth.errors import PluginError
+from laws import Unilateral
+from nonsmooth.errors import MissingPackagesError, PluginError
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
-from nonsmooth.testing import check_body, check_friction_law, check_normal_law, check_scenario
-from nonsmooth.testing.draws import Variable, shrink
-from nonsmooth.testing.examine import examine
-from nonsmooth.testing.make import make
-from nonsmooth.testing.property import Broken as Fault
-from nonsmooth.testing.registered import check_class
-from tests.testing import compliant_dummies, friction_dummies, scenario_dummies
+from nonsmooth.testing import check_body, check_friction_law, check_normal_law, check_scenario, inputs
+from nonsmooth.testing.claims import claim
+from nonsmooth.testing.inputs import number, simplified
+from nonsmooth.testing.outcome import Broken as Fault
+from nonsmooth.testing.registered import check_class, make
+from tests.testing import compliant_dummies, friction_dummies, scenario_dummies, stateful_dummies
 from tests.testing.caught import failures
 
 _HERE = Path(__file__)
@@ -238,13 +238,44 @@ def test_the_smallest_input_has_a_size_that_means_something() -> None:
     """A fault that is there at any speed is not told at 1e-46 m/s."""
     failure = failures(check_body(Upwards()))["energy in free flight"]
     assert 1e-4 < abs(failure.case["u1"]) < 1e-2
-    variable = Variable("x", -1.0, 1.0)
-    assert shrink({"x": 0.7}, [variable], lambda case: case["x"] != 0.0)["x"] == pytest.approx(2e-3, rel=0.5)
-    assert shrink({"x": 0.7}, [variable], lambda case: True) == {"x": 0.0}
+    drawn = [number("x", -1.0, 1.0)]
+    assert simplified(drawn, {"x": 0.7}, lambda case: case["x"] != 0.0, 20)["x"] == pytest.approx(1e-3, rel=1e-9)
+    assert simplified(drawn, {"x": 0.7}, lambda case: True, 20) == {"x": 0.0}
+
+
+def test_a_compiled_function_that_does_not_come_back_is_named() -> None:
+    """Integers of compiled code wrap round, so that a loop ends in plain Python and not compiled."""
+    law = stateful_dummies.Warm(change=stateful_dummies.wrapping)
+    found = failures(check_friction_law(law))
+    assert list(found) == ["compiled equals plain"]
+    message = str(found["compiled equals plain"])
+    assert "compiled, Warm.rates(0, [0.0]) takes longer than 1 s in wrapping in " in message
+    assert _line("def wrapping(", Path(stateful_dummies.__file__)) in message
+
+
+def test_a_process_that_crashes_is_named() -> None:
+    """The property that ended it, and how; the others are not checked, and the next component is."""
+    law = friction_dummies.Friction(function=friction_dummies.crashing)
+    found = failures(check_friction_law(law))
+    assert list(found) == ["time budget"]
+    assert "the process that checks it ends with status" in str(found["time budget"])
+    assert failures(check_normal_law(Unilateral())) == {}
+
+
+def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(inputs, "_PACKAGES", ("hypothesis", "no_such_package"))
+    with pytest.raises(MissingPackagesError, match=r'no_such_package: pip install "nonsmooth\[testing\]"'):
+        check_normal_law(Unilateral())
 
 
 def test_a_fault_that_comes_and_goes_is_said_to_be_random() -> None:
     """One that was there once is told as it was."""
     told = iter(["it is 3 N"])
+
+    @claim(number("x", 0.0, 1.0))
+    def _force(component: Ball, x: float) -> str:
+        """It is no force."""
+        return next(told, "")
+
     with pytest.raises(Fault, match="it is 3 N; tried again, it holds: something is random"):
-        examine("a name", [Ball(0.1)], [Variable("x", 0.0, 1.0)], lambda component, case: next(told, ""), 1)
+        _force.examine([Ball(0.1)], 1)

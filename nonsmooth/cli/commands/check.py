@@ -20,7 +20,7 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command = commands.add_parser(
         "check",
-        help="look whether a component has the properties that it must have",
+        help="check that a component has the properties that it must have",
         allow_abbrev=False,
     )
     command.add_argument("name", metavar="NAME", help="a name or class of `nonsmooth list`, or FILE.py:CLASS")
@@ -36,7 +36,7 @@ def add_to(commands: Any) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> bool:
-    """Look at everything of that name; tell whether all properties hold that could be looked at."""
+    """Check everything of that name; return whether all properties hold that could be checked."""
     with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints: standard output is for the result
         found = _look(arguments.name, request.assignments(arguments.set))
     failed = any(row["outcome"] == _FAILS for part in found for row in part["properties"])
@@ -67,7 +67,8 @@ def _part(owner: Any, name: str, kind: str, source: str, words: dict[str, str]) 
 
 
 def _row(prop: Any) -> dict[str, Any]:
-    from nonsmooth.testing.property import Departs, NotChecked, PropertyFailed
+    from nonsmooth.testing.outcome import NotChecked
+    from nonsmooth.testing.property import Departs, PropertyFailed
 
     row = {"property": prop.name, "says": prop.says, "outcome": _HOLDS, "message": ""}
     try:
@@ -91,7 +92,7 @@ def _as_text(part: dict[str, Any]) -> str:
     rows = part["properties"]
     table = lines([(row["outcome"], row["property"], row["says"]) for row in rows])
     told = [row["message"] for outcome in (_OPEN, _DEPARTS, _FAILS) for row in rows if row["outcome"] == outcome]
-    # what is not looked at for one reason says so once
+    # properties that are not checked for the same reason are told once
     notes = [f"  {message}" for message in dict.fromkeys(told)]
     counts = ", ".join(f"{sum(row['outcome'] == o for row in rows)} {w}" for o, w in _WORDS.items())
     title = f"{part['name']}: {part['kind']} of {part['source']}"

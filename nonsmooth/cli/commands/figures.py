@@ -14,7 +14,7 @@ from nonsmooth.cli.telling.messages import complain, say
 from nonsmooth.plugins import registry
 from nonsmooth.progress import Pace, TimeReached, on_standard_error
 from nonsmooth.results.output import Output
-from nonsmooth.run_scenario import run_scenario
+from nonsmooth.runs.simulate import run_scenario
 
 
 def add_to(commands: Any) -> None:

@@ -16,7 +16,7 @@ from nonsmooth.cli.telling.messages import say
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.resuming import check_resumable
-from nonsmooth.simulate import assemble
+from nonsmooth.runs.simulate import assemble
 from nonsmooth.solution.solution import Solution
 
 

@@ -16,7 +16,7 @@ from nonsmooth.cli.telling import report
 from nonsmooth.cli.telling.messages import say
 from nonsmooth.results.output import Output
 from nonsmooth.results.overwriting import check_free
-from nonsmooth.simulate import assemble
+from nonsmooth.runs.simulate import assemble
 from nonsmooth.solution.solution import Solution
 
 

@@ -17,7 +17,7 @@ from nonsmooth.plugins import file, registry
 from nonsmooth.results.opening import open_solution, stored_setup
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.simulate import assemble
+from nonsmooth.runs.simulate import assemble
 from nonsmooth.solution.solution import Solution
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.cli.telling.table import lines
-from nonsmooth.engine.memory.limits import LIMITS, Limit
+from nonsmooth.engine.memory.modes import LIMITS, Limit
 from nonsmooth.solution.checks import contacts_without_body_check, friction_gain, impulses_beyond_cone
 from nonsmooth.solution.modes import are_recorded, mode_shares
 from nonsmooth.solution.solution import Solution

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.kinematics import side_wrench, velocity_of_point
+from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.native.kernel import (
     Articulation,
     Floats,
@@ -27,7 +28,7 @@ from nonsmooth.engine.native.kernel import (
     joint_row,
     kernel,
 )
-from nonsmooth.engine.numerics.linear import SINGULAR, product
+from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import Vector, dot, opposite
 
 

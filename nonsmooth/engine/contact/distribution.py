@@ -19,11 +19,11 @@ a large penalty on leaving the null space, and is projected on it.
 from __future__ import annotations
 
 from nonsmooth.engine.contact.unknowns import force_of, set_force
-from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SINGULAR
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.arrays import clear, copy_numbers, largest_size, subtract_part
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate, product
+from nonsmooth.engine.numerics.linear import band_row, eliminate, product
 from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
 from nonsmooth.engine.numerics.vectors import length
 

@@ -17,6 +17,7 @@ from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.arrays import clear
+from nonsmooth.engine.numerics.integers import power
 from nonsmooth.engine.numerics.vectors import unit
 
 _SWEEPS = 100
@@ -37,7 +38,7 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
     if ws.problem.n_active > MOST_ENUMERATED:
         return 0
     # stick, slide or open for each contact
-    for number in range(first, 3**ws.problem.n_active):
+    for number in range(first, power(3, ws.problem.n_active)):
         if interrupted(ws, ws.problem.n_active):
             return 0
         # a contact that slips cannot stick

@@ -23,13 +23,13 @@ import math
 from nonsmooth.engine.contact.unknowns import count_as_unique, list_unknowns, set_force
 from nonsmooth.engine.delassus.delassus import acceleration, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.layout import FIRST_ROW
+from nonsmooth.engine.memory.layout import FIRST_ROW, SINGULAR
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.arrays import clear, copy_numbers, subtract_part
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.least_norm import complete, minimum_norm, rank_of_semidefinite, transpose
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, eliminate, solve_three
+from nonsmooth.engine.numerics.linear import band_row, band_width, eliminate, solve_three
 from nonsmooth.engine.numerics.null_band import least_norm_in_band
 from nonsmooth.engine.numerics.vectors import length
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import gauss_seidel
 from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.numerics.integers import power
 
 STAGES = 3
 """Number of stages, with 20, 200 and 2000 sweeps."""
@@ -37,4 +38,4 @@ def search_by_sweeps(ws: Workspace, stage: int) -> bool:
     If False, the next stage may continue from these forces.
     """
     # each stage has ten times as many sweeps as the one before
-    return sweep(ws, SWEEPS * 10**stage)
+    return sweep(ws, SWEEPS * power(10, stage))

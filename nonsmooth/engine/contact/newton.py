@@ -21,12 +21,13 @@ from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import tangential_inverse_mass
 from nonsmooth.engine.delassus.delassus import acceleration, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SINGULAR
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.arrays import copy_numbers
 from nonsmooth.engine.numerics.band import open_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
+from nonsmooth.engine.numerics.integers import power
+from nonsmooth.engine.numerics.linear import band_row, eliminate
 from nonsmooth.engine.numerics.vectors import Pair, length
 
 STAGES = 4
@@ -51,7 +52,7 @@ _SETTLED = 1e-11
 def search_by_newton(ws: Workspace, stage: int) -> bool:
     """Improve the forces by the sweeps and the Newton steps of a stage, counted from 0. True if they have settled."""
     # each stage has ten times as many sweeps as the one before, and so a better start
-    sweep(ws, _SWEEPS * 10**stage)
+    sweep(ws, _SWEEPS * power(10, stage))
     return step_by_newton(ws, STEPS)
 
 

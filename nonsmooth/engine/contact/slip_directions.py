@@ -20,10 +20,11 @@ from nonsmooth.engine.contact.trial import find_tried_forces
 from nonsmooth.engine.contact.unknowns import list_unknowns, starts_to_slide
 from nonsmooth.engine.delassus.delassus import diagonal_block, slip_acceleration
 from nonsmooth.engine.memory.blocks import DELASSUS
+from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.numerics.arrays import copy_numbers
 from nonsmooth.engine.numerics.band import open_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width
+from nonsmooth.engine.numerics.linear import band_row, band_width
 from nonsmooth.engine.numerics.null_band import solve_shifted
 from nonsmooth.engine.numerics.vectors import length, unit
 

@@ -15,8 +15,8 @@ from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.mean_forces import averaging_time, has_no_stopping_slip, is_averaged
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
-from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
+from nonsmooth.engine.flow.self_check import account_for_mean_forces
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length

@@ -22,20 +22,23 @@ from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_touching
 from nonsmooth.engine.events.accumulation import set_provisional_mode, slow_speed
-from nonsmooth.engine.events.record import (
-    DRIVEN_WORK,
-    FRICTION_LOSS,
-    RESTITUTION_LOSS,
-    begin_event,
-    impact_code,
-    record_event,
-)
+from nonsmooth.engine.events.record import begin_event, impact_code, record_event
 from nonsmooth.engine.flow.self_check import ALLOWED
 from nonsmooth.engine.impact.end import how_over
 from nonsmooth.engine.impact.instant import jam_slips, map_impact
-from nonsmooth.engine.impact.integration import Outcome, energetic_impact
+from nonsmooth.engine.impact.integration import energetic_impact
 from nonsmooth.engine.impact.window import LARGE, windowed_impact
-from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Painleve, Status, Truncation
+from nonsmooth.engine.memory.event_rows import DRIVEN_WORK, FRICTION_LOSS, RESTITUTION_LOSS
+from nonsmooth.engine.memory.modes import (
+    NO_CONTACT,
+    NO_RELEASE,
+    Cause,
+    ImpactOutcome,
+    Mode,
+    Painleve,
+    Status,
+    Truncation,
+)
 from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -141,9 +144,9 @@ def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> 
         map_impact(ws)
         return Status.RUNNING
     outcome = windowed_impact(ws) if is_large else energetic_impact(ws, seed)
-    if outcome == Outcome.INVALID:
+    if outcome == ImpactOutcome.INVALID:
         return Status.NOT_FINITE
-    if outcome == Outcome.ENDLESS:
+    if outcome == ImpactOutcome.ENDLESS:
         # a large or interrupted impact that was cut short has no result
         ws.event.truncation = Truncation.NONE
         if not is_large and not ws.request.is_interrupted:

@@ -27,7 +27,7 @@ _VANISHED = 1e-9
 
 
 @result
-class Solution(IntEnum):
+class ContactSolution(IntEnum):
     """Outcome of the contact problem of an instant."""
 
     NONE = 0
@@ -120,8 +120,8 @@ def _share_a_bound(ws: Workspace, contact: Contact, which: int) -> bool:
     return contact.has_redundant_force and ws.contacts[which].has_redundant_force
 
 
-@kernel("Solution(ws, b1)")
-def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
+@kernel("ContactSolution(ws, b1)")
+def solve_islands(ws: Workspace, averaging_ends: bool) -> ContactSolution:
     """Find modes and forces of the grouped contacts, island by island: instantaneous, or averaged over time.
 
     ``averaging_ends`` is true at the end of a span of averaged forces, where instantaneous ones are tried again.
@@ -141,10 +141,10 @@ def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
         _use_guessed_modes(ws)
         write_contact_problem(ws)
         if not solve_contact(ws):
-            return Solution.NONE
+            return ContactSolution.NONE
         accelerate(ws)
         has_turned = _take_solution(ws) or has_turned
-    return Solution.FACING_TURNED if has_turned else Solution.FOUND
+    return ContactSolution.FACING_TURNED if has_turned else ContactSolution.FOUND
 
 
 @kernel()

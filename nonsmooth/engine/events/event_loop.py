@@ -16,18 +16,8 @@ from nonsmooth.engine.events.averaging import (
     end_averaging,
     is_stalled,
 )
-from nonsmooth.engine.events.causes import cause_at_start, cause_of
 from nonsmooth.engine.events.event_update import update_at_event
-from nonsmooth.engine.events.record import (
-    CODE_HEAD,
-    EVENT_HEAD,
-    LISTED,
-    MOST_EVENTS,
-    NO_PHASES,
-    begin_event,
-    record_event,
-    record_samples,
-)
+from nonsmooth.engine.events.record import NO_PHASES, begin_event, record_event, record_samples
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopped_contact
 from nonsmooth.engine.flow.arming import arm_guards, store_end, store_start
@@ -36,7 +26,15 @@ from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
-from nonsmooth.engine.flow.guard_numbers import contact_of, end_of, first_end_guard, first_user_guard, normal_of
+from nonsmooth.engine.flow.guard_numbers import (
+    contact_at,
+    contact_of,
+    end_of,
+    first_end_guard,
+    first_user_guard,
+    is_friction_guard,
+    normal_of,
+)
 from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
 from nonsmooth.engine.flow.location import first_crossing, locate
@@ -46,11 +44,53 @@ from nonsmooth.engine.flow.projection import normalise_quaternions, project_clos
 from nonsmooth.engine.flow.redundant_forces import can_choose_within, choose_forces_again
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE, check_end, check_gaps, close_energy_account
 from nonsmooth.engine.flow.step import try_step
+from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
-from nonsmooth.engine.memory.limits import Limit
-from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Status
-from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Limit, Mode, Status
+from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
+
+_VANISHED = 1e-9
+"""Normal force that counts as zero when a static bound is reached, relative to that at the start of the step."""
+
+
+@kernel("Cause(Contact)")
+def _cause_of_closing(contact: Contact) -> Cause:
+    """Cause of the event in which a contact closes: a rigid one collides, a compliant one only touches."""
+    return Cause.TOUCH if contact.is_compliant else Cause.IMPACT
+
+
+@kernel("Cause(ws, i8)")
+def cause_of(ws: Workspace, guard: int) -> Cause:
+    """Cause of the event in which guard ``guard``, a normal or friction guard, fires.
+
+    The static bound vanishes with the normal force. So friction that reaches the bound at zero force is a lift-off.
+    """
+    contact = contact_at(ws, guard)
+    # the normal guard is the gap of an open contact, and the force of a closed one
+    if not is_friction_guard(ws, guard):
+        return _cause_of_closing(contact) if contact.mode == Mode.OPEN else Cause.LIFT_OFF
+    if contact.mode != Mode.STICK:
+        return Cause.SLIP_TO_STICK
+    normal = normal_of(ws, contact)
+    return Cause.LIFT_OFF if normal.value <= _VANISHED * normal.initial else Cause.STICK_TO_SLIP
+
+
+@kernel("Cause(ws, i8)")
+def cause_at_start(ws: Workspace, which: int) -> Cause:
+    """Cause of an event of contact ``which`` at the start of a step: its gap is closed, or a guard is negative."""
+    contact = ws.contacts[which]
+    # of an open contact only the gap is a guard
+    if contact.mode == Mode.OPEN:
+        return _cause_of_closing(contact)
+    # at_end is the value at the end of the last step, which is the start of this one
+    # the contact point is past the end of an edge or a face
+    if end_of(ws, contact).at_end < 0.0:
+        return Cause.FEATURE_END
+    # else the force of a closed contact has the wrong sign, or exceeds the bound of friction
+    pulls = normal_of(ws, contact).at_end < 0.0
+    return Cause.LIFT_OFF if pulls else Cause.STICK_TO_SLIP
+
 
 _SPACINGS = 4.0 * 2.0**-52
 """Times closer than this part of the time are not told apart."""

@@ -10,29 +10,28 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.event_rows import (
+    AVERAGED,
+    CAUSE,
+    CLOSED_WITH,
+    CODE_HEAD,
+    CONTACT,
+    EVENT_HEAD,
+    FACING,
+    FEATURES,
+    IMPULSES,
+    LISTED,
+    N_LISTED,
+    PHASES,
+    SLIP_DIRECTION,
+    TIME,
+    TRUNCATED,
+)
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, NO_CONTACT, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
-"""Offsets of the floats at the head of an event: its time [s] and its energies [J]."""
-EVENT_HEAD = 5
-"""Number of floats at the head of an event.
-
-Coordinates follow, velocities before and after, the energy accounts and inner states, the totals of energies, and
-:data:`LISTED` floats of each contact that takes part.
-"""
-IMPULSES, SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES = 0, 3, 5, 6, 7, 8
-"""Offsets of the parts of a contact's floats in an event."""
-LISTED = FEATURES + CANDIDATE
-"""Number of floats of a contact in an event."""
-CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
-"""Offsets of the integers at the head of an event. An impact that was cut short is truncated."""
-CODE_HEAD = 5
-"""Number of integers at the head of an event. Number and code of each contact that takes part follow."""
-MOST_EVENTS = 204
-"""Most events that one instant may record: one for every attempt to settle it, and those before and after."""
 NO_PHASES = 0
 """Number of phases of an event that is no impact."""
 _CLOSED, _APPROACHES, _SLIPS = 1, 2, 4

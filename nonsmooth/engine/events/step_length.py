@@ -13,8 +13,7 @@ from nonsmooth.engine.flow.guard_numbers import normal_of
 from nonsmooth.engine.flow.location import NEGLIGIBLE
 from nonsmooth.engine.flow.self_check import ADJACENT
 from nonsmooth.engine.flow.step import relaxation_rate, try_length
-from nonsmooth.engine.memory.limits import Limit
-from nonsmooth.engine.memory.modes import Mode, Status
+from nonsmooth.engine.memory.modes import Limit, Mode, Status
 from nonsmooth.engine.memory.tableau import ORDER
 from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor

@@ -16,8 +16,8 @@ from nonsmooth.engine.contact.mean_forces import is_averaged, set_spans
 from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
-from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
+from nonsmooth.engine.flow.self_check import account_for_mean_forces
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.articulations import solve_factorised
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
-from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
+from nonsmooth.engine.bodies.compliance import write_wrench
+from nonsmooth.engine.bodies.equations import force_without_contacts
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.contact.trial import tangential_inverse_mass
 from nonsmooth.engine.delassus.delassus import assemble_delassus
@@ -22,10 +24,65 @@ from nonsmooth.engine.flow.guard_numbers import friction_of
 from nonsmooth.engine.flow.point_jump import jump_contact_points
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.step import relaxation_rate, try_length
+from nonsmooth.engine.memory.layout import FIRST_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import Articulation, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import length
+
+
+@kernel("void(ws, i8)")
+def _add_contact_forces(ws: Workspace, forces: int) -> None:
+    """Add the forces of the closed contacts to the generalised forces of all bodies at offset ``forces``.
+
+    ``FIRST_ROW`` of the Jacobians of the contacts and ``NORMAL_ROW`` of their responses are overwritten.
+    """
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
+        contact = ws.contacts[c]
+        write_wrench(ws, c, contact.force)
+        for side in range(2):
+            articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
+            # write_wrench has put the generalised forces there
+            row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + FIRST_ROW * articulation.n_u
+            for j in range(articulation.n_u):
+                ws.floats[forces + articulation.u + j] += ws.floats[row + j]
+
+
+@kernel("void(ws, Articulation, i8)")
+def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
+    """Write the multipliers mu of the joint rows of an articulation [N or N m], from the generalised forces F.
+
+    mu = -(A M^-1 A^T)^-1 (A M^-1 F + b), with the Jacobian A and the biases b of the rows. F of all bodies is at offset
+    ``forces``. The factor of the matrix and A M^-1, the response, must be evaluated.
+    """
+    n, m = articulation.n_u, articulation.n_rows
+    # the right-hand side of each row; the solution replaces it
+    for line in range(m):
+        row, bias = articulation.response + line * n, ws.floats[articulation.bias + line]
+        ws.floats[articulation.forces + line] = -product(ws.floats, bias, row, forces + articulation.u, n)
+    solve_factorised(ws.floats, articulation.factor, m, articulation.forces, stride=1)
+
+
+@kernel()
+def evaluate_joint_forces(ws: Workspace) -> None:
+    """Write the force of every row of the joints [N or N m], for the output. The contact forces must be evaluated.
+
+    A row that others imply gets no force. ``FIRST_ROW`` of the Jacobians of the contacts and ``NORMAL_ROW`` of their
+    responses are overwritten.
+    """
+    # no step is in progress, so its work array y_stage can hold the generalised forces of all bodies
+    forces = ws.step.y_stage.start
+    for body in ws.bodies:
+        without_contacts = force_without_contacts(ws, body)
+        for i in range(body.n_u):
+            ws.floats[forces + body.u + i] = without_contacts[i]
+    _add_contact_forces(ws, forces)
+    for articulation in ws.articulations:
+        if articulation.n_rows > 0:
+            _solve_rows(ws, articulation, forces)
+
 
 _ROUND_OFF = 1e-8
 """Excess of a force over its bound that is round-off, relative to the largest force."""

@@ -13,7 +13,6 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.equations import energies, inverse_mass
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_compliance, frame_at, kernel
@@ -275,3 +274,17 @@ def check_end(ws: Workspace) -> None:
     ws.run.energy_scale = scale_energy(ws)
     close_energy_account(ws)
     check_gaps(ws)
+
+
+@kernel()
+def account_for_mean_forces(ws: Workspace) -> None:
+    """Subtract the work of averaged normal forces since the last call from the closing loss [J].
+
+    ``mean_gap`` becomes the present gap [m], up to which the work is accounted for. The geometry must be evaluated. The
+    work of compliant forces is no loss.
+    """
+    for contact in ws.contacts:
+        if contact.is_averaged and not contact.is_compliant:
+            # a force that pushes while the gap opens gives energy, which is a negative loss
+            ws.totals.closing_loss -= contact.mean_force[0] * (contact.gap - contact.mean_gap)
+            contact.mean_gap = contact.gap

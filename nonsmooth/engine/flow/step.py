@@ -159,7 +159,7 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
     for _iteration in range(implicit_tableau.ITERATIONS):
         for i in range(n):
             ws.step.y_guess[i] = ws.floats[here + i]
-        _evaluate_implicit_slope(ws, ws.island.time + implicit_tableau.NODES[stage] * h, out, here)
+        _evaluate_implicit_slope(ws, ws.island.time + ws.coefficients.implicit_nodes[stage] * h, out, here)
         if ws.problem.is_unsettled:
             return False
         worst = _change_of_stage(ws, here, out)
@@ -264,7 +264,7 @@ def explicit_step(ws: Workspace, h: float) -> float:
         _write_stage(ws, h, stage, out)
         slopes = ws.island.slopes.start + stage * ws.model.n_y
         # the last stage is at the end of the step, so its slope is the first one of the next step
-        slope(ws, ws.island.time + tableau.NODES[stage] * h, out, slopes, may_choose=False, of_all_bodies=False)
+        slope(ws, ws.island.time + ws.coefficients.nodes[stage] * h, out, slopes, may_choose=False, of_all_bodies=False)
         store_spin_slope(ws, stage, out)
     _write_errors(ws, h)
     return max(_relative_error(ws), _error_of_second_stage(ws, h))

@@ -17,9 +17,9 @@ from nonsmooth.engine.impact.rates import evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.impact.state import NOISE, is_loaded, is_lone, least_efficiency, state_of
 from nonsmooth.engine.memory.blocks import DELASSUS
+from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.memory.modes import Phase, Truncation
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
-from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.engine.numerics.vectors import Pair, length
 
 _LOCKED = 0.1

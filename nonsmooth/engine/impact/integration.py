@@ -17,7 +17,6 @@ does not find which of two contacts turns first, which decides how the energy is
 from __future__ import annotations
 
 import math
-from enum import IntEnum
 from typing import NamedTuple
 
 from nonsmooth.engine.impact.clock import Aim, aim_at_event, change_clock, has_arrived
@@ -32,7 +31,7 @@ from nonsmooth.engine.impact.state import NOISE, state_size
 from nonsmooth.engine.impact.step import reset_attempt, try_impact_step, try_linear_step
 from nonsmooth.engine.impact.step_length import first_step, graded_step, lone_step, rejection_factor, step_after_switch
 from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.memory.modes import NO_CONTACT, Truncation
+from nonsmooth.engine.memory.modes import NO_CONTACT, ImpactOutcome, Truncation
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel, result
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.arrays import copy_numbers
@@ -53,21 +52,7 @@ _UNTRUSTED = 0.25
 
 
 @result
-class Outcome(IntEnum):
-    """How the integration of an impact ended."""
-
-    FINISHED = 1
-    """No contact is loaded."""
-    ENDLESS = 2
-    """It was cut short: too many steps, or an interrupt."""
-    INVALID = 3
-    """A law gave a number that is not finite, or not positive."""
-    MOVED = 4
-    """It continues, but has reached the rim of its window."""
-
-
-@result
-class Pace(NamedTuple):
+class ImpactPace(NamedTuple):
     """What determines the length of a step."""
 
     h: float
@@ -97,13 +82,13 @@ class Attempt(NamedTuple):
 # --- the impact -------------------------------------------------------------------------------------------------------
 
 
-@entry_point("Outcome(ws, f8)")
-def energetic_impact(ws: Workspace, seed: float) -> Outcome:
+@entry_point("ImpactOutcome(ws, f8)")
+def energetic_impact(ws: Workspace, seed: float) -> ImpactOutcome:
     """Integrate the impact of the active contacts, from their rates before it.
 
     Writes the impulse of every active contact [N s] and its energies stored in compression, returned in expansion and
-    dissipated by friction [J]. ``FINISHED``, or why it has none (:class:`Outcome`). An impact without collision needs a
-    speed ``seed`` [m/s] as its scale; of other impacts it is zero.
+    dissipated by friction [J]. ``FINISHED``, or why it has none (:class:`ImpactOutcome`). An impact without collision
+    needs a speed ``seed`` [m/s] as its scale; of other impacts it is zero.
     """
     # the normal impulse of a lone contact is the variable of integration; later one that is left alone may become so
     ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT
@@ -113,14 +98,14 @@ def energetic_impact(ws: Workspace, seed: float) -> Outcome:
     shortest = scale_impact(ws, seed)
     # negative if a force law has no scale
     if not shortest > 0.0:
-        return Outcome.INVALID
+        return ImpactOutcome.INVALID
     h = first_step(ws, shortest)
     start_phases(ws, h, seed)
     return run_impact(ws, h, shortest, is_windowed=False)
 
 
-@entry_point("Outcome(ws, f8, f8, b1)")
-def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> Outcome:
+@entry_point("ImpactOutcome(ws, f8, f8, b1)")
+def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> ImpactOutcome:
     """Integrate from the present phases and state, with a first step of ``h`` in pseudo-time.
 
     The active contacts are all contacts of the impact or, if ``is_windowed``, of a part of it. ``shortest`` is the
@@ -132,19 +117,19 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
     prepare_guards(ws)
     write_impact_slope(ws, ws.impact.slopes.start)
     # there is no step before the first one
-    pace = Pace(h=h, h_before=0.0, error_before=1.0)
+    pace = ImpactPace(h=h, h_before=0.0, error_before=1.0)
     for _ in range(MOST_STEPS):
         # callers discard an interrupted impact, so it needs no results
         if interrupted(ws, _WORK * len(ws.actives)):
-            return Outcome.ENDLESS
+            return ImpactOutcome.ENDLESS
         if is_finished(ws):
             write_impact_results(ws)
-            return Outcome.FINISHED
+            return ImpactOutcome.FINISHED
         attempt = _attempt(ws, pace.h)
         if not attempt.is_accepted:
             if not attempt.error < math.inf and attempt.h < NOISE * shortest:
                 # a law without a finite value here has none at any step
-                return Outcome.INVALID
+                return ImpactOutcome.INVALID
             pace = pace._replace(h=attempt.h_again)
             continue
         copy_numbers(ws.floats, ws.impact.y_new.start, state_size(ws), ws.impact.y.start)
@@ -158,11 +143,11 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
         # a lone contact has no deformation with which the next window could continue
         if is_windowed and ws.impact.lone_contact == NO_CONTACT and has_reached_rim(ws):
             ws.impact.h = pace.h
-            return Outcome.MOVED
+            return ImpactOutcome.MOVED
         write_impact_slope(ws, ws.impact.slopes.start)
     cut_short(ws)
     write_impact_results(ws)
-    return Outcome.ENDLESS
+    return ImpactOutcome.ENDLESS
 
 
 # --- a step -----------------------------------------------------------------------------------------------------------
@@ -212,8 +197,8 @@ def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
     return locate_switch(ws, aimed.h, fired)
 
 
-@kernel("Pace(ws, Pace, Attempt)")
-def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
+@kernel("ImpactPace(ws, ImpactPace, Attempt)")
+def _next_pace(ws: Workspace, pace: ImpactPace, attempt: Attempt) -> ImpactPace:
     """Pace after an accepted step without an event: by its error, and on the common clock by the trend of errors.
 
     The phases of a lone contact are polynomials, so their errors have no trend. After a switch there is none yet.
@@ -221,7 +206,7 @@ def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
     factor, error = step_factor(attempt.error), max(_LEAST_ERROR, attempt.error)
     if pace.h_before > 0.0 and ws.impact.lone_contact == NO_CONTACT:
         factor = min(factor, trend(error, pace.error_before, attempt.h / pace.h_before))
-    return Pace(h=attempt.h * factor, h_before=attempt.h, error_before=error)
+    return ImpactPace(h=attempt.h * factor, h_before=attempt.h, error_before=error)
 
 
 # --- between two steps ------------------------------------------------------------------------------------------------

@@ -22,12 +22,12 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.delassus.blocks import link_active
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact.end import account
-from nonsmooth.engine.impact.integration import MOST_STEPS, Outcome, run_impact
+from nonsmooth.engine.impact.integration import MOST_STEPS, run_impact
 from nonsmooth.engine.impact.phases import start_phases
 from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
 from nonsmooth.engine.impact.state import NOISE, state_of
 from nonsmooth.engine.impact.step_length import first_step
-from nonsmooth.engine.memory.modes import NO_CONTACT, Phase, Truncation
+from nonsmooth.engine.memory.modes import NO_CONTACT, ImpactOutcome, Phase, Truncation
 from nonsmooth.engine.native.kernel import ActiveContact, Contact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.arrays import copy_numbers
 
@@ -41,8 +41,8 @@ _NO_ENTRY = -1
 """Number in place of an entry at the end of a list."""
 
 
-@entry_point("Outcome(ws)")
-def windowed_impact(ws: Workspace) -> Outcome:
+@entry_point("ImpactOutcome(ws)")
+def windowed_impact(ws: Workspace) -> ImpactOutcome:
     """Integrate a large impact of the active contacts, of which only those near the wave are evaluated at a time.
 
     These contacts form a window, which is drawn anew whenever the wave reaches its rim, the outermost layer. Results
@@ -56,17 +56,17 @@ def windowed_impact(ws: Workspace) -> Outcome:
     fastest = _gather(ws)
     outcome = _run_window(ws, fastest, is_first=True)
     for _ in range(1, MOST_STEPS):
-        if outcome != Outcome.MOVED:
+        if outcome != ImpactOutcome.MOVED:
             break
         outcome = _run_window(ws, fastest, is_first=False)
     # other impacts have no windows
     ws.impact.faint_rate = 0.0
     _collect(ws)
-    return Outcome.ENDLESS if outcome == Outcome.MOVED else outcome
+    return ImpactOutcome.ENDLESS if outcome == ImpactOutcome.MOVED else outcome
 
 
-@kernel("Outcome(ws, f8, b1)")
-def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
+@kernel("ImpactOutcome(ws, f8, b1)")
+def _run_window(ws: Workspace, fastest: float, is_first: bool) -> ImpactOutcome:
     """Draw a window and integrate until the impact ends or reaches its rim. ``fastest`` is the fastest approach [m/s].
 
     Behind the wave, rates within the error cannot be distinguished from rest. If all contacts are in the window, none
@@ -80,7 +80,7 @@ def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
     # the rates in later windows are smaller: the fastest approach of the impact remains their scale
     shortest = scale_impact(ws, fastest)
     if not shortest > 0.0:
-        return Outcome.INVALID
+        return ImpactOutcome.INVALID
     if is_first:
         ws.impact.h = first_step(ws, shortest)
         # seed: the speed of an impact without collision, and this one has an approach

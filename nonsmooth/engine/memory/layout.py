@@ -1,4 +1,4 @@
-"""Numbers that size the workspace: stages, accounts, limits of what is coupled."""
+"""Numbers that size the workspace: stages, accounts, limits of what is coupled; and those that Python needs as well."""
 
 from __future__ import annotations
 
@@ -30,3 +30,7 @@ IMPACT_STATE = 8
 """Number of floats of a contact in the state of an impact."""
 IMPACT_GUARDS = 3
 """Number of guards of a contact within an impact: rate, energy and friction."""
+SINGULAR = 1e-10
+"""Pivots and remaining columns below this, relative to the largest, count as zero."""
+NO_PAIR = -1
+"""Number in place of a pair for a contact between shapes whose overlap is not checked."""

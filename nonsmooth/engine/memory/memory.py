@@ -288,8 +288,10 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Mem
     memory = Memory(scalars, floats, integers, blocks=n_floats, tables=n_floats, own=own)
     # guards behind the block that the kinematics of a contact writes: they change if it writes too many numbers
     memory[Contact.geometry][:, PAIR:] = UNTOUCHED
+    memory[Coefficients.nodes] = tableau.NODES
     memory[Coefficients.stages] = np.ravel(tableau.STAGES)
     memory[Coefficients.error_weights] = tableau.ERROR
+    memory[Coefficients.implicit_nodes] = implicit_tableau.NODES
     memory[Coefficients.implicit_stages] = np.ravel(implicit_tableau.STAGES)
     memory[Coefficients.implicit_predictor] = np.ravel(implicit_tableau.PREDICTOR)
     memory[Coefficients.implicit_errors] = implicit_tableau.ERROR

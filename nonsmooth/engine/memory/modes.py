@@ -1,10 +1,60 @@
-"""Modes of a contact, causes of events, and the status of the engine: its enumerations and their words."""
+"""Modes of a contact, causes of events, limits of steps, the status of the engine: enumerations and their words."""
 
 from __future__ import annotations
 
 from enum import IntEnum
 
-from nonsmooth.engine.memory.limits import Limit
+
+class Limit(IntEnum):
+    """Cause that limited the length of a step."""
+
+    NO_STEP = 0
+    """No step was taken: an event began where another one ended, or the neighbour list was made again."""
+    ERROR = 1
+    """The estimated error."""
+    LARGEST_STEP = 2
+    """The largest step of the engine."""
+    NEIGHBOUR_LIST = 3
+    """The neighbour list is valid for no longer."""
+    SAMPLES = 4
+    """The buffer of samples is full."""
+    FIRST_STEP = 5
+    """The first step after an event is short."""
+    CLOSING_GAP = 6
+    """A gap is about to close."""
+    SINGULARITY = 7
+    """Sliding comes near Painleve's singularity."""
+    STOPPING_SLIP = 8
+    """A slip is about to stop."""
+    EVENT = 9
+    """An event."""
+    CROWDED_EVENTS = 10
+    """Too many guards fire in it."""
+    END = 11
+    """The end of the run."""
+    AVERAGING = 12
+    """The end of the averaging of forces."""
+    TURN = 13
+    """Bodies turn too far in ballistic motion."""
+
+
+LIMITS = (
+    "no step",
+    "error",
+    "largest step",
+    "list of near contacts",
+    "samples",
+    "first step in contact",
+    "gap about to close",
+    "Painleve singularity",
+    "slip that stops",
+    "event",
+    "crowded events",
+    "end of the run",
+    "averaging of forces",
+    "turning in flight",
+)
+"""The limits in words, by number."""
 
 
 class Mode(IntEnum):
@@ -110,6 +160,19 @@ class Truncation(IntEnum):
     """A heavy body approaches, and the compressions of light bodies between it and others stop it gradually."""
 
 
+class ImpactOutcome(IntEnum):
+    """How the integration of an impact ended."""
+
+    FINISHED = 1
+    """No contact is loaded."""
+    ENDLESS = 2
+    """It was cut short: too many steps, or an interrupt."""
+    INVALID = 3
+    """A law gave a number that is not finite, or not positive."""
+    MOVED = 4
+    """It continues, but has reached the rim of its window."""
+
+
 class Painleve(IntEnum):
     """What the engine does if sliding has no contact force (Painleve's paradox)."""
 
@@ -119,10 +182,6 @@ class Painleve(IntEnum):
     """The same without loss, as a stiff spring does it."""
     REFUSE = 2
     """The run ends."""
-
-
-POLICIES = ("impact", "compliant", "refuse")
-"""The same in words, by number."""
 
 
 class Status(IntEnum):
@@ -190,7 +249,7 @@ REASONS = {
 }
 """Why a run ended, by status."""
 
-ENUMERATIONS = (Mode, Cause, Phase, Truncation, Painleve, Status, Limit)
+ENUMERATIONS = (Mode, Cause, Phase, Truncation, ImpactOutcome, Painleve, Status, Limit)
 """All of them; signatures of kernels know them by their names."""
 
 

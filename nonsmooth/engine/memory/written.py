@@ -83,8 +83,11 @@ PACKED: Mapping[str, Fields] = {
     "part_end": PART_OF_STEP,
     "delassus_block": DELASSUS_BLOCK,
     "joint_row": ROW_OF_JOINT,
-    "frame": FRAME_OF_BODY,
-    "part": CONVEX_PART,
+    "frame_at": FRAME_OF_BODY,
+    "part_at": CONVEX_PART,
     "load_wrench": WRENCH_OF_LOAD,
 }
-"""Blocks by kind. Several of them follow each other, or the stride is 0."""
+"""Blocks by the names of the functions of kernels that give access to them.
+
+Several blocks of a kind follow each other, or the stride is 0.
+"""

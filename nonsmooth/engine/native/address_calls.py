@@ -6,16 +6,17 @@ recompiles the engine.
 
 from __future__ import annotations
 
-import ctypes
+import functools
 from collections.abc import Callable
+from inspect import isfunction
 from typing import Any
 
 from numba import types
-from numba.extending import intrinsic
+from numba.extending import intrinsic, typeof_impl
 
-from nonsmooth.engine.native.compiler import shim_address
+from nonsmooth.engine.native.compiler import law_dispatcher
 from nonsmooth.engine.native.forms import FORMS
-from nonsmooth.engine.native.numba_names import cgutils, ir
+from nonsmooth.engine.native.numba_names import cgutils, ir, typing_context
 from nonsmooth.engine.native.shared import Shared
 from nonsmooth.engine.native.signatures import signature_of
 from nonsmooth.engine.native.types import FLOATS, WORD, call_at, moved
@@ -45,41 +46,13 @@ def by_address(signature: Any) -> Any:
     return intrinsic(scope["typed"])
 
 
-calls = {name: by_address(signature_of(form.signature)) for name, form in FORMS.items()}
+call_scalar, call_compliance, call_traction, call_rates, call_guard, call_body, call_load, call_pair, call_map = (
+    by_address(signature_of(FORMS[form].signature))
+    for form in ("scalar", "compliance", "traction", "rates", "guard", "body", "load", "pair", "map")
+)
 """Calls of a function at an address, by the name of its form."""
 call_watch = by_address(types.float64(types.float64))
 """Call of the interrupt check."""
-
-
-def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
-    """Address of a shim, which calls a plug-in's function, as a C function with the arguments of a form.
-
-    ``form`` is the name of one of ``FORMS``, and ``key`` that of the file of machine code.
-    """
-    # compiled, or loaded from disk. Equal keys must mean equal functions; with an empty key nothing is kept on disk
-    return shim_address(shim, signature_of(FORMS[form].signature), key)
-
-
-watches: dict[int, Any] = {}
-"""The C functions of interrupt checks by their addresses. Python frees those that are not listed here."""
-
-
-def watch_address(function: Callable[[float], float]) -> int:
-    """Address of a C function that calls an interrupt check, a Python function of time [s].
-
-    The check returns how much work may be done until its next call, 0 to stop the run. The address is valid until
-    :func:`forget_watch`.
-    """
-    callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
-    # an object of ctypes stores the address as its content. "or 0" is for type checkers: it is never None
-    address = int(ctypes.c_void_p.from_buffer(callback).value or 0)
-    watches[address] = callback
-    return address
-
-
-def forget_watch(address: int) -> None:
-    """Release the C function of an interrupt check, whose address must not be called any more."""
-    del watches[address]
 
 
 @intrinsic
@@ -97,7 +70,7 @@ def at(typingctx: Any, floats: Any, offset: Any) -> Any:
 
 
 @intrinsic
-def _compiled_support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
+def _support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
     """The farthest point of a body in a direction, for compiled functions, as a tuple [m].
 
     The numbers of a shape are ``floats``: the address of its support function at ``place``, then the parameters of the
@@ -126,35 +99,22 @@ def _compiled_support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any
     return point(floats, types.int64, types.float64, types.float64, types.float64), lower
 
 
-def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
-    """Compiled half of :func:`call_support`. `Shared` compiles functions, so the intrinsic is called by one."""
-    return _compiled_support_at(floats, place, x, y, z)
+def support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
+    """What is compiled in place of :func:`nonsmooth.engine.native.kernel.call_support`."""
+    return _support_at(floats, place, x, y, z)
 
 
-def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Farthest point of a body in the direction (x, y, z) [m], by a C function whose address is ``floats[place]``.
+@typeof_impl.register(Shared)
+def _type_of_shared(value: Shared, context: Any) -> Any:
+    """Numba type of a `Shared` that compiled code names: that of its compiled half, so that a call of it is compiled.
 
-    The parameters of the function follow its address. This is the half of :func:`call_support` that Python calls.
+    This half is a function of Python, or an intrinsic, whose type numba knows.
     """
-    # copies as C arrays, since floats may be any sequence: of the parameters, with one unused number behind them, and
-    # of the direction. The function writes the point to its last argument
-    parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
-    direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
-    FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
-    return found[0], found[1], found[2]
+    half = globals()[value.compiled] if value.compiled else value.function
+    return types.Dispatcher(_dispatcher(half)) if isfunction(half) else typing_context.resolve_value_type(half)
 
 
-call_support = Shared(_support, _compiled_support)
-
-
-def _compiled_block(block: Any, place: int) -> Any:
-    """Compiled half of :func:`block_at`: pointer to the numbers of a plug-in's table from a position on."""
-    return at(block, place)
-
-
-def _block(block: Any, place: int) -> Any:
-    """Python half of :func:`block_at`: the numbers of a plug-in's table from a position on."""
-    return block[place:]
-
-
-block_at = Shared(_block, _compiled_block)
+@functools.cache
+def _dispatcher(function: Callable[..., Any]) -> Any:
+    """Numba's object for a function that compiled functions of plug-ins share. There is one for each function."""
+    return law_dispatcher(function)

@@ -17,12 +17,12 @@ kernel_dispatcher: Callable[[Callable[..., Any]], Any] = _compiler.kernel_dispat
 """Numba's dispatcher of a kernel."""
 law_dispatcher: Callable[[Callable[..., Any]], Any] = _compiler.law_dispatcher
 """Numba's dispatcher of a plug-in's function, which is compiled on demand."""
-is_stored: Callable[[str], bool] = _compiler.is_stored
-"""False if the machine code of an entry point has to be compiled and kept under its name."""
-entry_address: Callable[[Callable[..., Any], Any, str], int] = _compiler.entry_address
-"""``entry_address(function, signature, key)``: address of the C function of an entry point.
+entry_address: Callable[[Callable[..., Any], Any, str, str], int] = _compiler.entry_address
+"""``entry_address(function, typed, signature, key)``: address of the C function of an entry point.
 
-It is compiled, or loaded from disk. Equal keys must mean equal functions. An empty key keeps nothing on disk.
+It is compiled, and kept on disk under its key. Equal keys must mean equal functions. An empty key keeps nothing.
 """
-shim_address: Callable[[Callable[..., Any], Any, str], int] = _compiler.shim_address
+shim_address: Callable[[Callable[..., Any], str, str], int] = _compiler.shim_address
 """``shim_address(function, signature, key)``: address of the C function of a shim, which calls a plug-in's function."""
+KEEPS_FILES: bool = _compiler.KEEPS_FILES
+"""Whether the code is in the files of :mod:`nonsmooth.engine.native.code_files`."""

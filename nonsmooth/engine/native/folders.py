@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import hashlib
+import importlib.util
 import os
 import stat
 import sys
@@ -16,31 +17,55 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-import numba
+import llvmlite
 import numpy as np
+from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
-from nonsmooth.engine.native.numba_names import get_host_cpu_name
 from nonsmooth.notices import say
 from nonsmooth.user_cache import user_cache
 
 _ENGINE = Path(__file__).resolve().parents[1]
 _WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
+_NUMBA_FILE = Path(".numba_config.yaml")
+"""File of the working folder with settings of numba."""
 
 
 @functools.cache
 def build_name() -> str:
     """Name of what is compiled from the engine's sources: a hash of all of them.
 
-    The versions of numba, numpy and Python and the kind of processor are part of it. It is the name of a folder, so
-    that code which does not fit is never found.
+    The versions of numba, llvmlite, numpy and Python and the kind of processor are part of it. It is the name of a
+    folder, so that code which does not fit is never found. The sources are read, because a file may change and keep its
+    size and time: it takes some milliseconds.
     """
-    # NUMBA_CPU_NAME lets a cluster of different processors use the same code
-    processor = f"{numba.config.CPU_NAME or get_host_cpu_name()}{numba.config.CPU_FEATURES or ''}"
-    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{processor}".encode())
+    versions = f"{_numba_version()} {llvmlite.__version__} {np.__version__} {sys.version}"
+    digest = hashlib.sha256(f"{versions} {_processor()}".encode())
     for source in sorted(_ENGINE.rglob("*.py")):
         digest.update(source.relative_to(_ENGINE).as_posix().encode() + source.read_bytes())
     # 64 bits of it: two engines with the same name are next to impossible
     return f"engine-{digest.hexdigest()[:16]}"
+
+
+def _numba_version() -> str:
+    """Version of numba. It is not imported, as that takes most of a start.
+
+    Its file of the version is found as an import would find it: the metadata may be those of another installation.
+    """
+    place = getattr(importlib.util.find_spec("numba"), "origin", None)
+    file = Path(place or "").with_name("_version.py")
+    return file.read_text() if place and file.is_file() else str(importlib.import_module("numba").__version__)
+
+
+def _processor() -> str:
+    """Processor for which numba compiles: name and features, as its settings choose them or of this machine."""
+    # with NUMBA_CPU_NAME a cluster of different processors uses the same code
+    chosen = os.environ.get("NUMBA_CPU_NAME", "")
+    name = chosen or get_host_cpu_name()
+    features = os.environ.get("NUMBA_CPU_FEATURES")
+    if features is None:
+        features = "" if chosen.lower() == "generic" else get_host_cpu_features().flatten()
+    settings = _NUMBA_FILE.read_text() if _NUMBA_FILE.is_file() else ""
+    return f"{name} {features} {os.environ.get('NUMBA_ENABLE_AVX')} {settings}"
 
 
 def folders() -> tuple[list[Path], Path | None]:

@@ -4,6 +4,10 @@ Kernels take the workspace ``ws``, all numbers of one trajectory by owner (:mod:
 Set the environment variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
 without numba: for the debugger, for coverage, and to check that both agree.
 
+Names that Python and plug-ins use are those of :mod:`nonsmooth.engine.native.machine_code`, which needs no compiler.
+All others belong to kernels. Their modules, and numba, are imported when a kernel module is, which happens only if
+machine code is missing.
+
 Names in signatures:
 
 ==================  ================================================================================
@@ -22,9 +26,8 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Callable, Mapping
-from types import ModuleType
-from typing import Any, Protocol, TypeAlias, TypeVar
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
 from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.memory import Memory
@@ -34,7 +37,9 @@ from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
 from nonsmooth.engine.memory.owners.guards import Guard, ImpactGuard, OwnGuard
 from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
 from nonsmooth.engine.memory.workspace import Workspace
+from nonsmooth.engine.memory.written import PACKED
 from nonsmooth.engine.native.entries import Fingerprint
+from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.types import Floats, Integers
 
 PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")
@@ -50,91 +55,101 @@ class _Decorator(Protocol):
         """Decorator of a function with the types of a signature."""
 
 
-def _half(compiled: str) -> ModuleType:
-    """The module ``compiled`` of compiled functions, or in plain mode the module of plain ones with the same names."""
-    return importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else compiled}")
+_calls = importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else 'machine_code'}")
+"""The half of what Python and plug-ins use: compiled functions, or plain ones with the same names."""
 
-
-_calls, _entries, _shared = _half("address_calls"), _half("entry_points"), _half("shared")
-_signatures, _views = _half("signatures"), _half("views")
-
-kernel: _Decorator = _entries.kernel
-"""Decorator of a function of the engine that is compiled into its callers."""
-result: Callable[[_Class], _Class] = _signatures.result
-"""Decorator of a named tuple of numbers that a kernel may return. Signatures use the name of its class."""
-entry_point: _Decorator = _entries.entry_point
-"""Decorator of a function of the engine that is compiled apart and called by its address, from Python too."""
-entry_addresses: Callable[[], tuple[int, ...]] = _entries.entry_addresses
+entry_addresses: Callable[[], tuple[int, ...]] = _calls.entry_addresses
 """Addresses of all entry points, which the workspace holds."""
-prototype_of: Callable[[str], Any] = _entries.prototype_of
+prototype_of: Callable[[str], Any] = _calls.prototype_of
 """Type of the C function of an entry point, for :mod:`ctypes`."""
-call_entry: Callable[..., Any] = _entries.call_entry
+call_entry: Callable[..., Any] = _calls.call_entry
 """``call_entry(name, memory, *numbers)``: call an entry point, or the step of an engine, from Python."""
-own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]] = _entries.own_kernel
-"""Decorator of a kernel of an engine that adds a part of its own to the workspace."""
-add_step: Callable[[Callable[..., Any], type[Part], str, Fingerprint], str] = _entries.add_step
-"""``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the returned name."""
-
-copy_fields: Callable[[Any, Any], None] = _views.copy_fields
-"""Copy the numbers that two records of different owners have in common."""
-frame_at: Callable[[Floats, int], Any] = _views.records["frame"]
-"""``frame_at(floats, start)``: the frame that a body writes, by name."""
-part_at: Callable[[Floats, int], Any] = _views.records["part"]
-"""``part_at(floats, start)``: the numbers of a convex part, by name."""
-part_end: Callable[[Floats, int, int], Any] = _views.records["part_end"]
-"""``part_end(floats, start, n)``: end n of the parts of a step, by name."""
-joint_row: Callable[[Floats, int, int], Any] = _views.records["joint_row"]
-"""``joint_row(floats, joint.out, r)``: row r that a joint writes, by name."""
-load_wrench: Callable[[Floats, int], Any] = _views.records["load_wrench"]
-"""``load_wrench(floats, load.out)``: the force and torque that a load writes, by name."""
-impact_state: Callable[[Floats, int, int], Any] = _views.records["impact_state"]
-"""``impact_state(floats, start, a)``: active contact a in the state of an impact, or in its slope, by name."""
-delassus_block: Callable[[Floats, int, int], Any] = _views.records["delassus_block"]
-"""``delassus_block(floats, start, block)``: a block on the diagonal of the Delassus matrix, by name."""
 at: Callable[[Floats, int], Floats] = _calls.at
-"""``at(floats, offset)``: the floats from an offset on."""
-
-_Filling: TypeAlias = Callable[[int, float, Floats, Floats, Floats, Floats], None]
-
-calls: Mapping[str, Callable[..., Any]] = _calls.calls
-"""Calls of a function at an address, for each of :data:`nonsmooth.engine.native.forms.FORMS`."""
-call_scalar: Callable[[int, float, Floats], float] = calls["scalar"]
-"""Call ``law(x, parameters)`` at an address."""
-call_compliance: Callable[[int, float, float, float, Floats], float] = calls["compliance"]
-"""Call ``force(indentation, rate, closing_rate, parameters)`` at an address."""
-call_traction: _Filling = calls["traction"]
-"""Call ``traction(normal_force, motion, state, parameters, out)`` at an address."""
-call_rates: Callable[[int, float, Floats, Floats, Floats], None] = calls["rates"]
-"""Call ``rates(speed, state, parameters, out)`` at an address."""
-call_guard: Callable[[int, float, Floats, Floats, Floats], float] = calls["guard"]
-"""Call ``guard(t, q, u, parameters)`` at an address."""
-call_body: _Filling = calls["body"]
-"""Call ``body(t, q, u, parameters, out)`` at an address."""
-call_load: _Filling = calls["load"]
-"""Call ``load(t, frame_a, frame_b, parameters, out)`` at an address."""
-call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = calls["pair"]
-"""Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
-call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = calls["map"]
-"""Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
+"""``at(floats, offset)``: the floats from an offset on, for kernels and for the functions of plug-ins."""
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _calls.call_support
 """Call ``support(direction, parameters, point)``, whose address stands at a place, followed by the parameters."""
-call_watch: Callable[[int, float], float] = _calls.call_watch
-"""Call the interrupt check at an address: ``check(t)`` returns the next work budget."""
 watch_address: Callable[[Callable[[float], float]], int] = _calls.watch_address
 """Address of a Python function for :func:`call_watch`, valid until :func:`forget_watch`."""
 forget_watch: Callable[[int], None] = _calls.forget_watch
 """Release an address of :func:`watch_address`."""
-
-block_at: Callable[[Floats, int], Floats] = _calls.block_at
-"""The numbers of a block from a place on, for the functions of plug-ins."""
-jit: Callable[[Callable[..., Any]], Any] = _shared.jit
+jit: Callable[[Callable[..., Any]], Any] = _calls.jit
 """Compile a plug-in's function on demand."""
-shared: Callable[[Callable[..., Any]], Any] = _shared.shared
+shared: Callable[[Callable[..., Any]], Any] = _calls.shared
 """Let the functions of plug-ins call a function, compiled or not."""
-unshared: Callable[[Any], Any] = _shared.unshared
+unshared: Callable[[Any], Any] = _calls.unshared
 """The function from which :func:`shared` has made a value; any other value as it is."""
-address_of: Callable[[Callable[..., Any], str, str], int] = _calls.address_of
-"""``address_of(shim, form, key)``: address of a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`.
+address_of: Callable[[Callable[[], Callable[..., Any]], str, str], int] = _calls.address_of
+"""``address_of(make_shim, form, key)``: address of a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`.
 
-It is compiled, or found on disk under its key. Without a key nothing is kept on disk.
+It is found on disk under its key, or made and compiled. Without a key nothing is kept on disk.
 """
+
+kernel: _Decorator
+"""Decorator of a function of the engine that is compiled into its callers."""
+entry_point: _Decorator
+"""Decorator of a function of the engine that is compiled apart and called by its address, from Python too."""
+result: Callable[[_Class], _Class]
+"""Decorator of a named tuple of numbers that a kernel may return. Signatures use the name of its class."""
+own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]]
+"""Decorator of a kernel of an engine that adds a part of its own to the workspace."""
+add_step: Callable[[Callable[..., Any], type[Part], str, Fingerprint], str]
+"""``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the returned name."""
+
+copy_fields: Callable[[Any, Any], None]
+"""Copy the numbers that two records of different owners have in common."""
+frame_at: Callable[[Floats, int], Any]
+"""``frame_at(floats, start)``: the frame that a body writes, by name."""
+part_at: Callable[[Floats, int], Any]
+"""``part_at(floats, start)``: the numbers of a convex part, by name."""
+part_end: Callable[[Floats, int, int], Any]
+"""``part_end(floats, start, n)``: end n of the parts of a step, by name."""
+joint_row: Callable[[Floats, int, int], Any]
+"""``joint_row(floats, joint.out, r)``: row r that a joint writes, by name."""
+load_wrench: Callable[[Floats, int], Any]
+"""``load_wrench(floats, load.out)``: the force and torque that a load writes, by name."""
+impact_state: Callable[[Floats, int, int], Any]
+"""``impact_state(floats, start, a)``: active contact a in the state of an impact, or in its slope, by name."""
+delassus_block: Callable[[Floats, int, int], Any]
+"""``delassus_block(floats, start, block)``: a block on the diagonal of the Delassus matrix, by name."""
+
+_Filling: TypeAlias = Callable[[int, float, Floats, Floats, Floats, Floats], None]
+
+call_scalar: Callable[[int, float, Floats], float]
+"""Call ``law(x, parameters)`` at an address."""
+call_compliance: Callable[[int, float, float, float, Floats], float]
+"""Call ``force(indentation, rate, closing_rate, parameters)`` at an address."""
+call_traction: _Filling
+"""Call ``traction(normal_force, motion, state, parameters, out)`` at an address."""
+call_rates: Callable[[int, float, Floats, Floats, Floats], None]
+"""Call ``rates(speed, state, parameters, out)`` at an address."""
+call_guard: Callable[[int, float, Floats, Floats, Floats], float]
+"""Call ``guard(t, q, u, parameters)`` at an address."""
+call_body: _Filling
+"""Call ``body(t, q, u, parameters, out)`` at an address."""
+call_load: _Filling
+"""Call ``load(t, frame_a, frame_b, parameters, out)`` at an address."""
+call_pair: Callable[[int, Floats, Floats, Floats, Floats], None]
+"""Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
+call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None]
+"""Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
+call_watch: Callable[[int, float], float]
+"""Call the interrupt check at an address: ``check(t)`` returns the next work budget."""
+
+_OF_KERNELS = {
+    **dict.fromkeys(("kernel", "entry_point", "own_kernel", "add_step"), "entry_points"),
+    "result": "signatures",
+    "copy_fields": "views",
+    **dict.fromkeys(PACKED, "views"),
+    **dict.fromkeys((*(f"call_{form}" for form in FORMS), "call_watch"), "address_calls"),
+}
+"""The names above that have no value yet, and the modules that hold them if they are compiled."""
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        """A name of kernels, from the compiled or the plain half, which is imported now."""
+        if name not in _OF_KERNELS:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        half = importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else _OF_KERNELS[name]}")
+        globals()[name] = getattr(half, name)
+        return globals()[name]

@@ -4,9 +4,9 @@ Another version may lack any of them. They form two groups.
 
 * Without the first group the workspace has no numba type, and no kernel compiles. The import then fails with a message
   that names the missing name and the supported versions.
-* The second group makes the engine's own compiler passes (:mod:`nonsmooth.engine.native.passes`) and its files of
-  machine code (:mod:`nonsmooth.engine.native.cache`). :data:`MISSING` names the first one that is missing. The engine
-  is then compiled by numba's documented ``njit`` and ``cfunc(cache=True)``
+* The second group makes the engine's own compiler passes (:mod:`nonsmooth.engine.native.passes`) and the content of its
+  files of machine code (:mod:`nonsmooth.engine.native.code_files`). :data:`MISSING` names the first one that is
+  missing. The engine is then compiled by numba's documented ``njit`` and ``cfunc(cache=True)``
   (:mod:`nonsmooth.engine.native.standard_compiler`), which takes longer and gives the same results.
 
 Documented names (``numba.types``, ``numba.jit``, ``numba.extending.intrinsic``) are imported where they are used.
@@ -50,20 +50,23 @@ def _refusal(missing: object) -> ImportError:
 
 try:
     from llvmlite import ir
-    from llvmlite.binding import get_host_cpu_name
     from numba.core import cgutils
     from numba.core.dispatcher import Dispatcher
     from numba.core.imputils import RefType, iternext_impl
+    from numba.core.registry import cpu_target
     from numba.core.typeconv import Conversion
     from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, signature
     from numba.extending import infer_getattr, lower_cast, lower_getattr_generic, lower_setattr_generic
 except ImportError as error:
     raise _refusal(error) from error
 
+typing_context = cpu_target.typing_context
+"""Numba's table of the types of functions."""
 OF_TYPES: Mapping[Any, Iterable[str]] = {
     # kernels are compiled with the signatures that they declare, and not again for each literal
     Dispatcher: ("compile", "disable_compile"),
     cgutils.create_struct_proxy(types.complex128): ("_getvalue",),
+    typing_context: ("resolve_value_type",),
 }
 """Attributes of the first group."""
 if _name := _first_missing(OF_TYPES):
@@ -74,15 +77,12 @@ MISSING = ""
 OF_PASSES: Mapping[Any, Iterable[str]] = {}
 """Attributes of the second group."""
 try:
-    from llvmlite.binding import create_pass_builder, create_pipeline_tuning_options, parse_assembly
+    from llvmlite.binding import create_pass_builder, create_pipeline_tuning_options
     from numba.core.ccallback import CFunc
     from numba.core.codegen import JITCodeLibrary
-    from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
+    from numba.core.compiler import CompilerBase, DefaultPassBuilder
     from numba.core.compiler_machinery import FunctionPass, PassManager, register_pass
-    from numba.core.funcdesc import FunctionDescriptor
-    from numba.core.registry import cpu_target
     from numba.core.runtime import rtsys
-    from numba.core.serialize import dumps
     from numba.core.sigutils import normalize_signature
     from numba.core.typed_passes import (
         IRLegalization,
@@ -95,21 +95,21 @@ try:
     from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 
     OF_PASSES = {
-        # when a module is optimised and becomes machine code, and what is linked
+        # when a module is optimised and becomes machine code, what is linked, and the machine code
         JITCodeLibrary: (
             *("_optimize_functions", "_optimize_final_module", "_finalize_final_module", "_finalized"),
-            *("add_ir_module", "codegen", "has_dynamic_globals"),
+            *("add_ir_module", "codegen", "has_dynamic_globals", "_get_compiled_object"),
         ),
         # the processor, and the environment of Python objects that kernels do not have
-        cpu_target.target_context.codegen(): ("_tm", "_data_layout", "set_env", "magic_tuple"),
+        cpu_target.target_context.codegen(): ("_tm", "_data_layout", "set_env"),
         # which passes run
         CompilerBase: ("define_pipelines",),
         PassManager: ("add_pass_after",),
         DefaultPassBuilder: ("define_nopython_pipeline",),
         Context: ("resolve_function_type",),
-        # files of machine code
-        FunctionDescriptor: ("llvm_cfunc_wrapper_name",),
-        CompileResult: ("_reduce", "_rebuild"),
+        # the C function of a compiled function
+        CFunc: ("compile", "_compile_uncached", "native_name", "address"),
+        # memory that laws allocate
         rtsys: ("initialize",),
     }
     MISSING = _first_missing(OF_PASSES)

@@ -5,18 +5,19 @@ It is used if numba has all the names that it needs; see :mod:`nonsmooth.engine.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from typing import Any
 
 import numba
 
-from nonsmooth.engine.native.cache import Store
 from nonsmooth.engine.native.callees import callees_of
-from nonsmooth.engine.native.collector import uncollected
-from nonsmooth.engine.native.numba_names import NO_ALLOCATION, NO_WRAPPERS
+from nonsmooth.engine.native.code_files import write
+from nonsmooth.engine.native.numba_names import NO_ALLOCATION, NO_WRAPPERS, cpu_target, rtsys
 from nonsmooth.engine.native.passes import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses
+from nonsmooth.engine.native.signatures import signature_of
 
+KEEPS_FILES = True
+"""Whether another process can compile entry points into the files that :mod:`.code_files` reads."""
 _OPTIONS: dict[str, Any] = {"nopython": True, "nogil": True, "error_model": "numpy", **NO_WRAPPERS}
 _alive: list[CFunction] = []
 """All C functions: their code must outlive the last call."""
@@ -34,42 +35,37 @@ def law_dispatcher(function: Callable[..., Any]) -> Any:
     return numba.jit(pipeline_class=LawPasses, **_OPTIONS)(function)
 
 
-@functools.cache
-def _store(key: str) -> Store:
-    """File of an entry point's machine code. There is one object for each key, so that the file is read only once."""
-    return Store(key)
+def entry_address(function: Callable[..., Any], typed: Any, signature: str, key: str) -> int:
+    """Address of the C function of an entry point, which is compiled after the kernels that it calls.
 
-
-def is_stored(key: str) -> bool:
-    """True if there is valid machine code of an entry point on disk under a key. It is read, and kept until loaded."""
-    return _store(key).is_filled()
-
-
-def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int:
-    """Address of the C function of an entry point, which is loaded from disk, or compiled after its kernels.
-
-    ``key`` names its file. With an empty key nothing is kept on disk.
+    ``typed`` is its numba signature, and ``signature`` the text of it. The code is written to the file of its ``key``.
+    With an empty key nothing is kept on disk.
     """
-    with uncollected():
-        # each kernel is compiled with the types that it declares, before a caller needs other ones. Code from a file
-        # includes that of its kernels
-        if not key or not is_stored(key):
-            for kernel in callees_of(function):
-                kernel.compile()
-        return _address(CFunction(function, signature, _store(key) if key else None, EntryPasses, **NO_ALLOCATION))
+    # each kernel is compiled with the types that it declares, before a caller needs other ones
+    for kernel in callees_of(function):
+        kernel.compile()
+    return _address(CFunction(function, typed, EntryPasses, **NO_ALLOCATION), signature, key)
 
 
-def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
+def shim_address(function: Callable[..., Any], signature: str, key: str) -> int:
     """Address of the C function of a shim, which passes the engine's arguments to a plug-in's function.
 
-    It is compiled, or loaded from the file of its ``key``. With an empty key nothing is kept on disk.
+    It is compiled, and written to the file of its ``key``. With an empty key nothing is kept on disk.
     """
-    with uncollected():
-        return _address(CFunction(function, signature, Store(f"shim-{key}") if key else None, ShimPasses))
+    return _address(CFunction(function, signature_of(signature), ShimPasses), signature, key)
 
 
-def _address(function: CFunction) -> int:
-    """Compile or load a C function. Its address, valid until the process ends, as a list keeps the function alive."""
+def _address(function: CFunction, signature: str, key: str) -> int:
+    """Compile a C function. Its address, valid until the process ends, as a list keeps the function alive."""
     function.compile()
     _alive.append(function)
+    if key and (machine_code := function.machine_code(signature)):
+        write(key, machine_code)
     return int(function.address or 0)
+
+
+def start_runtime() -> None:
+    """Give LLVM the functions of numba that machine code may need, such as those that allocate memory."""
+    # the context registers all but those that allocate. numba's `context.refresh` would do this too, but it imports
+    # all of numpy and scipy: a third of a start
+    rtsys.initialize(cpu_target.target_context)

@@ -18,7 +18,7 @@ from typing import Any, final
 from numba import types
 
 from nonsmooth.engine.native import numba_names as private
-from nonsmooth.engine.native.cache import Store
+from nonsmooth.engine.native.code_files import MachineCode
 
 
 @private.register_pass(mutates_CFG=False, analysis_only=False)
@@ -258,7 +258,7 @@ LawPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, _LOWE
 
 @final
 class CFunction(private.CFunc):
-    """A C function that is compiled or taken from disk by :meth:`compile`.
+    """A C function that :meth:`compile` compiles.
 
     Parameters
     ----------
@@ -266,21 +266,36 @@ class CFunction(private.CFunc):
         The Python function.
     signature : numba signature
         Its types.
-    store : Store, optional
-        Its file, if it is kept on disk.
     passes : type
         The passes of the compiler.
     options : bool
         Further options of the compiler.
     """
 
-    def __init__(self, function: Any, signature: Any, store: Store | None, passes: type, **options: bool) -> None:
-        """Set the function up for :meth:`compile`. Its file takes the place of numba's cache, by default none."""
+    def __init__(self, function: Any, signature: Any, passes: type, **options: bool) -> None:
+        """Set the function up for :meth:`compile`. Numba's cache is not used."""
         # division by zero gives infinity or nan, as in numpy, and no error
         all_options = {"nopython": True, "error_model": "numpy", **options}
         # the types of arguments and the type of the result
         typed = private.normalize_signature(signature)
         # no types are prescribed for local variables: numba infers them
         super().__init__(function, typed, locals={}, options=all_options, pipeline_class=passes)
-        if store is not None:
-            self._cache = store
+
+    def _compile_uncached(self) -> Any:
+        """Compile the function, and keep the library that holds its code. Numba calls this in :meth:`compile`."""
+        compiled = super()._compile_uncached()  # type: ignore[misc]
+        self.library = compiled.library
+        return compiled
+
+    def machine_code(self, signature: str) -> MachineCode | None:
+        """The compiled code for a file, with the types of the function as text.
+
+        None if it has addresses of this process, which mean nothing in another one.
+        """
+        if self.library.has_dynamic_globals:
+            return None
+        module = self.library._final_module
+        declared = [one.name for one in (*module.functions, *module.global_variables) if one.is_declaration]
+        # LLVM replaces its own functions by instructions or by those of the C library, which each process has
+        externals = tuple(name for name in declared if not name.startswith("llvm."))
+        return MachineCode(self.native_name, signature, externals, self.library._get_compiled_object())

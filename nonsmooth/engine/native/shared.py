@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 import functools
+import importlib
+import sys
 from collections.abc import Callable
 from typing import Any, final
-
-from numba import types
-from numba.extending import typeof_impl
-
-from nonsmooth.engine.native.compiler import law_dispatcher
-from nonsmooth.engine.native.numba_names import Dispatcher
-
-jit = law_dispatcher
-"""Compile a plug-in's function on demand. Its code is kept with that of the shim that calls it."""
 
 
 @final
@@ -24,30 +17,18 @@ class Shared:
     ----------
     function : callable
         The function.
-    inner : callable, optional
-        What is compiled in its place.
+    compiled : str
+        Name, in :mod:`nonsmooth.engine.native.address_calls`, of what is compiled in its place; "" for itself.
     """
 
-    def __init__(self, function: Callable[..., Any], inner: Callable[..., Any] | None = None) -> None:
-        """Keep both functions, and take over the name and the docstring."""
-        self.function = function
-        self._compiled = inner or function
+    def __init__(self, function: Callable[..., Any], compiled: str = "") -> None:
+        """Keep the function, and take over its name and docstring."""
+        self.function, self.compiled = function, compiled
         functools.update_wrapper(self, function)
-
-    @functools.cached_property
-    def dispatcher(self) -> Any:
-        """Numba's object for the compiled function. It is made at the first use, because a run uses few of them."""
-        return jit(self._compiled)
 
     def __call__(self, *arguments: Any) -> Any:
         """Call the Python function, when Python calls this object."""
         return self.function(*arguments)
-
-
-@typeof_impl.register(Shared)
-def _type_of_shared(value: Shared, context: Any) -> Any:
-    """Numba type of a `Shared` that compiled code names: that of its dispatcher, so that a call of it is compiled."""
-    return types.Dispatcher(value.dispatcher)
 
 
 shared = Shared
@@ -59,7 +40,10 @@ def unshared(value: Any) -> Any:
 
     It serves to read the source of a function and to run it in Python.
     """
-    # a kernel is numba's object for the function
-    if isinstance(value, Dispatcher):
-        return value.py_func
-    return value.function if isinstance(value, Shared) else value
+    if isinstance(value, Shared):
+        return value.function
+    # a kernel is numba's object for the function. Without numba there is none
+    if "numba" not in sys.modules:
+        return value
+    names = importlib.import_module("nonsmooth.engine.native.numba_names")
+    return value.py_func if isinstance(value, names.Dispatcher) else value

@@ -20,7 +20,7 @@ from nonsmooth.engine.memory.modes import ENUMERATIONS
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.numba_names import AbstractTemplate, AttributeTemplate, infer_getattr, signature
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, type_of_number
-from nonsmooth.engine.native.views import WORKSPACE, Workspace, types_of
+from nonsmooth.engine.native.views import WORKSPACE, WorkspaceType, types_of
 
 
 def type_of_result(kind: Any) -> Any:
@@ -71,7 +71,7 @@ def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
 
 def workspace_with(own: type[Part]) -> Any:
     """Numba type of the workspace of an engine that adds a part ``own``: numbers that the other engines do not have."""
-    return Workspace({own.key: own})
+    return WorkspaceType({own.key: own})
 
 
 class _Replace(AbstractTemplate):

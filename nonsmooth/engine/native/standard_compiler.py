@@ -18,8 +18,11 @@ import numba
 from nonsmooth.engine.native.callees import Kernel, callees_of
 from nonsmooth.engine.native.folders import build_name
 from nonsmooth.engine.native.numba_names import MISSING, NO_ALLOCATION, NO_WRAPPERS
+from nonsmooth.engine.native.signatures import signature_of
 from nonsmooth.notices import say
 
+KEEPS_FILES = False
+"""Numba keeps the code in files of its own, which each process finds itself."""
 _OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _alive: list[Any] = []
 """All C functions: their code must outlive the last call."""
@@ -37,24 +40,20 @@ def law_dispatcher(function: Callable[..., Any]) -> Any:
     return numba.njit(nogil=True, **_OPTIONS, **NO_WRAPPERS)(function)
 
 
-def is_stored(key: str) -> bool:
-    """Always True, so that nobody compiles entry points ahead: numba finds its files itself, when each is compiled."""
-    return True
-
-
-def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int:
+def entry_address(function: Callable[..., Any], typed: Any, signature: str, key: str) -> int:
     """Address of the C function of an entry point, which is compiled or loaded from numba's files.
 
-    ``key`` names the file. Numba gives no sign whether it has the file. So the entry point is first compiled while
-    kernels cannot be. This succeeds if there is a file, and fails at the first call of a kernel otherwise. Then its
-    kernels are compiled, each with the types that it declares, and the entry point again.
+    ``typed`` is its numba signature, and ``key`` names the file. Numba gives no sign whether it has the file. So the
+    entry point is first compiled while kernels cannot be. This succeeds if there is a file, and fails at the first call
+    of a kernel otherwise. Then its kernels are compiled, each with the types that it declares, and the entry point
+    again.
     """
     kernels = callees_of(function)
     with _uncompilable(kernels), contextlib.suppress(numba.TypingError):
-        return _address(function, signature, key, **NO_ALLOCATION)
+        return _address(function, typed, key, **NO_ALLOCATION)
     for kernel in kernels:
         kernel.compile()
-    return _address(function, signature, key, **NO_ALLOCATION)
+    return _address(function, typed, key, **NO_ALLOCATION)
 
 
 @contextlib.contextmanager
@@ -79,10 +78,10 @@ def _uncompilable(kernels: Sequence[Kernel]) -> Iterator[None]:
             del dispatcher.compile
 
 
-def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
+def shim_address(function: Callable[..., Any], signature: str, key: str) -> int:
     """Address of the C function of a shim, which passes the engine's arguments to a plug-in's function."""
     # no key, so that each process compiles it: numba keeps on disk only functions that are defined in files
-    return _address(function, signature, "")
+    return _address(function, signature_of(signature), "")
 
 
 def _address(function: Callable[..., Any], signature: Any, key: str, **options: bool) -> int:

@@ -17,8 +17,7 @@ from typing import Any
 from numba import types
 from numba.extending import intrinsic, lower_builtin, make_attribute_wrapper, models, register_model, type_callable
 
-from nonsmooth.engine.memory.declare import Declaration, declarations
-from nonsmooth.engine.memory.declare import Part as Owner
+from nonsmooth.engine.memory.declare import Declaration, Part, declarations
 from nonsmooth.engine.memory.fields import Field, Fields, fields_of
 from nonsmooth.engine.memory.tables import N_SCALARS, record_with
 from nonsmooth.engine.memory.workspace import PARTS, RECORDS
@@ -64,7 +63,7 @@ class View(types.Type):
         return type(self), self.arguments
 
 
-class Row(types.Type):
+class RowType(types.Type):
     """An array of the workspace: floats or integers, and the offset of its first entry."""
 
     def __init__(self, pointer: Pointer) -> None:
@@ -74,13 +73,13 @@ class Row(types.Type):
         super().__init__(name=f"Row({pointer.name})")
 
 
-FLOAT_ROW, INTEGER_ROW = Row(FLOATS), Row(INTEGERS)
+FLOAT_ROW, INTEGER_ROW = RowType(FLOATS), RowType(INTEGERS)
 
 
-class Part(View):
+class PartType(View):
     """The numbers of an owner that exists once, in the workspace of an engine that adds the owners ``own``."""
 
-    def __init__(self, name: str, owner: type[Owner], own: tuple[type[Owner], ...]) -> None:
+    def __init__(self, name: str, owner: type[Part], own: tuple[type[Part], ...]) -> None:
         """Take the declarations of the owner. Numba compares types by their names.
 
         So the name of the type has those of the scalars that an engine adds, which come after ``N_SCALARS`` others.
@@ -99,7 +98,7 @@ class Part(View):
         return FLOAT_ROW if declared.is_float else INTEGER_ROW
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """Write the code that reads an attribute of this part: the number of a scalar, or an array as a :class:`Row`.
+        """Write the code that reads an attribute of this part: the number of a scalar, or an array as a `RowType`.
 
         ``value`` holds the pointers to scalars, floats and integers.
         """
@@ -129,7 +128,7 @@ def load_offset(builder: Any, pointers: Any, key: str, names: tuple[str, ...] = 
     return load(builder, int, moved(builder, int, pointers.scalars, WORD(names.index(key))), key)
 
 
-class Record(View):
+class RecordType(View):
     """A record, or a block among the floats, with its fields by name."""
 
     members = (*_POINTERS, ("index", types.int64))
@@ -192,7 +191,7 @@ class Sequence(types.IterableType):
 
     members = _POINTERS
 
-    def __init__(self, record: Record, count: str) -> None:
+    def __init__(self, record: RecordType, count: str) -> None:
         """Set the type of the records and the key of their number. Numba compares types by their names."""
         self.dtype, self.count = record, count
         super().__init__(name=f"Sequence({record.name})")
@@ -216,19 +215,19 @@ class Iterator(types.SimpleIteratorType):
 
 _FIELDS: dict[str, Fields] = {owner.__name__: fields_of(owner) for owner in RECORDS.values()} | dict(PACKED)
 """The fields of records by the names of their owners, and of blocks by their kinds."""
-types_of = {name: Record(name) for name in _FIELDS}
+types_of = {name: RecordType(name) for name in _FIELDS}
 """The numba types of records and blocks by the same names."""
 _SEQUENCES = {name: Sequence(types_of[owner.__name__], owner.length) for name, owner in RECORDS.items()}
 
 
-class Workspace(View):
+class WorkspaceType(View):
     """The numbers of one trajectory, by owner. ``own`` are parts that an engine adds."""
 
-    def __init__(self, own: Mapping[str, type[Owner]]) -> None:
+    def __init__(self, own: Mapping[str, type[Part]]) -> None:
         """Make the types of all parts. Numba compares types by name: it lists the scalars that ``own`` adds."""
         self.arguments, added = (own,), tuple(own.values())
         names = record_with(added).names or ()
-        self.parts = {name: Part(name, owner, added) for name, owner in {**PARTS, **own}.items()}
+        self.parts = {name: PartType(name, owner, added) for name, owner in {**PARTS, **own}.items()}
         super().__init__(name=f"Workspace({', '.join(names[N_SCALARS:])})")
 
     def can_convert_to(self, context: Any, other: Any) -> Any:
@@ -245,12 +244,12 @@ class Workspace(View):
         return value
 
 
-WORKSPACE = Workspace({})
+WORKSPACE = WorkspaceType({})
 """The workspace of an engine without parts of its own."""
 
 
-@private.lower_cast(Workspace, Workspace)
-def _as_other(context: Any, builder: Any, given: Workspace, other: Workspace, value: Any) -> Any:
+@private.lower_cast(WorkspaceType, WorkspaceType)
+def _as_other(context: Any, builder: Any, given: WorkspaceType, other: WorkspaceType, value: Any) -> Any:
     """Convert a workspace to that of another engine, as `can_convert_to` allows: both are the same three pointers."""
     return value
 
@@ -263,9 +262,9 @@ class _Model(models.StructModel):
         super().__init__(manager, kind, list(kind.members))
 
 
-for _kind in (Workspace, Part, Row, Record, Sequence, Iterator):
+for _kind in (WorkspaceType, PartType, RowType, RecordType, Sequence, Iterator):
     register_model(_kind)(_Model)
-for _kind, _name in ((Workspace, "floats"), (Workspace, "integers"), (Row, "start"), (Record, "index")):
+for _kind, _name in ((WorkspaceType, "floats"), (WorkspaceType, "integers"), (RowType, "start"), (RecordType, "index")):
     make_attribute_wrapper(_kind, _name, _name)
 
 
@@ -303,7 +302,7 @@ def _type_getitem(context: Any) -> Any:
 
     def typer(array: Any, index: Any) -> Any:
         """Signature for an array and an index of these types. With None, numba tries its other rules."""
-        is_known = isinstance(array, (Pointer, Row, Sequence)) and isinstance(index, types.Integer)
+        is_known = isinstance(array, (Pointer, RowType, Sequence)) and isinstance(index, types.Integer)
         return array.dtype(array, types.int64) if is_known else None
 
     return typer
@@ -316,7 +315,7 @@ def _type_setitem(context: Any) -> Any:
     def typer(array: Any, index: Any, value: Any) -> Any:
         """Signature for arguments of these types. With None, numba tries its other rules."""
         # numba converts the value to the type of the entries
-        is_known = isinstance(array, (Pointer, Row)) and isinstance(index, types.Integer)
+        is_known = isinstance(array, (Pointer, RowType)) and isinstance(index, types.Integer)
         return types.void(array, types.int64, array.dtype) if is_known else None
 
     return typer
@@ -324,7 +323,7 @@ def _type_setitem(context: Any) -> Any:
 
 def _entry(context: Any, builder: Any, array: Any, value: Any, index: Any) -> Any:
     """Pointer to an entry of an array of the workspace. ``array`` is its type: a pointer, or a row, with an offset."""
-    if isinstance(array, Row):
+    if isinstance(array, RowType):
         # the offset is added to the index, not to the pointer, so that the optimiser sees one address
         row = _members(context, builder, array, value)
         value, index = row.pointer, builder.add(row.start, index)
@@ -332,7 +331,7 @@ def _entry(context: Any, builder: Any, array: Any, value: Any, index: Any) -> An
 
 
 @lower_builtin(operator.getitem, Pointer, types.Integer)
-@lower_builtin(operator.getitem, Row, types.Integer)
+@lower_builtin(operator.getitem, RowType, types.Integer)
 def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     """Write the code of ``array[index]``. Numba calls this with the types in ``signature`` and the values ``args``."""
     array = signature.args[0]
@@ -340,7 +339,7 @@ def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 
 
 @lower_builtin(operator.setitem, Pointer, types.Integer, types.Any)
-@lower_builtin(operator.setitem, Row, types.Integer, types.Any)
+@lower_builtin(operator.setitem, RowType, types.Integer, types.Any)
 def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     """Write the code of ``array[index] = value``, whose values are ``args`` and whose types are in ``signature``."""
     array = signature.args[0]
@@ -457,5 +456,5 @@ def _packed(kind: str) -> Any:
     return intrinsic(one_of_many if stride > 0 else single)
 
 
-records = {kind: _packed(kind) for kind in PACKED}
-"""Constructors of the record of a block, by kind."""
+# in the order of the table
+impact_state, part_end, delassus_block, joint_row, frame_at, part_at, load_wrench = map(_packed, PACKED)

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.native.kernel import Floats, kernel
 from nonsmooth.engine.numerics.arrays import clear, subtract_part
-from nonsmooth.engine.numerics.linear import SINGULAR, product
+from nonsmooth.engine.numerics.linear import product
 
 
 @kernel("i8(F, i8, i8)")

@@ -12,9 +12,6 @@ from nonsmooth.engine.native.kernel import Floats, kernel
 from nonsmooth.engine.numerics.arrays import largest_size
 from nonsmooth.engine.numerics.vectors import Vector
 
-SINGULAR = 1e-10
-"""Pivots and remaining columns below this, relative to the largest, count as zero."""
-
 
 @kernel("f8(F, f8, i8, i8, i8)")
 def product(floats: Floats, total: float, a: int, b: int, n: int) -> float:

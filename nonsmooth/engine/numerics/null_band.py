@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.layout import MOST_ENTRIES
+from nonsmooth.engine.memory.layout import MOST_ENTRIES, SINGULAR
 from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
 from nonsmooth.engine.numerics.arrays import clear, copy_numbers, largest_size, subtract_part
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, invert_in_band, substitute_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, eliminate
+from nonsmooth.engine.numerics.linear import band_row, band_width, eliminate
 
 _SHIFT = 1e-8
 """Shift of the diagonal of G, relative to its largest entry. It is larger than a pivot that counts as zero."""

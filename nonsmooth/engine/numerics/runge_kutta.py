@@ -6,7 +6,6 @@ are those of :mod:`nonsmooth.engine.memory.tableau`.
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory import tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Vector
@@ -148,7 +147,7 @@ def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int,
     # 2.0 gives twice b: the derivative of theta^2 (1 - theta)^2 is 2 theta (1 - theta) (1 - 2 theta)
     weigh_part(ws, ws.coefficients.implicit_bend.start, slopes, n, n, 2.0, bend)
     for stage in range(1, LAST_STAGE):
-        c = tableau.NODES[stage]
+        c = ws.coefficients.nodes[stage]
         for i in range(n):
             # derivative of the Hermite cubic, from the end values and both end slopes, then that of the added term
             ws.floats[slopes + stage * n + i] = (

@@ -18,7 +18,7 @@ from nonsmooth.engine.memory.declare import (
     whole,
 )
 from nonsmooth.engine.memory.layout import N_STAGES
-from nonsmooth.engine.memory.limits import Limit
+from nonsmooth.engine.memory.modes import Limit
 from nonsmooth.engine.memory.sizes import (
     coordinates_and_velocities,
     delassus_blocks,

@@ -94,9 +94,11 @@ class Tolerance(Part, key="tolerance"):
 class Coefficients(Part, key="coefficients"):
     """Coefficients of the Runge-Kutta pairs."""
 
+    nodes: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Times of the explicit stages within a step.")
     stages: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the explicit stages.")
     error_weights: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the explicit error estimate.")
     dense: FloatRow = floats(_PARAMETER, fixed(4 * N_STAGES), "1", "Coefficients of the explicit dense output.")
+    implicit_nodes: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Times of the implicit stages within a step.")
     implicit_stages: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the implicit stages.")
     implicit_predictor: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the implicit guess.")
     implicit_errors: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the implicit error estimate.")

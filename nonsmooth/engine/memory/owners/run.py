@@ -18,8 +18,7 @@ from nonsmooth.engine.memory.declare import (
     real,
     whole,
 )
-from nonsmooth.engine.memory.limits import LIMITS
-from nonsmooth.engine.memory.modes import Cause, Status
+from nonsmooth.engine.memory.modes import LIMITS, Cause, Status
 from nonsmooth.engine.memory.sizes import fixed, per, sample_numbers
 
 _REQUEST, _STATE, _OUTPUT = Life.REQUEST, Life.STATE, Life.OUTPUT

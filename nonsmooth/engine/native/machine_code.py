@@ -1,0 +1,171 @@
+"""The compiled half of :mod:`nonsmooth.engine.native.kernel` as Python and plug-ins use it, without the compiler.
+
+Entry points and functions of plug-ins are loaded from disk by their names. The compiler, and the kernels that it needs,
+are imported only if something is missing there. They take most of the time of a start.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import importlib
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.native.code_files import read
+from nonsmooth.engine.native.entries import known
+from nonsmooth.engine.native.forms import C_TYPES, FORMS
+from nonsmooth.engine.native.loader import load
+from nonsmooth.engine.native.shared import Shared, shared, unshared
+
+__all__ = ["shared", "unshared"]
+"""Names of other modules that are part of this half."""
+
+
+class EntryPoint(NamedTuple):
+    """An entry point, or a step of an engine, as Python calls it.
+
+    Attributes
+    ----------
+    signature : str
+        Its signature.
+    address : callable
+        Function that returns its address, after it has compiled or loaded it.
+    """
+
+    signature: str
+    address: Callable[[], int]
+
+
+ENTRIES: dict[str, EntryPoint] = {}
+"""Steps of engines by name, and entry points after :func:`entry_addresses`."""
+_callables: dict[str, Callable[..., Any]] = {}
+"""Those that Python has called, by name, as C functions."""
+
+
+def _compiler() -> Any:
+    """The module that compiles. With it numba is imported."""
+    return importlib.import_module("nonsmooth.engine.native.entry_points")
+
+
+def add_entry(name: str, entry: EntryPoint) -> None:
+    """Let :func:`call_entry` find a function by its name. A function that had the name before is forgotten."""
+    ENTRIES[name] = entry
+    _callables.pop(name, None)
+
+
+@functools.cache
+def entry_addresses() -> tuple[int, ...]:
+    """Addresses of all entry points, in the order of ``ENTRY_POINTS``. The first call compiles those not on disk."""
+    codes = {name: read(name) for name in ENTRY_POINTS}
+    if missing := tuple(name for name, code in codes.items() if code is None):
+        _compiler().compile_apart(missing)
+        codes |= {name: read(name) for name in missing}
+    addresses: list[int] = []
+    for name, code in codes.items():
+        # what no other process could compile and write is compiled here
+        signature, address = (code.signature, load(code)) if code else _compiler().compile_entry(name)
+        add_entry(name, EntryPoint(signature, lambda address=address: address))  # type: ignore[misc]
+        addresses.append(address)
+    return tuple(addresses)
+
+
+def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call an entry point, or the step of an engine, on the memory of one trajectory, which it changes. Its result.
+
+    Other threads of Python run meanwhile, as C functions do not hold the interpreter's lock.
+
+    Raises
+    ------
+    UnknownName
+        If the name is that of no entry point and no step.
+    """
+    return _callable(name)(*memory.addresses, *arguments)
+
+
+def _callable(name: str) -> Callable[..., Any]:
+    """An entry point, or the step of an engine, as a function that Python can call. It is made at the first call.
+
+    Its arguments are the addresses of scalars, floats and integers, then numbers.
+    """
+    if name not in _callables:
+        _callables[name] = prototype_of(name)(known(ENTRIES, name).address())
+    return _callables[name]
+
+
+def prototype_of(name: str) -> Any:
+    """Type of the C function of an entry point or a step, for :mod:`ctypes`.
+
+    The workspace ``ws``, the first argument, is passed as three pointers: to scalars, floats and integers.
+    """
+    # all entry points are compiled or loaded first, as each may call others by their addresses
+    entry_addresses()
+    # "f8(ws, i8)": the type of the result, then those of the arguments, the first of which is ws
+    result, _, names = known(ENTRIES, name).signature.partition("(")
+    # a name that is not in C_TYPES is that of an enumeration, whose members are integers
+    returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
+    return ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)
+
+
+def address_of(make_shim: Callable[[], Callable[..., Any]], form: str, key: str) -> int:
+    """Address of a shim, which calls a plug-in's function, as a C function with the arguments of a form.
+
+    It is loaded from the file of machine code of its ``key``, or ``make_shim`` makes it and it is compiled. Equal keys
+    must mean equal functions. With an empty key nothing is kept on disk. ``form`` is the name of one of ``FORMS``.
+    """
+    name = f"shim-{key}" if key else ""
+    code = read(name) if name else None
+    return load(code) if code else int(_compiler().compile_shim(make_shim(), FORMS[form].signature, name))
+
+
+def jit(function: Callable[..., Any]) -> Any:
+    """Numba's object for a plug-in's function, which is compiled when a shim that calls it is."""
+    return importlib.import_module("nonsmooth.engine.native.compiler").law_dispatcher(function)
+
+
+watches: dict[int, Any] = {}
+"""The C functions of interrupt checks by their addresses. Python frees those that are not listed here."""
+
+
+def watch_address(function: Callable[[float], float]) -> int:
+    """Address of a C function that calls an interrupt check, a Python function of time [s].
+
+    The check returns how much work may be done until its next call, 0 to stop the run. The address is valid until
+    :func:`forget_watch`.
+    """
+    callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
+    # an object of ctypes stores the address as its content. "or 0" is for type checkers: it is never None
+    address = int(ctypes.c_void_p.from_buffer(callback).value or 0)
+    watches[address] = callback
+    return address
+
+
+def forget_watch(address: int) -> None:
+    """Release the C function of an interrupt check, whose address must not be called any more."""
+    del watches[address]
+
+
+def _moved(floats: Any, offset: int) -> Any:
+    """Python half of :func:`at`: the floats from an offset on."""
+    return floats[offset:]
+
+
+at = Shared(_moved, "at")
+
+
+def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Farthest point of a body in the direction (x, y, z) [m], by a C function whose address is ``floats[place]``.
+
+    The parameters of the function follow its address. This is the half of :func:`call_support` that Python calls.
+    """
+    # copies as C arrays, since floats may be any sequence: of the parameters, with one unused number behind them, and
+    # of the direction. The function writes the point to its last argument
+    parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
+    direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
+    FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
+    return found[0], found[1], found[2]
+
+
+call_support = Shared(_support, "support")

@@ -1,0 +1,45 @@
+"""Names of a package that are imported on first use, so that a program imports what it needs only."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeAlias
+
+_IMPORT = re.compile(r"^from (\S+) import (\w+) as \2$", re.MULTILINE)
+
+Names: TypeAlias = tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]
+
+
+def lazy_names(package: str, file: str) -> Names:
+    """Functions ``__getattr__`` and ``__dir__`` of a package, and its ``__all__``, from the imports of its stub.
+
+    The stub is the file ``__init__.pyi`` beside ``__init__.py``, with a line ``from module import Name as Name`` for
+    each name. Editors and type checkers read it in place of the package.
+
+    Parameters
+    ----------
+    package : str
+        ``__name__`` of the package.
+    file : str
+        ``__file__`` of the package.
+
+    Returns
+    -------
+    tuple
+        The two functions, and the names in order.
+    """
+    modules = {name: module for module, name in _IMPORT.findall(Path(file).with_suffix(".pyi").read_text("utf-8"))}
+
+    def get(name: str) -> Any:
+        """Import a name from its module. It is set as an attribute, so that Python does not ask for it again."""
+        if name not in modules:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
+        value = getattr(importlib.import_module(modules[name]), name)
+        setattr(sys.modules[package], name, value)
+        return value
+
+    return get, lambda: sorted({*vars(sys.modules[package]), *modules}), sorted(modules)

@@ -1,0 +1,1 @@
+"""Contact and impact problems by themselves: solved from matrices and rates, without a run."""

@@ -1,0 +1,173 @@
+"""What a contact problem has for an answer, and how unique the answer is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.layout import SINGULAR
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.solvers import Solver
+from nonsmooth.engine.native.kernel import call_entry
+from nonsmooth.problems.delassus import read_delassus
+
+Floats = NDArray[np.float64]
+
+
+class ContactMode(StrEnum):
+    """Mode of a contact at an instant of sustained contact, in the order of the engine's numbers."""
+
+    OPEN = "open"
+    """The bodies are apart, or separate."""
+    STICK = "stick"
+    """The contact is closed, and friction holds it."""
+    SLIDE = "slide"
+    """The contact is closed and slips, or is about to."""
+
+
+_MOST_SEARCHED = 6
+_SAME = 1e-8
+
+
+@dataclass(frozen=True)
+class ContactResult:
+    """Forces, accelerations and modes at an instant of sustained contact.
+
+    Attributes
+    ----------
+    normal_force : array
+        [N], shape [n].
+    tangential_force : array
+        [N], shape [n, 2].
+    acceleration : array
+        u', shape [n_u].
+    contact_acceleration : array
+        Second derivative of the gap and rate of the slip velocity [m/s^2], shape [n, 3].
+    modes : tuple of ContactMode
+        Mode of every contact, length n. Each is a str, too: "open", "stick" or "slide".
+
+    Where several sets of forces give the same motion, those of least norm are given if they keep Coulomb's bound, with
+    contacts that would pull left open; otherwise forces near them that keep it.
+    """
+
+    normal_force: Floats
+    tangential_force: Floats
+    acceleration: Floats
+    contact_acceleration: Floats
+    modes: tuple[ContactMode, ...]
+    _memory: Memory = field(repr=False, compare=False)
+    _scaled: Floats = field(repr=False, compare=False)
+
+    @property
+    def _size(self) -> float:
+        """Largest of the accelerations that cancel one another [m/s^2]."""
+        delassus = read_delassus(self._memory, len(self.modes))
+        return max(float(np.max(np.abs(delassus))) * float(np.max(np.abs(self.normal_force))), 1e-300)
+
+    @cached_property
+    def null_space(self) -> Floats:
+        """Changes of the forces that leave the motion as it is [N], shape [k, n, 3], orthonormal in what is free.
+
+        A contact that sticks, or touches without any acceleration apart, changes its force freely; one that slides
+        changes its normal force, its friction in proportion; one that parts has none.
+        """
+        n = len(self.modes)
+        mu, d = (
+            self._memory[owners.ActiveContact.friction_coefficient][:n],
+            self._memory[owners.ActiveContact.direction][:n],
+        )
+        at_rest = self._memory[owners.ActiveContact.is_at_rest][:n]
+        free = []
+        for i, mode in enumerate(self.modes):
+            column = np.zeros((3, n, 3))
+            column[:, i] = np.eye(3)
+            touching = mode == ContactMode.OPEN and self.contact_acceleration[i, 0] <= _SAME * self._size
+            if mode == ContactMode.SLIDE or (touching and at_rest[i] == 0):
+                column[0, i, 1:] = -mu[i] * d[i]
+                free.append(column[:1])
+            elif mode != ContactMode.OPEN or touching:
+                free.append(column)
+        if not free:
+            return np.zeros((0, n, 3))
+        basis = np.concatenate(free)
+        _, sigma, rows = np.linalg.svd(self._scaled @ basis.reshape(len(basis), 3 * n).T)
+        rank = int(np.sum(sigma > SINGULAR * sigma.max(initial=0.0)))
+        return np.tensordot(rows[rank:], basis, axes=1)
+
+    @property
+    def forces_are_unique(self) -> bool:
+        """Whether only these forces give this motion: the reduced matrix of what is held has full rank.
+
+        True is a proof.  False says that :attr:`null_space` has directions; a force on the border of its
+        bounds may be able to follow one of them one way only, or, now and then, neither.
+        """
+        return len(self.null_space) == 0
+
+    @cached_property
+    def proved_unique(self) -> bool:
+        r"""Whether a criterion proves that no other forces than these, or no other motion, exists.
+
+        For two answers, f and f' with accelerations a and a', Eqs. (16) and (17) with mu_s = mu give
+
+            (f - f') . G (f - f')  <=  sum of mu_i |a_T - a_T'|_i |f_N - f_N'|_i
+
+        Without friction the right-hand side is zero, so G (f - f') is: the motion is unique, G being positive
+        semidefinite.  With friction and a regular G the right-hand side is at most s times the left-hand one,
+        s^2 = (largest eigenvalue of G_TT) (largest one of D (G^-1)_NN D), D holding the coefficients: s < 1 proves it.
+        """
+        n = len(self.modes)
+        mu = self._memory[owners.ActiveContact.friction_coefficient][:n]
+        static = self._memory[owners.ActiveContact.static_coefficient][:n]
+        if np.any((static != mu) & (self._memory[owners.ActiveContact.is_at_rest][:n] == 1)):
+            return False
+        if not np.any(mu > 0.0):
+            return True
+        delassus = read_delassus(self._memory, n)
+        values, vectors = np.linalg.eigh(delassus)
+        if values[0] <= SINGULAR * values[-1]:
+            return False
+        normal = np.arange(3 * n) % 3 == 0
+        half = (vectors[normal] * mu[:, None]) / np.sqrt(values)
+        tangent = delassus[np.ix_(~normal, ~normal)]
+        return bool(np.linalg.norm(half, 2) ** 2 * np.linalg.eigvalsh(tangent)[-1] < 1.0)
+
+    @cached_property
+    def motion_is_unique(self) -> bool | None:
+        """Whether no other motion fulfils the laws; None if that is not known.
+
+        True if :attr:`proved_unique`, or if, for at most six contacts, the search through every combination of modes
+        and every solver meet this motion only.  The search is complete where the slips have given directions; the
+        directions in which contacts at rest start to slide it looks for from several starts, which is no proof.
+        False if another motion was found.  Sliding on which more normal force gives more approach counts as no
+        motion: it is balanced on an edge.
+        """
+        if self.proved_unique:
+            return True
+        n = len(self.modes)
+        if n > _MOST_SEARCHED:
+            return None
+        small = _SAME * self._size
+        whole = {name: getattr(self._memory, name).copy() for name in ("scalars", "floats", "integers")}
+        trial = replace(self._memory, **whole)
+        trial[owners.ActiveContact.mode_past][:n][:] = -1
+        number = 0
+        while number := int(call_entry("enumerate_modes", trial, number)):
+            if self._differs(trial, small):
+                return False
+        for solver in (Solver.LEMKE, Solver.GAUSS_SEIDEL, Solver.NEWTON):
+            if call_entry("find_modes", trial, solver) == 1 and self._differs(trial, small):
+                return False
+        return True
+
+    def _differs(self, trial: Memory, small: float) -> bool:
+        n = len(self.modes)
+        delassus = read_delassus(trial, n)
+        acceleration = (
+            delassus @ trial[owners.Problem.forces][: 3 * n] + trial[owners.Problem.free_accelerations][: 3 * n]
+        )
+        return float(np.max(np.abs(acceleration - self.contact_acceleration.ravel()))) > small

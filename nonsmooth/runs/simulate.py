@@ -1,0 +1,137 @@
+"""Simulate a system or a scenario, or assemble a system to be run often."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.interfaces import Engine, Scenario
+from nonsmooth.results.output import Output
+from nonsmooth.results.overwriting import check_free
+from nonsmooth.runs.checks import check_times
+from nonsmooth.runs.loop import Progress
+from nonsmooth.runs.model import Model
+from nonsmooth.runs.so_far import Until
+from nonsmooth.solution.solution import Solution
+from nonsmooth.system.system import System
+
+__all__ = ["Progress", "assemble", "run_scenario", "simulate"]
+
+
+def assemble(system: System, engine: Engine | None = None) -> Model:
+    """Lay out a system once, to be run often: ``model.run(t_end, start=...)``.
+
+    Parameters
+    ----------
+    system : System
+        Bodies, contacts, starts; what is changed in it later the model does not know.
+    engine : Engine, optional
+        What integrates it, with its options; :class:`EventDriven` by default.
+
+    Returns
+    -------
+    Model
+        The model.
+
+    Warns
+    -----
+    UndeclaredOverlap
+        If bodies overlap at the start that have no contact, are not joined and not excluded.
+
+    Raises
+    ------
+    InvalidInput
+        If the engine cannot run the system, or the start is not valid.
+    """
+    return Model.of(system, _engine(engine))
+
+
+def simulate(
+    system: System,
+    t_end: float,
+    *,
+    sample_interval: float | None = None,
+    engine: Engine | None = None,
+    until: Until | None = None,
+    progress: Progress | None = None,
+    output: Output | Path | str | None = None,
+) -> Solution:
+    """Simulate a system from t = 0: assemble it and run it once.
+
+    Parameters
+    ----------
+    system : System
+        Bodies, contacts, starts.
+    t_end : float
+        End time [s].
+    sample_interval : float, optional
+        Time between stored samples [s]; t_end / 2000 by default.  Events are stored exactly in any case.
+    engine : Engine, optional
+        What integrates it, with its options; :class:`EventDriven` by default.
+    until : callable, optional
+        A condition that ends the run (:meth:`nonsmooth.Model.run`).
+    progress : callable, optional
+        Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
+        raises ends the run and is raised.
+    output : Output, Path or str, optional
+        A folder to which events and samples are appended as they come (:meth:`nonsmooth.Model.run`).  The system is
+        there, too, where all of its classes are installed; else who opens the folder gives it (:func:`open_solution`).
+
+    Returns
+    -------
+    Solution
+        With status "done", "suspect" where its own checks found something (the message says what), or "interrupted"
+        after Ctrl-C.
+
+    Warns
+    -----
+    UndeclaredOverlap
+        If bodies overlap at the start that have no contact, are not joined and not excluded.
+
+    Raises
+    ------
+    InvalidInput
+        If the engine cannot run the system, the start or a number is not valid, or a run was cut off in the folder;
+        nothing has run then.
+    FileError
+        If the folder cannot be written to as the run begins.
+    RunFailed
+        If the run cannot go on, or cannot be written any more; its ``solution`` holds what was computed.
+    """
+    check_times("simulate", t_end, sample_interval)
+    if output is not None:
+        check_free(Output.to(output))
+    model = Model.of(system, _engine(engine))
+    return model.run(t_end, sample_interval=sample_interval, until=until, progress=progress, output=output)
+
+
+def _engine(given: Engine | None) -> Engine:
+    return EventDriven() if given is None else given
+
+
+def run_scenario(scenario: Scenario, engine: Engine | None = None, *, progress: Progress | None = None) -> Solution:
+    """Simulate a scenario until its end time.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        The scenario with its parameters.
+    engine : Engine, optional
+        Engine with its options; :class:`EventDriven` by default.
+    progress : callable, optional
+        Called as ``progress(t, t_end)`` with the time reached and the end time [s].
+
+    Returns
+    -------
+    Solution
+        The solution.
+
+    Raises
+    ------
+    InvalidInput
+        If the system cannot be simulated; the message names the part and the remedy.
+    RunFailed
+        If the run fails; the error has the solution up to that time.
+    """
+    interval = scenario.sample_interval
+    return simulate(scenario.build(), scenario.t_end, sample_interval=interval, engine=engine, progress=progress)

@@ -1,0 +1,123 @@
+"""Claims: properties written as functions. The docstring is the statement, the arguments are drawn."""
+
+from __future__ import annotations
+
+import inspect
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, final
+
+from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.errors import NonsmoothError
+from nonsmooth.parameters import UnusualValue
+from nonsmooth.testing.child import about_to
+from nonsmooth.testing.inputs import Drawn, draws, simplified
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, words_of
+
+FEWEST = 3
+"""Inputs of claims that use the engine in plain mode, in which it is some 400 times slower."""
+GIVEN = Drawn((), dict)
+"""Stands for the inputs that :func:`rows` is given."""
+
+
+@final
+@dataclass(frozen=True)
+class Claim:
+    """A statement about a component, and the function that tries it.
+
+    Attributes
+    ----------
+    name : str
+        A few words.
+    says : str
+        The statement.
+    trial : callable
+        Takes the component and its inputs. Returns the fault, or "" if there is none.
+    inputs : tuple of Drawn
+        What the trial gets besides the component.
+    n_inputs : int or None
+        Inputs that are tried; None for as many as of the other claims.
+    fewest : int or None
+        Inputs that are tried in plain mode; None for all.
+    """
+
+    name: str
+    says: str
+    trial: Callable[..., str]
+    inputs: tuple[Drawn, ...] = ()
+    n_inputs: int | None = None
+    fewest: int | None = None
+
+    def at(self, *given: Drawn) -> Claim:
+        """Return the claim with inputs in the place of :data:`GIVEN`."""
+        inputs = [other for drawn in self.inputs for other in (given if drawn is GIVEN else (drawn,))]
+        return replace(self, inputs=tuple(inputs))
+
+    def fault(self, component: Any, case: dict[str, float]) -> str:
+        """Return the fault of a component at an input, an exception included; "" if there is none."""
+        about_to("it {takes}", component, case)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", UnusualValue)
+                return self.trial(component, *(one.made(case) for one in self.inputs))
+        except (NotChecked, Broken):
+            raise
+        except (NonsmoothError, ArithmeticError, LookupError, TypeError, ValueError) as error:
+            return words_of(error)
+
+    def examine(self, components: Iterable[Any], count: int) -> None:
+        """Try ``count`` inputs on each component.
+
+        Raises
+        ------
+        Broken
+            If an input fails, with the simplest input that does.
+        """
+        count = self.n_inputs or count
+        count = self.fewest if PLAIN and self.fewest is not None else count
+        for component in components:
+            for case in draws(self.inputs, count):
+                if found := self.fault(component, case):
+                    simplest = simplified(self.inputs, case, lambda c: self.fault(component, c) != "", count)  # noqa: B023
+                    again = self.fault(component, simplest)
+                    reason = again or f"{found}; tried again, it holds: something is random"
+                    raise Broken(reason, *described(component), simplest)
+
+
+def claim(
+    *inputs: Drawn, name: str = "", n_inputs: int | None = None, fewest: int | None = None
+) -> Callable[[Callable[..., str]], Claim]:
+    """Make a claim of a function: its name with blanks is the name, its docstring the statement."""
+
+    def made(trial: Callable[..., str]) -> Claim:
+        says = " ".join(inspect.cleandoc(trial.__doc__ or "").split()).rstrip(".")
+        return Claim(name or trial.__name__.strip("_").replace("_", " "), says, trial, inputs, n_inputs, fewest)
+
+    return made
+
+
+def rows(
+    claims: Sequence[Claim],
+    components: Callable[[], Iterable[Any]],
+    count: int,
+    given: Sequence[Drawn] = (),
+) -> list[Row]:
+    """Return the rows of claims about components that are made when a claim is checked.
+
+    Parameters
+    ----------
+    claims : sequence of Claim
+        The claims.
+    components : callable
+        Returns the components.
+    count : int
+        Inputs that are tried on each.
+    given : sequence of Drawn
+        Inputs in the place of :data:`GIVEN`.
+    """
+    return [_row(one.at(*given), components, count) for one in claims]
+
+
+def _row(one: Claim, components: Callable[[], Iterable[Any]], count: int) -> Row:
+    return Row(one.name, one.says, lambda: one.examine(components(), count))

@@ -1,0 +1,214 @@
+"""Inputs of the properties: drawn by hypothesis, made as simple as they fail; and the values of declared parameters.
+
+A number is one of a thousand steps between its simplest value and either bound. Hypothesis draws the steps and makes a
+failing input simpler step by step. So a message names numbers of a size that means something.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, final
+
+from nonsmooth.errors import MissingPackagesError
+from nonsmooth.parameters import Rule
+
+Case = dict[str, float]
+"""Numbers by name."""
+MOST_TRIALS = 300
+"""Inputs that are tried to make a failing input simpler."""
+_STEPS = 1000
+"""Steps between the simplest value of a number and a bound."""
+_ORIGIN = 7_001_001_001
+"""Integer that means no step. Hypothesis mixes constants of loaded modules into its draws; none is as large as this."""
+_PACKAGES = ("hypothesis", "cloudpickle")
+
+
+@final
+@dataclass(frozen=True)
+class DrawnNumber:
+    """A number that is drawn between two bounds, evenly or, if ``is_log``, evenly in its logarithm.
+
+    Attributes
+    ----------
+    name : str
+        Its name in messages.
+    low, high : float
+        The bounds.
+    simplest : float
+        The value that it has in the simplest input.
+    is_log : bool
+        True if its logarithm is drawn.
+    """
+
+    name: str
+    low: float
+    high: float
+    simplest: float = 0.0
+    is_log: bool = False
+
+    @property
+    def n_steps(self) -> int:
+        """Number of steps: on both sides of the simplest value, or above it alone if that is the lower bound."""
+        return 2 * _STEPS if self.low < self.simplest < self.high else _STEPS
+
+    def at(self, step: int) -> float:
+        """Value at a step. Steps 1, 2, 3, ... go up, down, up, ..., away from the simplest value."""
+        if step == 0:
+            return self.simplest
+        if self.n_steps == _STEPS:
+            end, share = self.high if self.simplest < self.high else self.low, step / _STEPS
+        else:
+            end, share = (self.low, self.high)[step % 2], (step + 1) // 2 / _STEPS
+        if self.is_log:
+            value = self.simplest ** (1.0 - share) * end**share
+        else:
+            value = self.simplest + share * (end - self.simplest)
+        # short numbers read better
+        return min(max(float(f"{value:.3g}"), self.low), self.high)
+
+
+@final
+@dataclass(frozen=True)
+class Drawn:
+    """Numbers that are drawn together, and what a property gets that is made of them."""
+
+    numbers: tuple[DrawnNumber, ...]
+    made: Callable[[Case], Any]
+
+
+def number(name: str, low: float, high: float, simplest: float = 0.0, *, is_log: bool = False) -> Drawn:
+    """Return a single number that is drawn; the arguments are those of :class:`DrawnNumber`."""
+    return Drawn((DrawnNumber(name, low, high, simplest, is_log),), lambda case: case[name])
+
+
+def require_packages() -> None:
+    """Raise MissingPackagesError unless the packages are installed that the conformance kit needs."""
+    missing = [name for name in _PACKAGES if importlib.util.find_spec(name) is None]
+    if missing:
+        raise MissingPackagesError(
+            f'The conformance kit needs {" and ".join(missing)}: pip install "nonsmooth[testing]"'
+        )
+
+
+def draws(inputs: Sequence[Drawn], count: int) -> list[Case]:
+    """Return the simplest input, then drawn ones, always the same."""
+    numbers = _numbers(inputs)
+    return [_case(numbers, steps) for steps in _drawn(tuple(one.n_steps for one in numbers), count)]
+
+
+def simplified(inputs: Sequence[Drawn], case: Case, fails: Callable[[Case], bool], count: int) -> Case:
+    """Return the simplest failing input that hypothesis finds, starting from draws of which ``case`` fails.
+
+    At most :data:`MOST_TRIALS` inputs are tried after the first that fails.
+    """
+    numbers, found, trials = _numbers(inputs), case, 0
+
+    def trial(steps: tuple[int, ...]) -> None:
+        nonlocal found, trials
+        one = _case(numbers, steps)
+        if trials > MOST_TRIALS and one != found:
+            return
+        if fails(one):
+            found, trials = one, max(trials, 1)
+            raise _Fails
+        trials += trials > 0
+
+    if not MOST_TRIALS:
+        return case
+    from hypothesis.errors import Flaky
+
+    try:
+        _run(tuple(one.n_steps for one in numbers), count, trial, shrinks=True)
+    except (_Fails, Flaky):
+        return found
+    return case
+
+
+class _Fails(Exception):
+    """An input that fails."""
+
+
+def _numbers(inputs: Sequence[Drawn]) -> list[DrawnNumber]:
+    return [one for drawn in inputs for one in drawn.numbers]
+
+
+def _case(numbers: Sequence[DrawnNumber], steps: Sequence[int]) -> Case:
+    return {one.name: one.at(step) for one, step in zip(numbers, steps, strict=True)}
+
+
+@functools.cache
+def _drawn(sizes: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
+    """Return drawn steps, once for all properties whose numbers have so many steps."""
+    if not sizes:
+        return [()]
+    found: list[tuple[int, ...]] = []
+    _run(sizes, count, found.append, shrinks=False)
+    return found
+
+
+def _run(sizes: tuple[int, ...], count: int, trial: Callable[[tuple[int, ...]], None], *, shrinks: bool) -> None:
+    """Let hypothesis draw steps: the same at each time, without a database or a limit of time of its own."""
+    from hypothesis import HealthCheck, Phase, Verbosity, given, settings
+    from hypothesis import strategies as st
+
+    steps = st.tuples(*(st.integers(_ORIGIN, _ORIGIN + size) for size in sizes))
+
+    @settings(
+        max_examples=count,
+        derandomize=True,
+        database=None,
+        deadline=None,
+        phases=[Phase.generate, *([Phase.shrink] if shrinks else [])],
+        # trials by the engine take long, and a test of an author may draw a component by hypothesis itself
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.nested_given],
+        verbosity=Verbosity.quiet,
+    )
+    @given(steps)
+    def run(numbers: tuple[int, ...]) -> None:
+        trial(tuple(one - _ORIGIN for one in numbers))
+
+    run()
+
+
+# values of declared parameters
+
+_FAR = 3.0
+"""Ratio of other values of a parameter to the given one."""
+_JUST = 1e-9
+"""Distance past a bound, relative to it, that a component must notice."""
+
+
+def inside(value: float | None, rule: Rule) -> tuple[float, ...]:
+    """Return values within the declared range of a parameter: bounds that belong to it and values between."""
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    tried = [rule.minimum, rule.maximum]
+    if value is not None:
+        tried += [value, value / _FAR, value * _FAR]
+    if low > -math.inf and high < math.inf:
+        tried.append(0.5 * (low + high))
+    return tuple(x for x in dict.fromkeys(tried) if math.isfinite(x) and low <= x <= high and x > rule.above)
+
+
+def outside(rule: Rule) -> tuple[float, ...]:
+    """Return values outside of the declared range of a parameter, and those that are not finite."""
+    found = [math.nan, math.inf, -math.inf]
+    for bound, sign in ((rule.minimum, -1.0), (rule.maximum, 1.0)):
+        if math.isfinite(bound):
+            found += [bound + sign * (_JUST + _JUST * abs(bound)), bound + sign * (1.0 + abs(bound))]
+    if math.isfinite(rule.above):
+        found += [rule.above, rule.above - 1.0]
+    return tuple(found)
+
+
+def typical(rule: Rule) -> float:
+    """Return a value in the middle of the declared range of a parameter, or of its usual range."""
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    if math.isfinite(low) and math.isfinite(high):
+        return 0.5 * (low + high)
+    if rule.usual[0] > 0.0 and math.isfinite(rule.usual[1]):
+        return math.sqrt(rule.usual[0] * rule.usual[1])
+    return low + 1.0 if math.isfinite(low) else high - 1.0 if math.isfinite(high) else 1.0

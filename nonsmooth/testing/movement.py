@@ -1,0 +1,107 @@
+"""Two frames that move as an input says, with everything that their blocks hold in closed form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
+from nonsmooth.rotations import cross, rotation, turned
+from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber
+
+Array = NDArray[np.float64]
+Frames = tuple[Array, Array]
+"""The blocks of the first and of the second body's frame."""
+_UNIT = (1.0, 0.0, 0.0, 0.0)
+_PLACE = (0.31, -0.23, 0.37)
+"""Place of the second frame in the simplest input [m]: on no axis of the first."""
+_TURNS = {"a": (0.12, -0.05, 0.15), "b": (-0.1, 0.2, 0.08)}
+"""Turns of the frames in the simplest input [rad]: no axis of one is parallel to one of the other."""
+_TURN = 0.35
+"""Largest part of a turn [rad]: two of them stay below a right angle, within which angles have one meaning."""
+STEP = 1e-3
+"""Step of the differences [s], in which the frames move by some thousandths."""
+SHIFT, TURN = np.array([0.3, -0.2, 0.7]), rotation(turned(_UNIT, (0.4, -0.3, 0.5)))
+"""Where both bodies are moved together, to see whether anything depends on it."""
+
+
+def three(case: Case, name: str) -> Array:
+    """Return the vector of an input."""
+    return np.array([case[f"{name}_{c}"] for c in "xyz"])
+
+
+@final
+@dataclass(frozen=True)
+class Movement:
+    """The movement of two frames."""
+
+    case: Case
+
+    def at(self, dt: float = 0.0) -> Frames:
+        """Return the two frames after a time [s]."""
+        return self._block("a", np.zeros(3), dt), self._block("b", three(self.case, "place"), dt)
+
+    @property
+    def mirrored(self) -> Movement:
+        """Another movement, different in every number."""
+        return Movement({name: -0.9 * value + 0.11 for name, value in self.case.items()})
+
+    @property
+    def still(self) -> Movement:
+        """The same places and turns, at rest."""
+        moves = ("velocity", "spin", "acceleration")
+        return Movement({name: 0.0 if name.startswith(moves) else value for name, value in self.case.items()})
+
+    def _block(self, side: str, start: Array, dt: float) -> Array:
+        velocity, acceleration = three(self.case, f"velocity_{side}"), three(self.case, f"acceleration_{side}")
+        spin, spin_up = three(self.case, f"spin_{side}"), three(self.case, f"spin_up_{side}")
+        # the turn by the spin, and over it a turn that quickens: its rate is spin_up dt about an axis that stays
+        quickening = rotation(turned(_UNIT, 0.5 * dt * dt * spin_up))
+        own = rotation(turned(turned(_UNIT, three(self.case, f"turn_{side}")), dt * spin))
+        carried = quickening @ spin
+        block = np.zeros(FRAME)
+        block[POSITION:ROTATION] = start + dt * velocity + 0.5 * dt * dt * acceleration
+        block[ROTATION:VELOCITY] = (quickening @ own).ravel()
+        block[VELOCITY:SPIN], block[SPIN:ACCELERATION] = velocity + dt * acceleration, dt * spin_up + carried
+        block[ACCELERATION:SPIN_ACCELERATION] = acceleration
+        block[SPIN_ACCELERATION:] = spin_up + dt * cross(spin_up, carried)
+        return block
+
+
+def _numbers() -> list[DrawnNumber]:
+    found = [DrawnNumber(f"place_{c}", -1.0, 1.0, part) for c, part in zip("xyz", _PLACE, strict=True)]
+    for side, turn in _TURNS.items():
+        found += [DrawnNumber(f"turn_{side}_{c}", -_TURN, _TURN, part) for c, part in zip("xyz", turn, strict=True)]
+    for name, size in (("velocity", 1.0), ("spin", 2.0), ("acceleration", 1.0), ("spin_up", 2.0)):
+        found += [DrawnNumber(f"{name}_{side}_{c}", -size, size) for side in "ab" for c in "xyz"]
+    return found
+
+
+MOVEMENT = Drawn(tuple(_numbers()), Movement)
+"""Two moving frames about a metre apart."""
+
+
+def moved(at: Frames) -> Frames:
+    """Return frames as they are after everything has been turned and shifted."""
+    one, other = (_moved(block) for block in at)
+    return one, other
+
+
+def _moved(block: Array) -> Array:
+    made = np.zeros(FRAME)
+    made[POSITION:ROTATION] = TURN @ block[POSITION:ROTATION] + SHIFT
+    made[ROTATION:VELOCITY] = (TURN @ block[ROTATION:VELOCITY].reshape(3, 3)).ravel()
+    made[VELOCITY:] = (block[VELOCITY:].reshape(4, 3) @ TURN.T).ravel()
+    return made
+
+
+def shared(at: Frames, velocity: Array, spin: Array) -> Frames:
+    """Return frames whose velocities are those that they have and those of a rigid motion of all space."""
+    one, other = (block.copy() for block in at)
+    for block in (one, other):
+        block[VELOCITY:SPIN] += velocity + cross(spin, block[POSITION:ROTATION])
+        block[SPIN:ACCELERATION] += spin
+    return one, other

@@ -1,0 +1,141 @@
+"""The checks of a component, and their outcomes."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+import unittest
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import TracebackType
+from typing import Any, NamedTuple, final
+
+from nonsmooth.errors import NonsmoothError
+from nonsmooth.parameters import Component, rules
+
+_OTHERS = ("nonsmooth", "numpy", "scipy", "numba")
+"""Packages that raise an exception because of what a component gives them."""
+
+
+class NotChecked(NonsmoothError, unittest.SkipTest):
+    """A property that could not be checked, with the reason; pytest counts it as skipped."""
+
+
+class Broken(Exception):
+    """A fault that a check raises inside the kit; :class:`Property` adds the names.
+
+    Parameters
+    ----------
+    reason, parameter, value, case
+        Those of :class:`PropertyFailed`.
+    """
+
+    def __init__(
+        self, reason: str, parameter: str = "", value: object = "", case: Mapping[str, float] | None = None
+    ) -> None:
+        super().__init__(reason)
+        self.reason, self.parameter, self.value, self.case = reason, parameter, value, case or {}
+
+
+class Row(NamedTuple):
+    """Name and statement of a property, and a check that raises Broken, NotChecked or any other exception."""
+
+    name: str
+    says: str
+    check: Callable[[], None]
+
+
+class Outcome(NamedTuple):
+    """The result of a check: ``kind`` is "holds", "broken" or "not checked"; the rest says why."""
+
+    kind: str
+    reason: str = ""
+    parameter: str = ""
+    value: Any = ""
+    case: Mapping[str, float] = {}
+    printed: str = ""
+
+
+def outcome_of(check: Callable[[], None]) -> Outcome:
+    """Run a check in this process."""
+    try:
+        check()
+    except NotChecked as error:
+        return Outcome("not checked", str(error))
+    except Broken as found:
+        value = found.value if isinstance(found.value, (int, float, str, dict)) else str(found.value)
+        return Outcome("broken", found.reason, found.parameter, value, dict(found.case))
+    except Exception as error:
+        return Outcome("broken", words_of(error))
+    return Outcome("holds")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """A component, and the function that makes its rows.
+
+    Attributes
+    ----------
+    component : object
+        The component.
+    rows : callable
+        Takes the component and the options, and returns rows.
+    options : mapping
+        Keyword arguments of the function of the kit.
+    """
+
+    component: Any
+    rows: Callable[..., list[Row]]
+    options: Mapping[str, Any]
+
+    def __reduce__(self) -> Any:
+        """Leave the rows behind: another process makes its own."""
+        return Subject, (self.component, self.rows, self.options)
+
+    @cached_property
+    def all(self) -> Mapping[str, Row]:
+        """The rows by name."""
+        owner: type[Component] = type(self.component)
+        rows = {row.name: row for row in self.rows(self.component, **self.options)}
+        if unknown := sorted(set(owner.departures) - set(rows)):
+            fault = Broken("there are no such properties", "departures", unknown)
+            rows["departures"] = Row("departures", "They name properties", lambda: _raise(fault))
+        return rows
+
+
+def _raise(error: Exception) -> None:
+    raise error
+
+
+def place_of(owner: type) -> str:
+    """Return name, file and line of a class; empty if it has no file."""
+    try:
+        return f"{owner.__name__} in {inspect.getsourcefile(owner)}, line {inspect.getsourcelines(owner)[1]}"
+    except (OSError, TypeError):
+        return ""
+
+
+def words_of(error: BaseException) -> str:
+    """Return the message of an exception, with file and line of the last call outside of Python and the packages."""
+    trace, place = error.__traceback__, ""
+    while trace is not None:
+        if not _is_others(trace):
+            place = f", in {trace.tb_frame.f_code.co_filename}, line {trace.tb_lineno}"
+        trace = trace.tb_next
+    return f"it raises {type(error).__name__}: {str(error).rstrip('.')}{place}"
+
+
+def _is_others(trace: TracebackType) -> bool:
+    package = str(trace.tb_frame.f_globals.get("__name__", "")).partition(".")[0]
+    return package in _OTHERS or package in sys.stdlib_module_names
+
+
+def described(component: Any) -> tuple[str, Any]:
+    """Return names and values of the parameters that are given."""
+    given = {name: getattr(component, name) for name in rules(type(component))}
+    given = {name: value for name, value in given.items() if value is not None}
+    if len(given) == 1:
+        return next(iter(given.items()))
+    return ("parameters", given) if given else ("", "")
