@@ -6,6 +6,7 @@ A curve is a pair (x, y) of arrays.  Charts take curves by their label in the le
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -66,13 +67,18 @@ def panels(
 
 
 def legend(figure: Figure, columns: int = 3, note: str = "") -> None:
-    """Put one legend below all panels, with each label once, under a note; none if nothing has a label."""
+    """Put one legend below all panels, with each label once, under a note; none if nothing has a label.
+
+    The legend has at most ``columns`` columns, and rows of about equal length.
+    """
     entries: dict[str, Any] = {}
     for ax in figure.axes:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     if entries:
-        place: dict[str, Any] = {"loc": "outside lower center", "ncols": columns, "fontsize": 8, "frameon": False}
+        n_rows = math.ceil(len(entries) / columns)
+        n_columns = math.ceil(len(entries) / n_rows)
+        place: dict[str, Any] = {"loc": "outside lower center", "ncols": n_columns, "fontsize": 8, "frameon": False}
         found = figure.legend(list(entries.values()), list(entries), title=note or None, title_fontsize=7, **place)
         found.get_title().set_color("0.25")
 

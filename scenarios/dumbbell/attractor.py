@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -22,22 +22,21 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 NAMES = ("drift", "jump", "flutter", "rest", "other")
-"""All attractors that are distinguished."""
+"""Attractors that are distinguished."""
 _LONGEST_TAIL, _SHORTEST_TAIL = 40, 4
-"""Plate periods: the settled part is the last half of the run, at most the first; below the second, no period."""
+"""Most plate periods of the settled part, which is the last half of a run; least that have a period."""
 _LONGEST_PERIOD = 8
-"""Longest period looked for [plate periods]."""
+"""Longest period that is sought [plate periods]."""
 _PERIOD_TOLERANCE = 0.02
-"""Deviation from the motion one period before that is ignored, relative to the largest gap and gap rate of the ball,
-or to amplitude and peak speed of the plate if these are larger."""
+"""Largest deviation from the motion a period before, relative to the ball's or the plate's largest motion."""
 _SECTIONS = 0.9
-"""Fraction of the phases that must agree: a few are so close to an impact that its exact time decides."""
+"""Fraction of the phases that must agree; a few are so close to an impact that its exact time decides."""
 _LEVEL = 0.25
-"""A tilt that lifts one end by less than this fraction of the largest gap counts as level."""
+"""Largest difference of the gaps of a level motion, relative to the largest gap."""
 _SYMMETRIC = 0.1
-"""A mean of the extreme tilts below this fraction of their range counts as zero."""
+"""Largest mean of the extreme tilts of a symmetric motion, relative to their range."""
 _STANDING = 0.2
-"""A ball that is on the plate for this fraction of the time stands on it."""
+"""Least fraction of time on the plate of a ball that stands on it."""
 
 
 @dataclass(frozen=True)
@@ -82,11 +81,6 @@ class Settled:
         }
 
     @functools.cached_property
-    def gap(self) -> Floats:
-        """Gaps between balls and plate [m], shape [n, 2]."""
-        return self.motion.gap
-
-    @functools.cached_property
     def scales(self) -> tuple[float, float]:
         """Amplitude [m] and peak speed [m/s] of the plate, or small ones if the plate hardly moves."""
         scenario = self.motion.scenario
@@ -112,9 +106,9 @@ class Settled:
             return None
         t, gap_rate, cycle = self.motion.t, self.motion.gap_rate, 1.0 / self.motion.scenario.frequency
         length, speed = self.scales
-        lengths = np.maximum(length, self.gap.max(axis=0))
+        lengths = np.maximum(length, self.motion.gap.max(axis=0))
         speeds = np.maximum(speed, np.abs(gap_rate).max(axis=0))
-        scaled = np.column_stack([self.gap / lengths, gap_rate / speeds])
+        scaled = np.column_stack([self.motion.gap / lengths, gap_rate / speeds])
         longest = math.floor((t[-1] - t[0]) / cycle / 2.0 + 1e-9)
         for p in range(1, min(_LONGEST_PERIOD, longest) + 1):
             earlier = t - p * cycle
@@ -126,27 +120,52 @@ class Settled:
         return None
 
     def _attractor(self, period: int | None) -> str:
-        strikes, double, standing = self._impacts()
-        if not len(strikes) and self.gap.max() <= 1e-6 * self.scales[0]:
+        """Return the name of the attractor with this period."""
+        if not len(self._strikes[0]) and self.motion.gap.max() <= 1e-6 * self.scales[0]:
             return "rest"
-        if period is None:
-            return "other"
-        return next((name for name, test in _TESTS.items() if test(self, period, strikes, double, standing)), "other")
+        tests = {"jump": self._jumps, "flutter": self._flutters, "drift": self._drifts}
+        return next((name for name, test in tests.items() if period is not None and test(period)), "other")
 
-    def _impacts(self) -> tuple[NDArray[np.int64], NDArray[np.bool_], Floats]:
-        """Return of each impact the ball (0 or 1, 2 for both) and whether both touch, and the balls' time on the plate.
+    def _jumps(self, period: int) -> bool:
+        """Return True if both balls bounce once per plate period, level."""
+        struck, _ = self._strikes
+        lift = np.abs(self.motion.gap[:, 0] - self.motion.gap[:, 1]).max()
+        level = lift <= _LEVEL * float(self.motion.gap.max()) and float(self._standing.max()) < _STANDING
+        return period == 1 and level and all(abs(n - self.cycles) <= 1 for n in struck.sum(axis=0))
 
-        The last is a fraction of the whole, shape [2].
-        """
-        events, begin, end = self.events, self.motion.t[0], self.motion.t[-1]
-        inside = (events.time > begin) & (events.time <= end)
+    def _flutters(self, period: int) -> bool:
+        """Return True if the balls strike in turn, each once in two plate periods, and the tilt is symmetric."""
+        struck, _ = self._strikes
+        low, high = self.beta_range
+        in_turn = bool(np.all(struck.sum(axis=1) == 1) and np.all(struck[1:, 0] != struck[:-1, 0]))
+        symmetric = abs(low + high) <= _SYMMETRIC * (high - low)
+        return period == 2 and abs(len(struck) - self.cycles) <= 1 and in_turn and symmetric
+
+    def _drifts(self, period: int) -> bool:
+        """Return True if one ball stands, the other strikes once per plate period, and then both touch: {11,10,11}."""
+        struck, touching = self._strikes
+        resting = int(np.argmax(self._standing))
+        other = struck[:, 1 - resting]
+        stands = float(self._standing[resting]) >= _STANDING > float(self._standing[1 - resting])
+        double = bool(np.all(touching[other].all(axis=1)) and not np.any(struck.all(axis=1)))
+        return stands and abs(int(other.sum()) - self.cycles) <= 1 and double
+
+    @functools.cached_property
+    def _strikes(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Impacts: True for balls that strike, and for balls that touch the plate in them, shapes [n, 2]."""
+        events = self.events
+        inside = (events.time > self.motion.t[0]) & (events.time <= self.motion.t[-1])
         during = events.during[inside & (events.cause == Cause.IMPACT)]
         during = during[((during & 2) > 0).any(axis=1)]
-        struck, touching = (during & 2) > 0, (during & 1) > 0
-        balls = np.where(struck.all(axis=1), 2, np.argmax(struck, axis=1))
+        return (during & 2) > 0, (during & 1) > 0
+
+    @functools.cached_property
+    def _standing(self) -> Floats:
+        """Fractions of the time in which the balls are on the plate, shape [2]."""
+        events, begin, end = self.events, self.motion.t[0], self.motion.t[-1]
         edges = np.clip(np.append(events.time, end), begin, end)
-        standing = (np.diff(edges)[:, None] * (events.after & 1)).sum(axis=0) / max(end - begin, 1e-300)
-        return balls, touching.all(axis=1), standing
+        standing: Floats = (np.diff(edges)[:, None] * (events.after & 1)).sum(axis=0) / max(end - begin, 1e-300)
+        return standing
 
     def _largest_gaps(self) -> list[float]:
         """Return the largest gap of each ball [m], between the samples too (constant acceleration there)."""
@@ -154,44 +173,5 @@ class Settled:
         v0, v1 = rate[:-1], rate[1:]
         turns = (v0 > 0.0) & (v1 < 0.0)
         steps = np.diff(self.motion.t)[:, None]
-        peaks = self.gap[:-1] + 0.5 * steps * np.where(turns, v0, 0.0) ** 2 / np.where(turns, v0 - v1, 1.0)
-        return [float(max(peaks[:, ball].max(initial=0.0), self.gap[:, ball].max())) for ball in (0, 1)]
-
-
-def _jumps(one: Settled, period: int, strikes: Any, double: Any, standing: Any) -> bool:
-    """Return True if both balls bounce once per plate period, level."""
-    lift = np.abs(one.gap[:, 0] - one.gap[:, 1]).max()
-    per_ball = [np.isin(strikes, (ball, 2)).sum() for ball in (0, 1)]
-    return (
-        period == 1
-        and lift <= _LEVEL * float(one.gap.max())
-        and float(standing.max()) < _STANDING
-        and all(abs(n - one.cycles) <= 1 for n in per_ball)
-    )
-
-
-def _flutters(one: Settled, period: int, strikes: Any, double: Any, standing: Any) -> bool:
-    """Return True if the balls strike in turn, each once in two plate periods, and the tilt is symmetric."""
-    low, high = one.beta_range
-    return (
-        period == 2
-        and abs(len(strikes) - one.cycles) <= 1
-        and bool(np.all(np.diff(strikes) != 0))
-        and not bool(np.any(strikes == 2))
-        and abs(low + high) <= _SYMMETRIC * (high - low)
-    )
-
-
-def _drifts(one: Settled, period: int, strikes: Any, double: Any, standing: Any) -> bool:
-    """Return True if one ball stands a good part of the time and the other strikes once per period: {11,10,11}."""
-    resting = int(np.argmax(standing))
-    other = strikes == 1 - resting
-    return (
-        float(standing[resting]) >= _STANDING > float(standing[1 - resting])
-        and abs(int(other.sum()) - one.cycles) <= 1
-        and bool(np.all(double[other]))
-        and not bool(np.any(strikes == 2))
-    )
-
-
-_TESTS: Mapping[str, Callable[..., bool]] = {"jump": _jumps, "flutter": _flutters, "drift": _drifts}
+        peaks = self.motion.gap[:-1] + 0.5 * steps * np.where(turns, v0, 0.0) ** 2 / np.where(turns, v0 - v1, 1.0)
+        return [float(max(peaks[:, ball].max(initial=0.0), self.motion.gap[:, ball].max())) for ball in (0, 1)]

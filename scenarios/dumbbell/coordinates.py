@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from nonsmooth.rotations import cross
 
 if TYPE_CHECKING:
     from scenarios.dumbbell.scenario import DumbbellScenario
@@ -18,8 +21,6 @@ NAMES = ("x1", "y1", "z1", "theta", "beta", "gamma")
 _UNITS = dict(zip(NAMES, 3 * ["m"] + 3 * ["rad"], strict=True))
 UNITS = _UNITS | {f"{name}_rate": f"{unit}/s" for name, unit in _UNITS.items()}
 """Their units and those of their rates, by name."""
-
-_SINGULAR = 1e-12
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class DumbbellMotion:
         first = self.q[:, 2] - self.scenario.radius
         return np.column_stack([first, first + self.scenario.centre_distance * np.sin(self.q[:, 4])])
 
-    @property
+    @functools.cached_property
     def gap(self) -> Floats:
         """Gaps between balls and plate [m], shape [n, 2]."""
         first = self.q[:, 2] - self.scenario.radius - self.scenario.plate_height(self.t)
@@ -81,7 +82,7 @@ class DumbbellMotion:
 
 
 def to_state(q: Floats, u: Floats, centre_distance: float) -> dict[str, Floats]:
-    """Return what ``FreeBody.state`` asks for, from the paper's coordinates, Eqs. (2) and (3).
+    """Return the arguments of ``System.place`` from the paper's coordinates, Eqs. (2) and (3).
 
     Parameters
     ----------
@@ -100,28 +101,17 @@ def to_state(q: Floats, u: Floats, centre_distance: float) -> dict[str, Floats]:
     turn = _product(_about(2, np.pi / 2.0 + theta), _product(_about(1, -beta), _about(0, gamma)))
     e1 = _axes(turn[None])[0][0]
     s_g, c_g, c_b = np.sin(gamma), np.cos(gamma), np.cos(beta)
-    spin = np.array(
-        [
-            u[5] + u[3] * np.sin(beta),
-            u[3] * c_b * s_g - u[4] * c_g,
-            u[3] * c_b * c_g + u[4] * s_g,
-        ]
-    )
-    arm = centre_distance / 2.0 * e1
-    e1_rate = _e1_rate(q[None], u[None])[0]
-    return {
-        "position": q[:3] + arm,
-        "orientation": turn,
-        "velocity": u[:3] + centre_distance / 2.0 * e1_rate,
-        "angular_velocity": spin,
-    }
+    spin = np.array([u[5] + u[3] * np.sin(beta), u[3] * c_b * s_g - u[4] * c_g, u[3] * c_b * c_g + u[4] * s_g])
+    position = q[:3] + centre_distance / 2.0 * e1
+    velocity = u[:3] + centre_distance / 2.0 * _e1_rate(q[None], u[None])[0]
+    return {"position": position, "orientation": turn, "velocity": velocity, "angular_velocity": spin}
 
 
 def from_state(t: Floats, q: Floats, u: Floats, centre_distance: float) -> tuple[Floats, Floats]:
     """Return the paper's coordinates and rates of a motion, the inverse of :func:`to_state`.
 
-    The angles are continuous in time.  Theta and gamma are not defined where the rod stands upright,
-    |beta| = 90 degrees; their rates are large there and mean nothing.
+    The angles are continuous in time.  Theta and gamma are not defined if the rod stands upright, |beta| = 90 degrees;
+    their rates are then large and have no meaning.
 
     Parameters
     ----------
@@ -144,19 +134,13 @@ def from_state(t: Floats, q: Floats, u: Floats, centre_distance: float) -> tuple
     gamma = np.arctan2(e2[:, 2], e3[:, 2])
     o1, o2, o3 = u[:, 3], u[:, 4], u[:, 5]
     s_g, c_g = np.sin(gamma), np.cos(gamma)
-    theta_rate = (o2 * s_g + o3 * c_g) / np.maximum(c_b, _SINGULAR)
+    # finite if the rod stands upright
+    theta_rate = (o2 * s_g + o3 * c_g) / np.maximum(c_b, 1e-12)
     beta_rate = o3 * s_g - o2 * c_g
     gamma_rate = o1 - theta_rate * e1[:, 2]
-    rates = np.zeros((len(t), 6))
-    rates[:, 3], rates[:, 4], rates[:, 5] = theta_rate, beta_rate, gamma_rate
-    places = np.column_stack(
-        [
-            q[:, :3] - centre_distance / 2.0 * e1,
-            _continuous(t, theta, theta_rate),
-            beta,
-            _continuous(t, gamma, gamma_rate),
-        ]
-    )
+    rates = np.column_stack([u[:, :3], theta_rate, beta_rate, gamma_rate])
+    theta, gamma = _continuous(t, theta, theta_rate), _continuous(t, gamma, gamma_rate)
+    places = np.column_stack([q[:, :3] - centre_distance / 2.0 * e1, theta, beta, gamma])
     rates[:, :3] = u[:, :3] - centre_distance / 2.0 * _e1_rate(places, rates)
     return places, rates
 
@@ -177,13 +161,9 @@ def _continuous(t: Floats, angle: Floats, rate: Floats) -> Floats:
 def _e1_rate(q: Floats, u: Floats) -> Floats:
     """Return the rate of e1 = (-s_theta c_beta, c_theta c_beta, s_beta) [1/s], shape [n, 3]."""
     s_t, c_t, s_b, c_b = np.sin(q[:, 3]), np.cos(q[:, 3]), np.sin(q[:, 4]), np.cos(q[:, 4])
-    return np.column_stack(
-        [
-            -c_t * c_b * u[:, 3] + s_t * s_b * u[:, 4],
-            -s_t * c_b * u[:, 3] - c_t * s_b * u[:, 4],
-            c_b * u[:, 4],
-        ]
-    )
+    x = -c_t * c_b * u[:, 3] + s_t * s_b * u[:, 4]
+    y = -s_t * c_b * u[:, 3] - c_t * s_b * u[:, 4]
+    return np.column_stack([x, y, c_b * u[:, 4]])
 
 
 def _axes(turn: Floats) -> tuple[Floats, Floats, Floats]:
@@ -205,7 +185,4 @@ def _about(axis: int, angle: float) -> Floats:
 def _product(p: Floats, q: Floats) -> Floats:
     """Return the quaternion product p q."""
     scalar = p[0] * q[0] - p[1:] @ q[1:]
-    (a, b, c), (d, e, f) = p[1:].tolist(), q[1:].tolist()
-    # numpy's takes as long as all the rest
-    cross = np.array([b * f - c * e, c * d - a * f, a * e - b * d])
-    return np.concatenate([[scalar], p[0] * q[1:] + q[0] * p[1:] + cross])
+    return np.concatenate([[scalar], p[0] * q[1:] + q[0] * p[1:] + cross(p[1:], q[1:])])

@@ -3,43 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth import charts
 from scenarios.dumbbell.coordinates import NAMES
-from scenarios.dumbbell.trace import Trace, note
+from scenarios.dumbbell.trace import Flags, Floats, Trace, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-
-_ANGLES = MappingProxyType(
-    {
-        "theta": (
-            "θ",
-            "fig08_theta",
-            "the heading: drift turns about the vertical, flutter swings; jump, not shown, does not turn",
-        ),
-        "beta": (
-            "β",
-            "fig09_beta",
-            "the tilt: closed, as the normal motion is periodic; jump, not shown, stays level",
-        ),
-        "gamma": (
-            "\N{GREEK SMALL LETTER GAMMA}",
-            "fig10_gamma",
-            "the roll: open in all three modes, the dumbbell rolls along",
-        ),
-    }
-)
-"""Symbol, file name and statement of the paper's three modes."""
+_SYMBOLS: Mapping[str, str] = {"theta": "θ", "beta": "β", "gamma": "\N{GREEK SMALL LETTER GAMMA}"}
+_STEMS: Mapping[str, str] = {"theta": "fig08_theta", "beta": "fig09_beta", "gamma": "fig10_gamma"}
+_STATEMENTS: Mapping[str, str] = {
+    "theta": "the heading: drift turns about the vertical, flutter swings; jump, not shown, does not turn",
+    "beta": "the tilt: closed, as the normal motion is periodic; jump, not shown, stays level",
+    "gamma": "the roll: open in all three modes, the dumbbell rolls along",
+}
+"""Statements of the figures of all three modes."""
 _TURN = 1e-9
 """Angle [rad] and rate [rad/s] below which nothing turns."""
 
@@ -55,13 +38,13 @@ def portraits(traces: Mapping[str, Trace], angles: Sequence[str]) -> dict[str, F
     """Draw rate over angle, a figure for each angle and a panel for each trace in which it changes."""
     figures = {}
     for angle in angles:
-        symbol, stem, statement = _ANGLES[angle]
         column = NAMES.index(angle)
         turning = {mode: trace for mode, trace in traces.items() if _turns(trace, column)}
-        single = f"Phase portrait of {angle} at the end of the run"
-        title = f"Phase portraits of {angle},\n{statement}" if len(traces) > 1 else single
+        title = f"Phase portrait of {angle} at the end of the run"
+        if len(traces) > 1:
+            title = f"Phase portraits of {angle},\n{_STATEMENTS[angle]}"
         if turning:
-            figures[stem] = _portrait(turning, column, symbol, title)
+            figures[_STEMS[angle]] = _portrait(turning, column, _SYMBOLS[angle], title)
     return figures
 
 
@@ -116,7 +99,7 @@ def _draw_flutter(ax: Axes, trace: Trace, x: Floats, y: Floats) -> None:
     _marks(ax, x, y, trace.struck[:, 1], "single impact of ball 2", _CIRCLE)
 
 
-_MODES = MappingProxyType({"drift": _draw_drift, "jump": _draw_jump, "flutter": _draw_flutter})
+_MODES = {"drift": _draw_drift, "jump": _draw_jump, "flutter": _draw_flutter}
 
 
 def _struck(trace: Trace) -> tuple[Flags, Flags]:

@@ -8,7 +8,6 @@ import math
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, ClassVar, final
 
 import numpy as np
@@ -30,25 +29,24 @@ Floats = NDArray[np.float64]
 GRAVITY = 9.81
 """[m/s^2]"""
 
+_COEFFICIENT: Mapping[str, Any] = {"minimum": 0.0, "usual": (0.01, 2.0), "assumed": True, "law": "friction"}
 _DEFAULTS = {"aspect_ratio": 3.9, "restitution": 0.65, "phase": 0.0, "vertical_velocity": 0.0, "pitch_rate": 0.0}
-_STARTS: Mapping[str, dict[str, float]] = MappingProxyType(
-    {
-        "drift": {"beta0": math.radians(10.0)},
-        "jump": {"beta0": 0.0},
-        "flutter": {
-            "aspect_ratio": 5.7,
-            "restitution": 0.8,
-            "phase": math.pi / 6.0,
-            "beta0": math.radians(11.0),
-            "vertical_velocity": 0.4,
-            "pitch_rate": -9.6,
-        },
-        "free": {"beta0": math.radians(10.0)},
-    }
-)
-"""The paper's starts and the parameters that they change, section 5.1."""
+_STARTS: Mapping[str, dict[str, float]] = {
+    "drift": {"beta0": math.radians(10.0)},
+    "jump": {"beta0": 0.0},
+    "flutter": {
+        "aspect_ratio": 5.7,
+        "restitution": 0.8,
+        "phase": math.pi / 6.0,
+        "beta0": math.radians(11.0),
+        "vertical_velocity": 0.4,
+        "pitch_rate": -9.6,
+    },
+    "free": {"beta0": math.radians(10.0)},
+}
+"""The paper's starts, section 5.1; the vertical velocity of the jump depends on the frequency."""
 
-_PERIODS = MappingProxyType({"drift": 1.0, "jump": 1.0, "flutter": 2.0})
+_PERIODS: Mapping[str, float] = {"drift": 1.0, "jump": 1.0, "flutter": 2.0}
 """Plate periods after which the paper's motions repeat, section 5."""
 _REST_OF_BALL_1 = "{01,00,01}"
 """The paper's word of the mode in which ball 1 is on the plate and ball 2 in the air."""
@@ -105,16 +103,9 @@ class DumbbellScenario(Scenario):
         assumed=True,
         law="impact",
     )
-    friction: float = parameter(
-        0.2, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), assumed=True, law="friction"
-    )
+    friction: float = parameter(0.2, doc="kinetic friction coefficient mu", **_COEFFICIENT)
     static_friction: float | None = parameter(
-        None,
-        doc="static friction coefficient mu_s, by default mu",
-        minimum=0.0,
-        usual=(0.01, 2.0),
-        assumed=True,
-        law="friction",
+        None, doc="static friction coefficient mu_s, by default mu", **_COEFFICIENT
     )
     gamma: float = parameter(
         0.9, doc="intensity Gamma = A_z (2 pi f)^2 / g of the vibration", minimum=0.0, usual=(0.01, 50.0)
@@ -269,8 +260,7 @@ class DumbbellScenario(Scenario):
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x1 ... gamma [m, rad] and their rates (x1_rate ...) over the samples."""
         motion, n = self.motion(solution), len(solution.t)
-        places = {name: motion.q[:n, i] for i, name in enumerate(coordinates.NAMES)}
-        return places | {f"{name}_rate": motion.u[:n, i] for i, name in enumerate(coordinates.NAMES)}
+        return dict(zip(coordinates.UNITS, np.hstack([motion.q[:n], motion.u[:n]]).T, strict=True))
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
         """Return {q, u} at the end: (x1, y1, z1, theta, beta, gamma) [m, rad] and their rates."""
@@ -290,10 +280,8 @@ class DumbbellScenario(Scenario):
         name = f"plate periods after which the {self.mode} repeats"
         found = [Criterion.near(name, period, _PERIODS[self.mode], 0.0, paper)]
         if self.mode == "drift":
-            part, source = (
-                float(mode_shares(solution).get(_REST_OF_BALL_1, 0.0)),
-                f"{paper}: ball 1 rests most of the cycle",
-            )
+            part = float(mode_shares(solution).get(_REST_OF_BALL_1, 0.0))
+            source = f"{paper}: ball 1 rests most of the cycle"
             found.append(Criterion(f"share of time in {_REST_OF_BALL_1}", part, 0.5, 1.0, source))
         if self.mode == "jump":
             orbit, source = self._orbit_gap(), "both balls on the orbit of a bouncing ball, n = 1"
@@ -327,5 +315,5 @@ class DumbbellScenario(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return Figs. 2 to 11 of the paper and the comparison of impact laws."""
+        """Return Figs. 2 to 11 of the paper."""
         return figures.of_paper(cls, run)

@@ -1,9 +1,9 @@
-"""What the figures draw: the end of a run with its jumps, and a note of the parameters."""
+"""The end of a run with its jumps, for figures, and the note of the parameters below them."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,18 +20,16 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_SYMBOLS = MappingProxyType(
-    {
-        "radius": ("r", 1e3, "mm"),
-        "rod_mass_fraction": ("rod mass share", 1.0, ""),
-        "density": ("density", 1.0, "kg/m³"),
-        "restitution": ("e", 1.0, ""),
-        "friction": ("µ", 1.0, ""),
-        "static_friction": ("µ$_s$", 1.0, ""),
-        "young_modulus": ("E", 1e-9, "GPa"),
-        "poisson_ratio": ("$\\nu$", 1.0, ""),
-    }
-)
+_SYMBOLS: Mapping[str, tuple[str, float, str]] = {
+    "radius": ("r", 1e3, "mm"),
+    "rod_mass_fraction": ("rod mass share", 1.0, ""),
+    "density": ("density", 1.0, "kg/m³"),
+    "restitution": ("e", 1.0, ""),
+    "friction": ("µ", 1.0, ""),
+    "static_friction": ("µ$_s$", 1.0, ""),
+    "young_modulus": ("E", 1e-9, "GPa"),
+    "poisson_ratio": ("$\\nu$", 1.0, ""),
+}
 
 
 @dataclass(frozen=True)
@@ -62,18 +60,18 @@ class Trace:
         near = np.searchsorted(events.time, solution.t)
         apart = np.minimum(solution.t - padded[near], padded[near + 1] - solution.t) > 1e-12
         plain = (solution.t >= begin) & apart
-        # rows of samples have the event -1, those of events come twice: late 0 before and 1 after the event
+        # a sample has the event -1; an event gives two points, the states before and after it
         event = np.concatenate([np.full(plain.sum(), -1), np.repeat(inside, 2)])
-        late = np.concatenate([np.full(plain.sum(), -1), np.tile([0, 1], len(inside))])
+        before = np.concatenate([np.zeros(plain.sum(), bool), np.tile([True, False], len(inside))])
         t = np.concatenate([solution.t[plain], np.repeat(events.time[inside], 2)])
         q = np.concatenate([solution.q[plain], np.repeat(events.q[inside], 2, axis=0)])
         jumps = np.stack([events.u_before[inside], events.u_after[inside]], axis=1).reshape(-1, solution.u.shape[1])
         u = np.concatenate([solution.u[plain], jumps])
-        order = np.lexsort((late, event, t))
-        t, event, late = t[order], event[order], late[order]
+        order = np.argsort(t, kind="stable")
+        t, event, before = t[order], event[order], before[order]
         last = np.where(event >= 0, event, np.searchsorted(events.time, t, side="right") - 1)
         touching = (events.after[np.maximum(last, 0)] & 1) > 0
-        hit = (late == 0) & (events.cause[np.maximum(event, 0)] == Cause.IMPACT)
+        hit = before & (events.cause[np.maximum(event, 0)] == Cause.IMPACT)
         struck = hit[:, None] & ((events.during[np.maximum(event, 0)] & 1) > 0)
         return cls(DumbbellMotion.of(scenario, t, q[order], u[order]), touching, struck)
 

@@ -1,1 +1,5 @@
-"""The rattleback: an ellipsoid with skewed inertia that turns its spin round."""
+"""The rattleback (scenario.py), and the equations of its rolling, by which it is judged (rolling.py)."""
+
+from scenarios.rattleback.scenario import Rattleback
+
+__all__ = ["Rattleback"]

@@ -1,4 +1,4 @@
-"""An ellipsoid that rolls on a plane without slipping, in equations of its own: normal and angular velocity."""
+"""An ellipsoid that rolls on a plane without slipping: equations of its normal and angular velocity, by scipy."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 def contact_point(semi: Floats, offset: float, n: Floats) -> tuple[Floats, Floats]:
-    """Return the point below the mass centre and its derivative by the upward normal n, in body axes.
+    """Return the contact point [m] and its derivative by the upward normal n [m], in body axes from the mass centre.
 
     With S the squares of the semi-axes the point is r = offset e_z - S n / h, h = sqrt(n . S n) the support function.
 
@@ -51,17 +51,17 @@ def roll(
     Parameters
     ----------
     semi, offset, n
-        As for :func:`contact_point`, n at the start.
+        As for :func:`contact_point`; n at the start.
     mass : float
         Mass [kg].
     tensor : ndarray
         Inertia tensor about the mass centre, in body axes [kg m^2], shape [3, 3].
     gravity : float
-        [m/s^2].
+        Acceleration of gravity [m/s^2].
     spin : ndarray
         Angular velocity at the start, in body axes [rad/s], shape [3].
     times : ndarray
-        [s], rising, from the start on.
+        Times [s], ascending; the first is that of the start.
     """
 
     def rates(_: float, y: Floats) -> Floats:
@@ -70,7 +70,7 @@ def roll(
         # numpy's cross product takes ten times as long
         across_w, across_r = _across(w), _across(r)
         turning = -across_w @ n
-        # what is left of the acceleration without w'
+        # acceleration for w' = 0
         bias = gravity * n - across_w @ (by_normal @ turning + across_w @ r)
         matrix = tensor - mass * across_r @ across_r
         return np.concatenate([turning, np.linalg.solve(matrix, mass * across_r @ bias - across_w @ tensor @ w)])

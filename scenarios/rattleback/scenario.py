@@ -1,29 +1,32 @@
-"""The rattleback: an ellipsoid with skewed inertia that spins one way only."""
+"""The rattleback: an ellipsoid with skewed inertia that reverses its spin in one sense."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Ellipsoid, Plate, Rest, RigidBody
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth import charts
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.rattleback.rolling import contact_point, roll
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
-_SAMPLES = 4000
 _REVERSED = 10.0
-"""After which the published body spins the other way [s]."""
+"""Time after which the published body spins the other way [s]."""
 _SIZE: Mapping[str, Any] = {"unit": "m", "above": 0.0, "usual": (1e-3, 1.0)}
 _MOMENT: Mapping[str, Any] = {"unit": "kg m^2", "above": 0.0}
 
@@ -33,8 +36,8 @@ _MOMENT: Mapping[str, Any] = {"unit": "kg m^2", "above": 0.0}
 class Rattleback(Scenario):
     """An ellipsoid on a plane whose principal axes of inertia are turned against those of its surface.
 
-    Spun against its sense it begins to rattle, stops and spins back.  The body is that of Kane and Levinson; friction
-    is Coulomb's, so that the body need not roll.
+    Spun against its sense it begins to rattle, stops and spins back.  The body is that of Kane and Levinson.  They let
+    it roll; here it has Coulomb friction, so that it can slip.
 
     References
     ----------
@@ -43,6 +46,7 @@ class Rattleback(Scenario):
     """
 
     title: ClassVar[str] = "Rattleback"
+    samples: ClassVar[int] = 4000
     coordinate_units: ClassVar[Mapping[str, str]] = {
         "x": "m",
         "y": "m",
@@ -77,15 +81,6 @@ class Rattleback(Scenario):
     tilt: float = parameter(math.radians(0.5), doc="turn about the long axis at the start", unit="rad")
     t_end: float = parameter(20.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A four-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     @property
     def semi(self) -> Floats:
         """Semi-axes [m], shape [3]."""
@@ -99,7 +94,7 @@ class Rattleback(Scenario):
         )
 
     def build(self) -> System:
-        """Return plane and ellipsoid at their start, which is one of rolling."""
+        """Return plane and ellipsoid at their start, in which the ellipsoid rolls."""
         surface = Ellipsoid(self.semi_x, self.semi_y, self.semi_z, z=self.offset)
         body = RigidBody(self.mass, self.tensor.tolist(), (surface,))
         plane = Plate(Rest())
@@ -125,7 +120,7 @@ class Rattleback(Scenario):
         return np.array([0.0, math.sin(self.tilt), math.cos(self.tilt)])
 
     def normals(self, q: Floats) -> Floats:
-        """Return the upward normal in body axes, in states of the run, shape [n, 7] -> [n, 3]."""
+        """Return the upward normal in body axes, shape [n, 3], at coordinates of shape [n, 7]."""
         a, b, c, d = q[:, 3:].T
         n: Floats = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
         n /= np.sum(q[:, 3:] ** 2, axis=1)[:, None]
@@ -153,10 +148,6 @@ class Rattleback(Scenario):
             "spin": self.spins(q, u),
             "energy": self.energies(q, u),
         }
-
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u} at the end: position and quaternion, velocity and angular velocity in body axes."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return when the spin is turned round first [s], its extremes [rad/s], oscillations of pitch, energy lost [J].
@@ -187,14 +178,12 @@ class Rattleback(Scenario):
             found.append(Criterion("change of the energy", change, 0.0, 1e-7, "rolling does no work"))
             few = slice(None, None, 20)
             n = self._normal
-            normals, turning = roll(
-                self.semi, self.offset, self.mass, self.tensor, GRAVITY, n, self.spin * n, solution.t[few]
-            )
+            body = (self.semi, self.offset, self.mass, self.tensor)
+            normals, turning = roll(*body, GRAVITY, n, self.spin * n, solution.t[few])
             spin = np.sum(normals * turning, axis=1)
             worst = float(np.max(np.abs(spin - self.spins(solution.q, solution.u)[few])) / abs(self.spin))
-            found.append(
-                Criterion("deviation of the spin from the equations of rolling", worst, 0.0, 1e-3, "scipy, DOP853")
-            )
+            name = "deviation of the spin from the equations of rolling"
+            found.append(Criterion(name, worst, 0.0, 1e-3, "scipy, DOP853"))
         if self == Rattleback(t_end=self.t_end) and self.t_end >= _REVERSED:
             most = self.summarise(solution)["spin_most"]
             source = "Kane and Levinson (1982): it spins back"
@@ -203,13 +192,42 @@ class Rattleback(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return spin, pitch and roll over time."""
-        from scenarios.rattleback.figures import history
-
-        return {"history": history(self, solution)}
+        return {"history": _history(self, solution)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the history of the published body, and the spin for either sense and other friction."""
-        from scenarios.rattleback.figures import gallery
+        """Return the history of the published body, and its spin in either sense and with less friction."""
+        published = cls()
+        senses = {f"{spin:+g} rad/s": cls(spin=spin, t_end=60.0) for spin in (-5.0, 5.0)}
+        frictions = {f"mu = {mu:g}": cls(friction=mu) for mu in (1.0, 0.5, 0.3, 0.2)}
+        return {
+            "history": _history(published, run(published)),
+            "sense": _spins(senses, run, "In one sense it rattles and reverses, in the other it spins on for long"),
+            "friction": _spins(frictions, run, "If it slips while it rattles, it comes back slower"),
+        }
 
-        return gallery(cls, run)
+
+def _history(scenario: Rattleback, solution: Solution) -> Figure:
+    """Draw spin, pitch and roll over time."""
+    reversed_at = scenario.summarise(solution)["reversed"]
+    title = "The spin is not reversed" if reversed_at is None else f"The spin is reversed after {reversed_at:.1f} s"
+    found = scenario.coordinates(solution)
+    values = {
+        "spin [rad/s]": found["spin"],
+        "pitch of the\nlong axis [deg]": np.degrees(found["pitch"]),
+        "roll about the\nlong axis [deg]": np.degrees(found["roll"]),
+    }
+    figure = charts.histories({label: {"": (solution.t, x)} for label, x in values.items()}, title)
+    figure.axes[0].axhline(0.0, color="0.6", linewidth=0.8)
+    for ax in figure.axes[1:]:
+        ax.lines[0].set_linewidth(0.7)  # a hundred oscillations are apart only in thin lines
+    return figure
+
+
+def _spins(scenarios: Mapping[str, Rattleback], run: Run, title: str) -> Figure:
+    """Draw the spin of several bodies over time."""
+    runs = {label: (one, run(one)) for label, one in scenarios.items()}
+    spins = {label: (found.t, one.coordinates(found)["spin"]) for label, (one, found) in runs.items()}
+    figure = charts.histories({"spin about the vertical [rad/s]": spins}, title)
+    figure.axes[0].axhline(0.0, color="0.6", linewidth=0.8)
+    return figure

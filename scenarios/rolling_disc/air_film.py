@@ -1,4 +1,4 @@
-"""What the air between a disc and the table takes away, as a moment against the turning."""
+"""Load of the air between a disc and the table: a moment against the turning."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
 _NORMAL = ROTATION + 2
-"""Where the third axis of a body begins, in steps of 3."""
+"""Place of the x component of a body's third axis; y and z follow in steps of 3."""
 
 
 def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, radius: float) -> None:
@@ -33,8 +33,8 @@ def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, rad
 class AirFilm(Load):
     """The moment -c omega with c = (pi / 4) viscosity (radius / sin alpha)^3, alpha between the disc and the table.
 
-    In steady rolling it takes the power that Moffatt found for the air layer, pi viscosity g a^2 / alpha^2 for small
-    alpha.  It is no theory of other motions, and singular for a disc that lies flat.
+    In steady rolling it dissipates the power that Moffatt found for the air layer, pi viscosity g a^2 / alpha^2 for
+    small alpha.  It does not describe other motions, and it is singular for a disc that lies flat.
 
     References
     ----------

@@ -14,16 +14,16 @@ from bodies import DiscBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
+from scenarios.rolling_disc import figures as draw
 from scenarios.rolling_disc import steady
 from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.rolling_disc.tilt_guard import TiltGuard
 
 Floats = NDArray[np.float64]
 
-_SAMPLES = 4000
 _GRAVITY = 9.81
 
 
@@ -32,8 +32,8 @@ _GRAVITY = 9.81
 class RollingDisc(Scenario):
     """A thin disc on its rim, its centre at rest at the start.
 
-    Friction of contact acts on slip only, and rolling has none: without air the disc rolls on for ever.  What makes it
-    settle here is the moment of :class:`AirFilm`; real disks lose by rolling friction and vibration too.
+    Friction of contact acts on slip only, and rolling has none: without air the disc rolls on for ever.  Here it
+    settles by the moment of :class:`AirFilm`.  Real discs lose energy by rolling friction and vibration, too.
 
     References
     ----------
@@ -42,6 +42,7 @@ class RollingDisc(Scenario):
     """
 
     title: ClassVar[str] = "Euler's disk"
+    samples: ClassVar[int] = 4000
     coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "tilt": "rad", "precession": "rad/s"}
     units: ClassVar[Mapping[str, str]] = {
         "time": "s",
@@ -79,15 +80,6 @@ class RollingDisc(Scenario):
                 "The run ends when the disc comes down to it.",
             )
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A four-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     def build(self) -> System:
         """Return table and disc; the lowest point of the rim is in the direction of x."""
         table, disc = Plate(Rest()), DiscBody(self.radius, mass=self.mass, foot_height=0.0)
@@ -119,19 +111,15 @@ class RollingDisc(Scenario):
         return _tilt_and_precession(solution.q, solution.u)[1]
 
     def contact_points(self, q: Floats, u: Floats) -> Floats:
-        """Return where the lowest point is [m], shape [n, 2]."""
+        """Return the lowest point of the rim [m], shape [n, 2]."""
         axis, _ = self.axis(q, u)
         flat = axis[:, :2] / np.hypot(axis[:, 0], axis[:, 1])[:, None]
         return q[:, :2] + self.radius * axis[:, 2, None] * flat
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return the centre x, y, z [m], the tilt [rad] and the precession rate [rad/s] over the samples."""
-        position = {name: solution.q[:, i] for i, name in enumerate("xyz")}
+        position = dict(zip("xyz", solution.q.T, strict=False))
         return {**position, "tilt": self.tilts(solution), "precession": self.precession(solution)}
-
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u}: position [m], quaternion, velocity [m/s], angular velocity in body axes [rad/s] at the end."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return tilt and precession rate at the end, that rate over that of steady rolling, and losses."""
@@ -154,61 +142,40 @@ class RollingDisc(Scenario):
         steadiness = float(self.summarise(solution)["precession_over_steady"])
         flat = steady.time_to_flat(self.tilt, self.radius, self.mass, self.viscosity)
         exact = flat * (1.0 - (math.sin(self.end_tilt) / math.sin(self.tilt)) ** 3)
-        found = [
-            Criterion.near(
-                "precession at the end over that of steady rolling",
-                steadiness,
-                1.0,
-                0.01,
-                "Omega^2 sin(alpha) = 4 g / a",
-            )
-        ]
+        name = "precession at the end over that of steady rolling"
+        found = [Criterion.near(name, steadiness, 1.0, 0.01, "Omega^2 sin(alpha) = 4 g / a")]
         if exact < self.t_end:
             source = "the power of the air (Moffatt 2000) in steady rolling; a rolling disc is slower by some alpha^2"
-            over = solution.t_end / exact
-            found.append(
-                Criterion("time to the tilt of the end over the theory", over, 0.999, 1.0 + 3.0 * self.tilt**2, source)
-            )
+            name, over = "time to the tilt of the end over the theory", solution.t_end / exact
+            found.append(Criterion(name, over, 0.999, 1.0 + 3.0 * self.tilt**2, source))
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return tilt over time with precession over tilt, and the paths on the table."""
-        from scenarios.rolling_disc.figures import paths, settling
-
         words = f"μ = {self.friction:g}, viscosity {self.viscosity:g} Pa s"
         tilts, rates = self.tilts(solution), self.precession(solution)
         strayed = 1e3 * float(np.max(np.hypot(*(solution.q[:, :2] - solution.q[0, :2]).T)))
-        return {
-            "settling": settling(
-                {"run": (self, solution)},
-                f"As the tilt goes from {tilts[0]:.3g} to {tilts[-1]:.3g} rad the contact runs round "
-                f"at {rates[0]:.3g} to {rates[-1]:.3g} rad/s ({words})",
-            ),
-            "paths": paths(
-                {"run": (self, solution)}, f"The centre strays by {strayed:.2g} mm from where it started\n({words})"
-            ),
-        }
+        settles = (
+            f"As the tilt goes from {tilts[0]:.3g} to {tilts[-1]:.3g} rad the contact runs round "
+            f"at {rates[0]:.3g} to {rates[-1]:.3g} rad/s ({words})"
+        )
+        strays = f"The centre strays by {strayed:.2g} mm from where it started\n({words})"
+        run = {"run": (self, solution)}
+        return {"settling": draw.settling(run, settles), "paths": draw.paths(run, strays)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return a disc that settles through air, and the paths of three discs without air."""
-        from scenarios.rolling_disc.figures import paths, settling
-
-        discs = {"rolls, μ = 0.3": cls(), "slips on a smooth table, μ = 0": cls(friction=0.0)}
-        settled = {}
-        for name, disc in discs.items():
-            settled[name] = disc, run(disc)
-        starts = {
+        settling = {"rolls, μ = 0.3": cls(), "slips on a smooth table, μ = 0": cls(friction=0.0)}
+        airless = {
             "steady rolling": cls(tilt=0.5, viscosity=0.0, t_end=0.6),
             "precession 0.8 times as fast": cls(tilt=0.5, viscosity=0.0, pace=0.8, t_end=0.6),
             "spin 10 rad/s: slides, then rolls": cls(tilt=0.5, viscosity=0.0, spin=10.0, t_end=0.6),
         }
-        runs = {}
-        for name, scenario in starts.items():
-            runs[name] = scenario, run(scenario)
+        settled, rolled = ({name: (disc, run(disc)) for name, disc in discs.items()} for discs in (settling, airless))
         return {
-            "settling": settling(settled, "The flatter the disc, the faster its contact runs round"),
-            "paths": paths(runs, "Only steady rolling keeps the centre at rest (no air)"),
+            "settling": draw.settling(settled, "The flatter the disc, the faster its contact runs round"),
+            "paths": draw.paths(rolled, "Only steady rolling keeps the centre at rest (no air)"),
         }
 
 

@@ -1,4 +1,4 @@
-"""Ends a run when the disc has come down to a given tilt."""
+"""Guard that ends a run when a disc has come down to a given tilt."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def _value(t: float, q: Floats, u: Floats, tilt: float) -> float:
 @final
 @dataclass(frozen=True)
 class TiltGuard(Guard):
-    """Falls through zero where the only free body of a system is tilted by no more than ``tilt``."""
+    """Ends the run when the tilt of the only free body of a system falls to ``tilt``."""
 
     tilt: float = parameter(doc="tilt that ends the run", unit="rad", above=0.0, maximum=math.pi / 2)
 
     @property
     def value(self) -> Callable[..., float]:
-        """Sine of the tilt over that of the end."""
+        """Sine of the tilt minus the sine of the tilt that ends the run."""
         return _value
 
     @property

@@ -20,7 +20,7 @@ def mass(
     rod_inertia: float,
     slider_inertia: float,
 ) -> None:
-    """Write M."""
+    """Write the mass matrix M."""
     carried = rod_mass + slider_mass
     out[0] = crank_inertia + crank_length**2 * (0.25 * crank_mass + carried)
     out[1] = out[3] = crank_length * rod_length * (0.5 * rod_mass + slider_mass) * math.cos(q[0] - q[1])
@@ -43,9 +43,8 @@ def force(
     """Write h: weight and terms quadratic in u."""
     rod = rod_length * (0.5 * rod_mass + slider_mass)
     turning = crank_length * rod * math.sin(q[0] - q[1])
-    out[0] = -turning * u[1] ** 2 + gravity_z * crank_length * (0.5 * crank_mass + rod_mass + slider_mass) * math.cos(
-        q[0]
-    )
+    carried = 0.5 * crank_mass + rod_mass + slider_mass
+    out[0] = -turning * u[1] ** 2 + gravity_z * crank_length * carried * math.cos(q[0])
     out[1] = turning * u[0] ** 2 + gravity_z * rod * math.cos(q[1])
 
 
@@ -74,14 +73,14 @@ def slider(q: Floats, out: Floats, crank_length: float, rod_length: float) -> No
 
 
 def slider_jacobian(q: Floats, out: Floats, crank_length: float, rod_length: float) -> None:
-    """Write its Jacobian; an angle from x to z turns about -y."""
+    """Write the slider's Jacobian; an angle from x to z turns about -y."""
     out[0], out[1] = -crank_length * math.sin(q[0]), -rod_length * math.sin(q[1])
     out[6], out[7] = crank_length * math.cos(q[0]), rod_length * math.cos(q[1])
     out[14] = -1.0
 
 
 def slider_bias(q: Floats, u: Floats, out: Floats, crank_length: float, rod_length: float) -> None:
-    """Write its acceleration while u' = 0."""
+    """Write the slider's acceleration for u' = 0 [m/s^2]."""
     out[0] = -crank_length * math.cos(q[0]) * u[0] ** 2 - rod_length * math.cos(q[1]) * u[1] ** 2
     out[2] = -crank_length * math.sin(q[0]) * u[0] ** 2 - rod_length * math.sin(q[1]) * u[1] ** 2
 

@@ -5,24 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Coordinate, GeneralisedBody, Plate, Point, Rest, TurningFrame
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
+from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.slider_crank import mechanism
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
-_SAMPLES = 4000
 _LAWS = {"newton": NewtonImpact, "energetic": EnergeticImpact}
 
 
@@ -41,6 +44,7 @@ class SliderCrank(Scenario):
     """
 
     title: ClassVar[str] = "Slider-crank mechanism with clearance"
+    samples: ClassVar[int] = 4000
     coordinate_units: ClassVar[Mapping[str, str]] = {"theta": "rad", "height": "m"}
     units: ClassVar[Mapping[str, str]] = {"first_impact": "s", "crank_rate": "rad/s"}
 
@@ -62,24 +66,14 @@ class SliderCrank(Scenario):
     law: str = parameter("newton", doc="impact law", unit="", choices=("newton", "energetic"), law="impact")
     t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A four-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     def build(self) -> System:
         """Return mechanism and guide at their start."""
         x, z = 0.5 * self.slider_length, 0.5 * self.slider_height
         corners = tuple(Point(i * x, 0.0, j * z) for j in (-1.0, 1.0) for i in (-1.0, 1.0))
+        rates = {"theta_1": self.crank_rate, "theta_2": self.rod_rate, "theta_3": 0.0}
         body = GeneralisedBody(
-            coordinates=(
-                Coordinate("theta_1", "rad", 0.0, self.crank_rate, scale=0.1, rate_scale=10.0),
-                Coordinate("theta_2", "rad", 0.0, self.rod_rate, scale=0.1, rate_scale=10.0),
-                Coordinate("theta_3", "rad", 0.0, 0.0, scale=0.1, rate_scale=10.0),
+            coordinates=tuple(
+                Coordinate(name, "rad", 0.0, rate, scale=0.1, rate_scale=10.0) for name, rate in rates.items()
             ),
             mass=mechanism.mass,
             force=mechanism.force,
@@ -92,20 +86,13 @@ class SliderCrank(Scenario):
         floor = Plate(Rest(position=(0.0, 0.0, -half)))
         ceiling = Plate(Rest(position=(0.0, 0.0, half), orientation=(0.0, 1.0, 0.0, 0.0)))
         system = System([body, floor, ceiling], gravity=_GRAVITY)
-        law = _LAWS[self.law]
+        friction, impact = Coulomb(self.friction), _LAWS[self.law](self.restitution)
         for side, near in ((floor, (0, 1)), (ceiling, (2, 3))):
-            system.contact(
-                body,
-                side,
-                normal=Unilateral(),
-                friction=Coulomb(self.friction),
-                impact=law(self.restitution),
-                shapes=(near, None),
-            )
+            system.contact(body, side, normal=Unilateral(), friction=friction, impact=impact, shapes=(near, None))
         return system
 
     def height(self, solution: Solution) -> Floats:
-        """Return how far the slider's centre is above the middle of its guide [m], shape [n_samples]."""
+        """Return the height of the slider's centre above the middle of its guide [m], shape [n_samples]."""
         return np.asarray(self.crank_length * np.sin(solution.q[:, 0]) + self.rod_length * np.sin(solution.q[:, 1]))
 
     def first_impact(self, solution: Solution) -> float:
@@ -118,10 +105,6 @@ class SliderCrank(Scenario):
         angles = {f"theta_{i + 1}": solution.q[:, i] for i in range(3)}
         return {**angles, "height": self.height(solution)}
 
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u}: angles [rad] and rates [rad/s] at the end."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
-
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return the time of the first impact, the number of impacts, turns of the crank and its rate at the end."""
         return {
@@ -132,7 +115,7 @@ class SliderCrank(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return how many corners the first impact hits, and what Newton's law makes of it."""
+        """Return the number of corners that the first impact hits and, with Newton's law, the rates after it."""
         events = solution.events
         first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
         hit, ratio, turning = (math.nan,) * 3
@@ -152,19 +135,28 @@ class SliderCrank(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the slider's height in its guide."""
-        from scenarios.slider_crank.figures import heights
-
-        said = self.summarise(solution)
-        title = f"The slider strikes its guide {said['impacts']} times in {said['turns']:.3g} turns of the crank"
-        return {"height": heights({self.law: (self, solution)}, title)}
+        found = self.summarise(solution)
+        title = f"The slider strikes its guide {found['impacts']} times in {found['turns']:.3g} turns of the crank"
+        return {"height": _heights({self.law: (self, solution)}, title)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the slider's height with either impact law."""
-        from scenarios.slider_crank.figures import heights
+        by_law = {law: cls(law=law) for law in _LAWS}
+        runs = {law: (one, run(one)) for law, one in by_law.items()}
+        return {"heights": _heights(runs, "The slider crosses its clearance, rattles at the guide, and lets go again")}
 
-        runs = {}
-        for law in _LAWS:
-            scenario = cls(law=law)
-            runs[law] = scenario, run(scenario)
-        return {"heights": heights(runs, "The slider crosses its clearance, rattles at the guide, and lets go again")}
+
+def _heights(runs: Mapping[str, tuple[SliderCrank, Solution]], title: str) -> Figure:
+    """Draw the slider's height over the turns of the crank, a panel for each impact law; the guide is grey."""
+    figure, axes = charts.panels(len(runs), 1, title, (7.2, 1.2 + 2.1 * len(runs)), sharex=True)
+    for ax, (law, (scenario, solution)) in zip(axes, runs.items(), strict=True):
+        c = 1e3 * scenario.clearance
+        heights = {"": (solution.q[:, 0] / (2.0 * np.pi), 1e3 * scenario.height(solution))}
+        charts.histories({"height of the slider [mm]": heights}, xlabel="", axes=[ax])
+        for low, high in ((c, 1.15 * c), (-1.15 * c, -c)):
+            ax.axhspan(low, high, color="0.8", linewidth=0.0)
+        ax.set_ylim(-1.15 * c, 1.15 * c)
+        ax.set_title(f"impact law {law!r}", fontsize=9, loc="right")
+    axes[-1].set_xlabel("turns of the crank")
+    return figure

@@ -1,1 +1,5 @@
-"""A rod that slides on a rough plane: Painleve's paradox."""
+"""Painleve's rod (scenario.py), the closed forms of its contact (paradox.py) and its figures (figures.py)."""
+
+from scenarios.sliding_rod.scenario import SlidingRod
+
+__all__ = ["SlidingRod"]

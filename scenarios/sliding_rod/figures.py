@@ -1,191 +1,99 @@
-"""Where the paradox begins, and what the rod does there."""
+"""The region of the paradox, and the motion of the rod there."""
 
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
-from scenarios.sliding_rod.scenario import SlidingRod
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from scenarios.sliding_rod.scenario import SlidingRod
+
 Floats = NDArray[np.float64]
 
-ANGLES, COEFFICIENTS = 17, 11
-"""Numbers of angles and friction coefficients of the gallery."""
-_MARKS: dict[int, tuple[str, str, str]] = {
-    Cause.PAINLEVE: ("o", "tab:red", "impact without collision"),
-    Cause.JAM: ("s", "tab:red", "jamming of the slip"),
-    Cause.LIFT_OFF: ("^", "tab:blue", "lift-off"),
-    Cause.SLIP_TO_STICK: ("D", "tab:green", "slip to stick"),
+_ANGLES, _COEFFICIENTS = 17, 11
+"""Numbers of angles and friction coefficients at which the paradox is sought."""
+_MARKED: dict[int, str] = {
+    Cause.PAINLEVE: "impact without collision",
+    Cause.JAM: "jamming of the slip",
+    Cause.LIFT_OFF: "lift-off",
+    Cause.SLIP_TO_STICK: "slip to stick",
 }
-_CASES: tuple[tuple[str, dict[str, float]], ...] = (
-    ("lift-off", {"friction": 1.2, "tilt": 1.0, "rate": 8.0, "speed": 5.0, "t_end": 0.08}),
-    ("jamming", {"friction": 2.0, "tilt": 0.5, "rate": 5.0, "speed": 3.0, "t_end": 0.04}),
-    ("impact without collision", {"friction": 1.4, "t_end": 0.04}),
-)
 
 
-@dataclass(frozen=True)
-class _Trace:
-    """Time [s], tilt [rad], slip [m/s] and height of the lower end [m], doubled where an event makes them jump."""
+def histories(runs: Mapping[str, tuple[SlidingRod, Solution]], title: str) -> Figure:
+    """Draw angle, slip and gap of the lower end over time with their events, a column for each run."""
+    size = (9.6, 6.8) if len(runs) > 1 else (6.0, 6.4)
+    figure, axes = charts.panels(3, len(runs), title, size, sharex="col")
+    for column, (name, (rod, solution)) in enumerate(runs.items()):
+        own = axes[column :: len(runs)]
+        _history(own, rod, solution)
+        for ax in own if column else ():
+            ax.set_ylabel("")
+        if name:
+            critical = rod.rod.critical_friction(rod.tilt)
+            own[0].set_title(f"{name}\nµ = {rod.friction:g}, critical at the start {critical:.3f}", fontsize=10)
+    charts.legend(figure, columns=4)
+    return figure
 
-    t: Floats
-    tilt: Floats
-    slip: Floats
-    height: Floats
 
-
-def _trace(scenario: SlidingRod, solution: Solution) -> _Trace:
+def _history(axes: Sequence[Axes], rod: SlidingRod, solution: Solution) -> None:
+    """Draw the quantities of one run, with both values where an event makes them jump."""
     events = solution.events
-    parts = [
-        (np.zeros(1), events.q[:1], events.u_before[:1]),
-        (solution.t, solution.q, solution.u),
-        (events.time, events.q, events.u_before),
-        (events.time, events.q, events.u_after),
-    ]
-    order = np.argsort(np.concatenate([t for t, _, _ in parts]), kind="stable")
-    t, q, u = (np.concatenate(column)[order] for column in zip(*parts, strict=True))
-    # at one time: the state before the event, then the one after
-    after = np.concatenate([np.full(len(p[0]), k) for k, p in enumerate(parts)])[order]
-    order = np.lexsort((after == 3, t))
-    keep = order[(after[order] != 1) | ~np.isin(t[order], events.time)]
-    t, q, u = t[keep], q[keep], u[keep]
-    tilt = scenario.tilts(q)
-    height = q[:, 2] - scenario.half_length * np.sin(tilt) - scenario.end_radius
-    return _Trace(t, tilt, scenario.slips(q, u), height)
-
-
-def _draw(axes: list[Axes], scenario: SlidingRod, solution: Solution) -> None:
-    trace = _trace(scenario, solution)
-    events = solution.events
-    at_events = scenario.tilts(events.q)
-    slips = scenario.slips(events.q, events.u_before)
-    lower = events.q[:, 2] - scenario.half_length * np.sin(at_events) - scenario.end_radius
-    shown = (np.degrees(trace.tilt), trace.slip, 1e3 * trace.height)
-    for axis, values, marked in zip(axes, shown, (np.degrees(at_events), slips, 1e3 * lower), strict=True):
-        axis.plot(1e3 * trace.t, values, color="black", linewidth=1.3)
-        for cause, (marker, colour, name) in _MARKS.items():
+    apart = ~np.isin(solution.t, events.time)
+    t = np.concatenate([solution.t[apart], np.repeat(events.time, 2)])
+    q = np.concatenate([solution.q[apart], np.repeat(events.q, 2, axis=0)])
+    jumps = np.stack([events.u_before, events.u_after], axis=1).reshape(-1, q.shape[1] - 1)
+    u, order = np.concatenate([solution.u[apart], jumps]), np.argsort(t, kind="stable")
+    curves, marks = _quantities(rod, q[order], u[order]), _quantities(rod, events.q, events.u_before)
+    charts.histories({label: {"": (1e3 * t[order], y)} for label, y in curves.items()}, xlabel="time [ms]", axes=axes)
+    for ax, values in zip(axes, marks.values(), strict=True):
+        for place, (cause, name) in enumerate(_MARKED.items(), 1):
             hit = events.cause == cause
             if np.any(hit):
-                axis.plot(
-                    1e3 * events.time[hit],
-                    marked[hit],
-                    linestyle="none",
-                    marker=marker,
-                    color=colour,
-                    fillstyle="none",
-                    markersize=7,
-                    label=name,
-                )
-        axis.grid(color="0.9", linewidth=0.6)
-        axis.set_axisbelow(True)
+                ax.plot(1e3 * events.time[hit], values[hit], label=name, **charts.marker(place))
     axes[2].set_ylim(bottom=-0.1, top=max(1.0, axes[2].get_ylim()[1]))
-    axes[2].set_xlabel("time [ms]")
 
 
-def _label(axes: list[Axes]) -> None:
-    axes[0].set_ylabel("angle φ [deg]")
-    axes[1].set_ylabel("slip velocity [m/s]")
-    axes[2].set_ylabel("gap of the lower end [mm]")
+def _quantities(rod: SlidingRod, q: Floats, u: Floats) -> dict[str, Floats]:
+    """Return the quantities that are drawn by their labels, shape [n]."""
+    tilt = rod.tilts(q)
+    gap = q[:, 2] - rod.half_length * np.sin(tilt) - rod.end_radius
+    slip = rod.slips(q, u)
+    return {"angle φ [deg]": np.degrees(tilt), "slip velocity [m/s]": slip, "gap of the lower end [mm]": 1e3 * gap}
 
 
-def _legend(figure: Figure) -> None:
-    found: dict[str, Any] = {}
-    for axis in figure.axes:
-        for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
-            found.setdefault(label, handle)
-    if found:
-        figure.legend(list(found.values()), list(found), loc="outside lower center", ncols=4, fontsize=8, frameon=False)
-
-
-def history(scenario: SlidingRod, solution: Solution) -> Figure:
-    """Draw angle, slip and height of the lower end of one run."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(6.0, 6.4), layout="constrained")
-    axes = list(figure.subplots(3, 1, sharex=True))
-    _draw(axes, scenario, solution)
-    _label(axes)
-    critical = scenario.rod.critical_friction(scenario.tilt)
-    axes[0].set_title(f"µ = {scenario.friction:g}; the paradox begins at {critical:.4g} for this angle", fontsize=11)
-    _legend(figure)
-    return figure
-
-
-def gallery(owner: type[SlidingRod], run: Run) -> Mapping[str, Any]:
-    """Return all figures by name."""
-    return {"paradox": _paradox(owner, run), "histories": _histories(owner, run)}
-
-
-def _histories(owner: type[SlidingRod], run: Run) -> Figure:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9.6, 6.8), layout="constrained")
-    grid = figure.subplots(3, len(_CASES), sharex="col")
-    for column, (name, start) in enumerate(_CASES):
-        scenario = owner(**start)
-        solution = run(scenario)
-        _draw(list(grid[:, column]), scenario, solution)
-        critical = scenario.rod.critical_friction(scenario.tilt)
-        grid[0, column].set_title(
-            f"{name}\nµ = {scenario.friction:g}, critical at the start {critical:.3f}", fontsize=10
-        )
-    _label(list(grid[:, 0]))
-    figure.suptitle(
-        "Sliding can end in a lift-off, in a jam where it runs into the paradox, or at once where it starts in it",
-        fontsize=11,
-    )
-    _legend(figure)
-    return figure
-
-
-def _paradox(owner: type[SlidingRod], run: Run) -> Figure:
-    from matplotlib.figure import Figure
-
-    base = owner(t_end=1e-6)
-    angles = np.linspace(math.radians(25.0), math.radians(85.0), ANGLES)
-    coefficients = np.linspace(1.0, 2.0, COEFFICIENTS)
-    runs = [dataclasses.replace(base, tilt=float(a), friction=float(mu)) for a in angles for mu in coefficients]
-    outcome: list[bool] = []
-    for scenario in runs:
-        events = run(scenario).events
-        outcome.append(events.count(Cause.PAINLEVE) > 0)
-    struck = np.array(outcome)
-    places = np.array([(math.degrees(one.tilt), one.friction) for one in runs])
-    figure = Figure(figsize=(7.2, 4.8), layout="constrained")
-    axis = figure.subplots()
+def paradox(base: SlidingRod, run: Run) -> Figure:
+    """Draw the starts over angle and friction at which a run finds no force, and the closed form of their bound."""
+    angles = np.linspace(math.radians(25.0), math.radians(85.0), _ANGLES)
+    starts = itertools.product(angles.tolist(), np.linspace(1.0, 2.0, _COEFFICIENTS).tolist())
+    rods = [dataclasses.replace(base, tilt=tilt, friction=friction) for tilt, friction in starts]
+    struck = np.array([run(rod).events.count(Cause.PAINLEVE) > 0 for rod in rods])
+    places = np.array([(math.degrees(rod.tilt), rod.friction) for rod in rods])
     fine = np.linspace(angles[0], angles[-1], 400)
-    curve = [(3.0 * math.cos(a) ** 2 + 1.0) / (3.0 * math.cos(a) * math.sin(a)) for a in fine]
-    axis.plot(np.degrees(fine), curve, color="black", linewidth=1.4, label="(1 + a cos²φ) / (a sinφ cosφ), a = 3")
-    axis.plot(
-        *places[struck].T,
-        linestyle="none",
-        marker="o",
-        markersize=4,
-        color="tab:red",
-        label="run: impact without collision",
-    )
-    axis.plot(*places[~struck].T, linestyle="none", marker=".", markersize=3, color="0.6", label="run: slides on")
+    bound = (3.0 * np.cos(fine) ** 2 + 1.0) / (3.0 * np.cos(fine) * np.sin(fine))
+    figure, (ax,) = charts.panels(title="Sliding ahead, the rod has no contact force above the curve", size=(7.2, 4.8))
+    closed_form = {"(1 + a cos²φ) / (a sinφ cosφ), a = 3": (np.degrees(fine), bound)}
+    charts.comparison(closed_form, {}, "angle φ of the rod from the ground [deg]", "friction coefficient µ", ax=ax)
+    squares = charts.marker(1) | {"markersize": 4}
+    ax.plot(*places[struck].T, label="run: impact without collision", **squares)
+    ax.plot(*places[~struck].T, ".", color="0.6", markersize=3, label="run: slides on")
     lowest = math.degrees(math.atan(2.0))
-    axis.annotate(
-        "4/3 at tan φ = 2", xy=(lowest, 4.0 / 3.0), xytext=(lowest - 8.0, 1.13), fontsize=9,
-        arrowprops={"arrowstyle": "->", "color": "black"}, backgroundcolor="white",
-    )  # fmt: skip
-    axis.set_ylim(0.92, 2.05)
-    axis.set_xlabel("angle φ of the rod from the ground [deg]")
-    axis.set_ylabel("friction coefficient µ")
-    axis.set_title("Sliding ahead, the rod has no contact force above the curve", fontsize=11)
-    figure.legend(loc="outside lower center", ncols=3, fontsize=8, frameon=False)
+    arrow, text = {"arrowstyle": "->", "color": "black"}, (lowest - 8.0, 1.13)
+    ax.annotate("4/3 at tan φ = 2", (lowest, 4.0 / 3.0), text, arrowprops=arrow, backgroundcolor="white", fontsize=9)
+    ax.set_ylim(0.92, 2.05)
+    charts.legend(figure)
     return figure

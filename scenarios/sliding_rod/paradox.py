@@ -1,4 +1,4 @@
-"""The rod's contact in closed form: reduced coefficient, critical friction, and what its free motion wants."""
+"""The rod's contact in closed form: reduced coefficient, critical friction, free acceleration of the gap."""
 
 from __future__ import annotations
 
@@ -9,15 +9,19 @@ from typing import final
 
 @final
 @dataclass(frozen=True)
-class Rod:
-    """A uniform thin rod with the middle as mass centre, whose lower end touches the ground ahead of it.
+class RodContact:
+    """Contact of a uniform thin rod, whose lower end touches the ground ahead of its mass centre in the middle.
 
     While that end slides forwards, its gap accelerates as g'' = A lambda_N + b.  No force exists where A < 0 and b < 0.
 
     Attributes
     ----------
-    mass, half_length, end_radius : float
-        [kg], [m], [m].
+    mass : float
+        Mass of the rod [kg].
+    half_length : float
+        Distance from the middle to the centre of an end [m].
+    end_radius : float
+        Radius of the ends [m].
     """
 
     mass: float
@@ -26,11 +30,11 @@ class Rod:
 
     @property
     def inertia(self) -> float:
-        """About the middle, across the rod [kg m^2]."""
+        """Moment of inertia about the middle, across the rod [kg m^2]."""
         return self.mass * self.half_length**2 / 3.0
 
     def arm(self, tilt: float) -> tuple[float, float]:
-        """Return how far the contact point is ahead of the middle, and below it [m]."""
+        """Return the distances of the contact point ahead of the middle and below it [m]."""
         return self.half_length * math.cos(tilt), self.half_length * math.sin(tilt) + self.end_radius
 
     def reduced_coefficient(self, tilt: float, friction: float) -> float:
@@ -39,7 +43,7 @@ class Rod:
         return 1.0 / self.mass + ahead * (ahead - friction * below) / self.inertia
 
     def free_acceleration(self, tilt: float, rate: float, gravity: float) -> float:
-        """Return b of g'' = A lambda_N + b [m/s^2]; the end lifts off where it is positive."""
+        """Return b of g'' = A lambda_N + b [m/s^2]; the end lifts off if it is positive."""
         return self.half_length * math.sin(tilt) * rate**2 - gravity
 
     def critical_friction(self, tilt: float) -> float:

@@ -15,15 +15,15 @@ from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.sliding_rod.paradox import Rod
+from scenarios.sliding_rod import figures as draw
+from scenarios.sliding_rod.paradox import RodContact
 
 Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
-_SAMPLES = 2000
 
 
 @final
@@ -31,8 +31,8 @@ _SAMPLES = 2000
 class SlidingRod(Scenario):
     """A uniform rod in the plane of x and z, its lower end ahead: it slides towards +x at ``speed``.
 
-    The ends are spheres of a radius far below the length; in the limit of sharp ends the paradox begins at the
-    friction coefficient 4/3, at tan(angle) = 2.  The rod is thin: m (2 s)^2 / 12 about its middle.
+    The ends are spheres of a radius far below the length.  In the limit of sharp ends the paradox begins at the
+    friction coefficient 4/3, at tan(angle) = 2.  The moment of inertia is that of a thin rod, m (2 s)^2 / 12.
 
     References
     ----------
@@ -40,6 +40,7 @@ class SlidingRod(Scenario):
     """
 
     title: ClassVar[str] = "Painleve's sliding rod"
+    samples: ClassVar[int] = 2000
     coordinate_units: ClassVar[Mapping[str, str]] = {
         "x": "m",
         "z": "m",
@@ -75,19 +76,10 @@ class SlidingRod(Scenario):
                 "SlidingRod.tilt", "must be below pi/2", self.tilt, "Give the angle from the ground in [rad]."
             )
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
     @property
-    def sample_interval(self) -> float:
-        """A two-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
-    @property
-    def rod(self) -> Rod:
-        """The rod's formulas."""
-        return Rod(self.mass, self.half_length, self.end_radius)
+    def rod(self) -> RodContact:
+        """Closed forms of the rod's contact."""
+        return RodContact(self.mass, self.half_length, self.end_radius)
 
     def build(self) -> System:
         """Return plane and rod at their start."""
@@ -96,9 +88,8 @@ class SlidingRod(Scenario):
         body = RigidBody(self.mass, (0.5 * self.mass * r * r, across, across), (Sphere(r, x=s), Sphere(r, x=-s)))
         plane = Plate(Rest())
         system = System([plane, body], gravity=GRAVITY)
-        system.contact(
-            body, plane, normal=Unilateral(), friction=Coulomb(self.friction), impact=EnergeticImpact(self.restitution)
-        )
+        friction, impact = Coulomb(self.friction), EnergeticImpact(self.restitution)
+        system.contact(body, plane, normal=Unilateral(), friction=friction, impact=impact)
         ahead, height = self.rod.arm(self.tilt)
         system.place(
             body,
@@ -110,12 +101,12 @@ class SlidingRod(Scenario):
         return system
 
     def tilts(self, q: Floats) -> Floats:
-        """Return phi [rad] of states of the run, shape [n, n_q] -> [n]."""
+        """Return phi [rad], shape [n], at coordinates of shape [n, n_q]."""
         angle: Floats = 2.0 * np.arctan2(q[:, 5], q[:, 3])
         return angle
 
     def slips(self, q: Floats, u: Floats) -> Floats:
-        """Return the slip velocity of the lower end [m/s] of states of the run, shape [n]."""
+        """Return the slip velocity of the lower end [m/s], shape [n], in states of the system."""
         velocity: Floats = u[:, 0] - u[:, 4] * (self.half_length * np.sin(self.tilts(q)) + self.end_radius)
         return velocity
 
@@ -147,7 +138,7 @@ class SlidingRod(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return whether the start is a paradox, and the rate at which the rod then turns about its end if e = 0."""
+        """Return whether the start is in the paradox and, for e = 0, rate and slip after the impact there."""
         if self.speed <= 0.0 or self.rod.free_acceleration(self.tilt, self.rate, GRAVITY) >= 0.0:
             return ()
         events, rod = solution.events, self.rod
@@ -162,22 +153,26 @@ class SlidingRod(Scenario):
             moment = rod.inertia * before[4] + rod.mass * (below * before[0] + ahead * before[2])
             pivoting = moment / (rod.inertia + rod.mass * (ahead**2 + below**2))
             source = "angular momentum about the end, which stops"
-            found.append(
-                Criterion.near("rate of the rod after it [rad/s]", after[0, 4], pivoting, 1e-6 * abs(pivoting), source)
-            )
+            name, tolerance = "rate of the rod after it [rad/s]", 1e-6 * abs(pivoting)
+            found.append(Criterion.near(name, after[0, 4], pivoting, tolerance, source))
             slip = float(self.slips(events.q[:1], after)[0]) / self.speed
             found.append(Criterion.near("slip after it over that before", slip, 0.0, 1e-8, source))
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return angle, slip and height of the lower end over time."""
-        from scenarios.sliding_rod.figures import history
-
-        return {"history": history(self, solution)}
+        """Return angle, slip and gap of the lower end over time."""
+        critical = f"the paradox begins at {self.rod.critical_friction(self.tilt):.4g} for this angle"
+        title = f"µ = {self.friction:g}; {critical}"
+        return {"history": draw.histories({"": (self, solution)}, title)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return where the paradox begins, and three runs: lift-off, jamming, impact without collision."""
-        from scenarios.sliding_rod.figures import gallery
-
-        return gallery(cls, run)
+        """Return the region of the paradox, and three runs: lift-off, jamming, impact without collision."""
+        cases = {
+            "lift-off": cls(friction=1.2, tilt=1.0, rate=8.0, speed=5.0, t_end=0.08),
+            "jamming": cls(friction=2.0, tilt=0.5, rate=5.0, speed=3.0, t_end=0.04),
+            "impact without collision": cls(friction=1.4, t_end=0.04),
+        }
+        runs = {name: (rod, run(rod)) for name, rod in cases.items()}
+        title = "Sliding can end in a lift-off, in a jam if it runs into the paradox, or at once if it starts there"
+        return {"paradox": draw.paradox(cls(t_end=1e-6), run), "histories": draw.histories(runs, title)}

@@ -1,4 +1,4 @@
-"""Coulomb friction of a small contact disc that spins: slip meets less than mu N, and nothing sticks."""
+"""Coulomb friction of a small contact disc that spins: the friction force is below mu N, and nothing sticks."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ def _coefficient(speed: float, friction: float, drilling_speed: float) -> float:
 @final
 @dataclass(frozen=True)
 class SpinningCoulomb(FrictionLaw):
-    """mu v / (v + v_d), with v_d = 8 R omega / (3 pi) for a Hertzian disc of radius R that spins at omega.
+    """Friction coefficient mu v / (v + v_d) of a contact disc that spins.
 
-    Every point of the disc rubs, each against its own velocity; what is left against the slip v of the whole disc is
-    proportional to v where that is slow, so that there is no static friction.  The fraction is exact in slope at
-    v = 0 and in its limit mu, and omega is a constant here.  The moment against the spin is left out.
+    For a Hertzian disc of radius R that spins at omega, v_d = 8 R omega / (3 pi).  At every point of the disc friction
+    acts against the velocity of that point.  The resultant against the slip v of the disc is proportional to v if v is
+    small, so that there is no static friction.  The coefficient is exact in slope at v = 0 and in its limit mu; omega
+    is a constant here.  The moment against the spin is left out.
 
     References
     ----------
@@ -45,6 +46,6 @@ class SpinningCoulomb(FrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """Tell whether the force is the one of this slip."""
+        """Return True if the force is that of this slip."""
         per_speed = self.friction * normal_force / (math.hypot(*slip) + self.drilling_speed)
         return all(abs(t + per_speed * v) <= tolerance for t, v in zip(tangential_force, slip, strict=True))

@@ -1,4 +1,4 @@
-"""The tippe top: a spinning body of two spheres that turns over by itself, for friction only."""
+"""The tippe top: a spinning body of two spheres that friction turns over."""
 
 from __future__ import annotations
 
@@ -6,27 +6,31 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Plate, Rest, RigidBody, Sphere
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth import charts
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, FrictionLaw, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.tippe_top.friction import SpinningCoulomb
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
-_SAMPLES = 4000
-
 _INVERTED = 8.0
-"""After which the source's top stands on its stem [s]."""
+"""Time after which the source's top stands on its stem [s]."""
+_SHORT = 5.0
+"""End of the gallery's runs with other friction or spin [s]."""
 
 
 @final
@@ -34,8 +38,8 @@ _INVERTED = 8.0
 class TippeTop(Scenario):
     """A body of revolution on a plane: body (large sphere) below, stem (small sphere) above, mass centre lowest.
 
-    The friction is Coulomb's at a point.  The source adds the friction of a small contact disc against drilling,
-    which this model does not have.
+    Friction is that of a small contact disc that spins, :class:`SpinningCoulomb`, or Coulomb's at a point if its radius
+    is zero.  The source has the disc's friction against drilling, too; this model does not.
 
     References
     ----------
@@ -44,6 +48,7 @@ class TippeTop(Scenario):
     """
 
     title: ClassVar[str] = "Tippe top"
+    samples: ClassVar[int] = 4000
     coordinate_units: ClassVar[Mapping[str, str]] = {
         "x": "m",
         "y": "m",
@@ -97,17 +102,8 @@ class TippeTop(Scenario):
                 f"The small sphere would reach {stem - body:.3g} m deeper: take a smaller angle [rad].",
             )
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A four-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     def friction_law(self) -> FrictionLaw:
-        """Return friction at a point, or of a contact disc that spins as the top does at the start."""
+        """Return friction at a point, or of a contact disc with the spin of the top at the start."""
         if self.friction == 0.0:
             return Frictionless()
         if self.contact_radius == 0.0 or self.spin == 0.0:
@@ -119,9 +115,9 @@ class TippeTop(Scenario):
         spheres = Sphere(self.body_radius, z=self.body_offset), Sphere(self.stem_radius, z=self.stem_offset)
         top = RigidBody(self.mass, (self.across, self.across, self.along), spheres)
         plane = Plate(Rest())
-        friction = self.friction_law()
         system = System([plane, top], gravity=GRAVITY)
-        system.contact(top, plane, normal=Unilateral(), friction=friction, impact=EnergeticImpact(self.restitution))
+        friction, impact = self.friction_law(), EnergeticImpact(self.restitution)
+        system.contact(top, plane, normal=Unilateral(), friction=friction, impact=impact)
         system.place(
             top,
             position=(0.0, 0.0, self.body_radius - self.body_offset * math.cos(self.tilt)),
@@ -131,7 +127,7 @@ class TippeTop(Scenario):
         return system
 
     def axes(self, q: Floats) -> Floats:
-        """Return the top's axis, from body to stem, in states of the run, shape [n, 7] -> [n, 3]."""
+        """Return the top's axis, from body to stem, shape [n, 3], at coordinates of shape [n, 7]."""
         a, b, c, d = q[:, 3:].T
         axis: Floats = np.column_stack([2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a - b * b - c * c + d * d])
         axis /= np.sum(q[:, 3:] ** 2, axis=1)[:, None]
@@ -188,7 +184,7 @@ class TippeTop(Scenario):
         q, u = solution.q, solution.u
         slips = self.slips(q, u)
         return {
-            **{name: q[:, i] for i, name in enumerate("xyz")},
+            **dict(zip("xyz", q.T, strict=False)),
             "tilt": self.tilts(q),
             "spin_vertical": self._turning(q, u)[:, 2],
             "spin_axis": u[:, 5],
@@ -196,12 +192,8 @@ class TippeTop(Scenario):
             "slip_stem": slips[:, 1],
         }
 
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u} at the end: position and quaternion, velocity and angular velocity in body axes."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
-
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return whether and when [s] it stood on its stem, tilt [rad] and spins [rad/s] at the end, energy lost [J].
+        """Return whether and when [s] the top inverted, its last tilt [rad] and spins [rad/s], and the energy lost [J].
 
         ``stem_down`` is the first time at which the stem touches, ``body_up`` the last at which the large sphere does;
         ``inverted`` says that the axis points down within 0.1 rad at the end.
@@ -223,7 +215,7 @@ class TippeTop(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return by how much Jellett's quantity changes before the stem touches and, of the source's top, its end."""
+        """Return the change of Jellett's quantity before the stem touches and, of the source's top, its last tilt."""
         summary = self.summarise(solution)
         before = solution.t < (math.inf if summary["stem_down"] is None else summary["stem_down"])
         jellett = self.jellett(solution.q[before], solution.u[before])
@@ -236,14 +228,54 @@ class TippeTop(Scenario):
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return tilt, spins, slip and energies over time."""
-        from scenarios.tippe_top.figures import history
-
-        return {"history": history(self, solution)}
+        """Return tilt, spins and slip over time."""
+        return {"history": _history(self, solution)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the history of the source's top, and the inversion for other friction and spin."""
-        from scenarios.tippe_top.figures import gallery
+        """Return the history of the source's top, and the tilt with other contact discs and spins."""
+        top = cls()
+        discs = {"friction at a point": cls(contact_radius=0.0, t_end=_SHORT)}
+        discs |= {f"R = {1e3 * r:g} mm": cls(contact_radius=r, t_end=_SHORT) for r in (0.05e-3, 0.1e-3, 0.5e-3, 2e-3)}
+        spins = {f"{spin:g} rad/s": cls(spin=spin, t_end=_SHORT) for spin in (20.0, 60.0, 100.0, 150.0, 180.0)}
+        rolls = "Friction at a point makes the top roll, and it stays upright; a spinning disc lets it slip"
+        rises = "A fast top rises onto its stem, slower ones come to lean, a slow one does not turn"
+        return {
+            "history": _history(top, run(top)),
+            "contact_radius": _tilts(discs, run, rolls),
+            "spin": _tilts(spins, run, rises),
+        }
 
-        return gallery(cls, run)
+
+def _history(top: TippeTop, solution: Solution) -> Figure:
+    """Draw tilt, spins and slip speeds over time, and when the stem touches."""
+    found, summary, t = top.coordinates(solution), top.summarise(solution), solution.t
+    touching = np.abs(top.gaps(solution.q)) < 1e-9
+    title = "The top does not turn over"
+    if summary["inverted"]:
+        title = "The top turns over and stands on its stem: the spin about its axis changes sign"
+    figure, axes = charts.panels(3, 1, title, (7.2, 7.2), sharex=True)
+    spins = {"about the vertical": (t, found["spin_vertical"]), "about the top's axis": (t, found["spin_axis"])}
+    slips = {
+        f"{name} on the plane": (t, np.where(touching[:, i], found[f"slip_{name}"], np.nan))
+        for i, name in enumerate(("body", "stem"))
+    }
+    tilt = {"": (t, np.degrees(found["tilt"]))}
+    panels = {"tilt of the axis [deg]": tilt, "angular velocity [rad/s]": spins, "slip speed [m/s]": slips}
+    charts.histories(panels, axes=axes)
+    axes[0].set_yticks(range(0, 181, 45))
+    for ax in axes:
+        if summary["stem_down"] is not None:
+            ax.axvline(summary["stem_down"], color="0.5", linewidth=0.8, linestyle=":", label="the stem touches")
+    for ax in axes[1:]:
+        ax.legend(fontsize=8, frameon=False, loc="upper right")
+    return figure
+
+
+def _tilts(tops: Mapping[str, TippeTop], run: Run, title: str) -> Figure:
+    """Draw the tilt of several tops over time."""
+    runs = {label: (top, run(top)) for label, top in tops.items()}
+    tilts = {label: (found.t, np.degrees(top.tilts(found.q))) for label, (top, found) in runs.items()}
+    figure = charts.histories({"tilt of the axis [deg]": tilts}, title)
+    figure.axes[0].set_yticks(range(0, 181, 45))
+    return figure

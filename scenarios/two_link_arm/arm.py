@@ -8,7 +8,7 @@ from nonsmooth.types import Floats
 
 
 def mass(q: Floats, out: Floats, link_mass: float, link_length: float) -> None:
-    """Write M; the angles q of the links are measured from the vertical."""
+    """Write the mass matrix M; the angles q of the links are measured from the vertical."""
     unit = link_mass * link_length**2
     out[0] = 4.0 / 3.0 * unit
     out[1] = out[2] = 0.5 * unit * math.cos(q[0] - q[1])
@@ -49,7 +49,7 @@ def power(t: float, q: Floats, u: Floats, damping: float) -> float:
 
 
 def tip(q: Floats, out: Floats, link_length: float, height: float) -> None:
-    """Write where the tip is [m]; the pivot stands at the height over the origin, the links hang down from it."""
+    """Write the position of the tip [m]; the pivot is at the height over the origin, the links hang down from it."""
     out[0] = link_length * (math.sin(q[0]) + math.sin(q[1]))
     out[2] = height - link_length * (math.cos(q[0]) + math.cos(q[1]))
 
@@ -62,7 +62,7 @@ def tip_jacobian(q: Floats, out: Floats, link_length: float) -> None:
 
 
 def tip_bias(q: Floats, u: Floats, out: Floats, link_length: float) -> None:
-    """Write the acceleration of the tip while u' = 0 [m/s^2]."""
+    """Write the acceleration of the tip for u' = 0 [m/s^2]."""
     out[0] = -link_length * (math.sin(q[0]) * u[0] ** 2 + math.sin(q[1]) * u[1] ** 2)
     out[2] = link_length * (math.cos(q[0]) * u[0] ** 2 + math.cos(q[1]) * u[1] ** 2)
 

@@ -1,4 +1,4 @@
-"""Where friction alone decides the sign of the normal acceleration: the arm in contact, sliding."""
+"""Painleve's paradox of the arm: friction decides the sign of the normal acceleration of its sliding tip."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from scenarios.two_link_arm.arm import mass, tip_jacobian
 
@@ -30,33 +31,26 @@ def reduced_coefficient(
 ) -> float:
     """Return A = G_nn - mu G_nt [1/kg]: the tip's acceleration from the belt per normal force while it slides along x.
 
-    Where it is negative, a normal force pulls the tip into the belt: no force fulfils the laws of contact.
+    If it is negative, a normal force pulls the tip into the belt: no force fulfils the laws of contact.
     """
     g = mobility(theta_1, height_ratio, link_mass, link_length)
     return float(g[0, 0] - friction * g[0, 1])
 
 
 def critical_friction(theta_1: float, height_ratio: float, link_mass: float, link_length: float) -> float:
-    """Return the least friction coefficient at which A vanishes; infinite where none does."""
+    """Return the least friction coefficient at which A vanishes; infinite if there is none."""
     g = mobility(theta_1, height_ratio, link_mass, link_length)
     return float(g[0, 0] / g[0, 1]) if g[0, 1] > 0.0 else math.inf
 
 
 def least_critical_friction(height_ratio: float, link_mass: float, link_length: float) -> tuple[float, float]:
     """Return the least critical friction over all postures on the belt, and its theta_1 [rad]."""
-    from scipy.optimize import minimize_scalar
-
     low, high = math.acos(min(1.0, height_ratio)), math.acos(max(-1.0, height_ratio - 1.0))
     grid = np.linspace(low, high, 202)[1:-1]
-    values = [critical_friction(x, height_ratio, link_mass, link_length) for x in grid]
-    best = int(np.argmin(values))
-    found = minimize_scalar(
-        critical_friction,
-        bounds=(float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])),
-        args=(height_ratio, link_mass, link_length),
-        method="bounded",
-        options={"xatol": 1e-10},
-    )
+    sizes = (height_ratio, link_mass, link_length)
+    best = int(np.argmin([critical_friction(x, *sizes) for x in grid]))
+    bounds = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])
+    found = minimize_scalar(critical_friction, bounds=bounds, args=sizes, options={"xatol": 1e-10})
     return float(found.fun), float(found.x)
 
 
@@ -74,7 +68,7 @@ def impulse(
     The slip ends at P_1 with the tip pressed; it sticks to the end of compression, and e^2 of the work comes back.
     """
     g = mobility(theta_1, height_ratio, link_mass, link_length)
-    reduced = float(g[0, 0] - friction * g[0, 1])
+    reduced = reduced_coefficient(theta_1, friction, height_ratio, link_mass, link_length)
     first = slip / float(friction * g[1, 1] - g[0, 1])
     pressed = reduced * first
     held = float(g[0, 0] - g[0, 1] ** 2 / g[1, 1])

@@ -1,29 +1,33 @@
-"""A two-link arm whose tip slides on a moving belt, and bounces off it though nothing pushes it away."""
+"""A two-link arm whose tip slides on a moving belt, and is thrown off it by an impact without collision."""
 
 from __future__ import annotations
 
-import itertools
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Plane, Point, PointFrame
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.two_link_arm import arm, painleve
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 Floats = NDArray[np.float64]
 
-_SAMPLES = 4000
 _GRAVITY = 9.8
+_FRICTION: Mapping[str, Any] = {"minimum": 0.0, "usual": (0.01, 2.0), "law": "friction"}
 
 
 @final
@@ -32,7 +36,7 @@ class TwoLinkArm(Scenario):
     """Two equal uniform links hang from a pivot over a belt that runs towards -x; the tip starts on it, at rest.
 
     Above the critical friction no contact force exists while the tip slides: an impact without collision stops the
-    slip.  The source gives springs and dampers; that they act at the elbow, and the speed of the belt, are our choice.
+    slip.  The source gives springs and dampers.  Their place at the elbow and the speed of the belt are our choice.
 
     References
     ----------
@@ -41,6 +45,7 @@ class TwoLinkArm(Scenario):
     """
 
     title: ClassVar[str] = "Two-link arm on a moving belt"
+    samples: ClassVar[int] = 4000
     coordinate_units: ClassVar[Mapping[str, str]] = {"theta": "rad", "gap": "m"}
     units: ClassVar[Mapping[str, str]] = {"largest_gap": "m"}
 
@@ -48,12 +53,8 @@ class TwoLinkArm(Scenario):
     link_length: float = parameter(1.0, doc="length of a link", unit="m", above=0.0, usual=(1e-3, 1e2))
     height: float = parameter(5.0 / 3.0, doc="height of the pivot over the belt", unit="m", above=0.0)
     angle: float = parameter(0.7, doc="angle of the first link from the vertical at the start", unit="rad")
-    friction: float = parameter(
-        0.5, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), law="friction"
-    )
-    static_friction: float = parameter(
-        0.8, doc="static friction coefficient mu_s", minimum=0.0, usual=(0.01, 2.0), law="friction"
-    )
+    friction: float = parameter(0.5, doc="kinetic friction coefficient mu", **_FRICTION)
+    static_friction: float = parameter(0.8, doc="static friction coefficient mu_s", **_FRICTION)
     restitution: float = parameter(
         0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, assumed=True, law="impact"
     )
@@ -76,14 +77,10 @@ class TwoLinkArm(Scenario):
                 f"The second link would need the cosine {cosine:.6g}.",
             )
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
     @property
-    def sample_interval(self) -> float:
-        """A four-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
+    def sizes(self) -> tuple[float, float, float]:
+        """Height of the pivot over the length of a link, mass [kg] and length [m] of a link."""
+        return self.height / self.link_length, self.link_mass, self.link_length
 
     @property
     def second_angle(self) -> float:
@@ -93,8 +90,7 @@ class TwoLinkArm(Scenario):
     @property
     def reduced_coefficient(self) -> float:
         """A = G_nn - mu G_nt at the start [1/kg]; negative in the paradox."""
-        ratio = self.height / self.link_length
-        return painleve.reduced_coefficient(self.angle, self.friction, ratio, self.link_mass, self.link_length)
+        return painleve.reduced_coefficient(self.angle, self.friction, *self.sizes)
 
     def build(self) -> System:
         """Return arm and belt at their start."""
@@ -107,14 +103,7 @@ class TwoLinkArm(Scenario):
             power=arm.power,
             drawn=arm.links,
             moving_frames=(PointFrame(arm.tip, arm.tip_jacobian, arm.tip_bias, (Point(),)),),
-            constants={
-                "link_mass": self.link_mass,
-                "link_length": self.link_length,
-                "height": self.height,
-                "spring": self.spring,
-                "damping": self.damping,
-                "elbow_angle": second - first,
-            },
+            constants=self.numbers() | {"elbow_angle": second - first},
         )
         belt = DrivenBody(ConstantVelocity(velocity=(-self.belt_speed, 0.0, 0.0)), (Plane(),))
         system = System([body, belt], gravity=_GRAVITY)
@@ -136,7 +125,7 @@ class TwoLinkArm(Scenario):
         return {"q": solution.q_end[:2].tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the reduced coefficient at the start, what happened how often, and how far the tip came off."""
+        """Return the reduced coefficient at the start [1/kg], the numbers of impacts, and the largest gap [m]."""
         return {
             "reduced_coefficient": self.reduced_coefficient,
             "impacts_without_collision": solution.events.count(Cause.PAINLEVE),
@@ -146,11 +135,10 @@ class TwoLinkArm(Scenario):
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return the published numbers of the posture, whether it is a paradox, and the impulse that ends it."""
-        sizes = (self.height / self.link_length, self.link_mass, self.link_length)
         found = []
-        if sizes == (5.0 / 3.0, 1.0, 1.0):
+        if self.sizes == (5.0 / 3.0, 1.0, 1.0):
             source = "Liu, Zhao, Chen (2007)"
-            least, _ = painleve.least_critical_friction(*sizes)
+            least, _ = painleve.least_critical_friction(*self.sizes)
             found.append(Criterion.near("least critical friction", least, 0.4807, 1e-4, source))
             if (self.angle, self.friction) == (0.7, 0.5):
                 name = "reduced coefficient at the start [1/kg]"
@@ -162,7 +150,7 @@ class TwoLinkArm(Scenario):
             paradox = self.reduced_coefficient < 0.0
             found.append(Criterion.near("impacts without collision at the start", struck, float(paradox), 0.0, source))
             if paradox and struck:
-                exact = painleve.impulse(self.angle, self.friction, self.restitution, self.belt_speed, *sizes)
+                exact = painleve.impulse(self.angle, self.friction, self.restitution, self.belt_speed, *self.sizes)
                 impulse = float(events.impulse[0, 0, 0])
                 source = "one contact, slip then stick, in its normal impulse"
                 found.append(Criterion.near("normal impulse of it [N s]", impulse, exact, 1e-5 * exact, source))
@@ -170,26 +158,58 @@ class TwoLinkArm(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the gap over time."""
-        from scenarios.two_link_arm.figures import gaps
-
-        runs = {f"damper {self.damping:g} N m s/rad": [(self, solution)]}
-        said = self.summarise(solution)
-        title = (
-            f"{said['impacts']} impacts, and {said['impacts_without_collision']} without collision (x), "
-            f"with e = {self.restitution:g}"
-        )
-        return {"gap": gaps(runs, title)}
+        found = self.summarise(solution)
+        numbers = f"{found['impacts']} impacts, and {found['impacts_without_collision']} without collision (x)"
+        return {"gap": _gaps([(self, solution)], f"{numbers}, with e = {self.restitution:g}")}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the critical friction over the postures, and the gap for the springs and dampers of the source."""
-        from scenarios.two_link_arm.figures import critical_friction, gaps
+        arms = [cls(spring=spring, damping=damping) for damping in (0.1, 2.0) for spring in (100.0, 150.0)]
+        claim = "An impact without collision (x) throws the tip off the belt; it bounces"
+        return {
+            "critical_friction": _critical_friction(cls()),
+            "bouncing": _gaps([(one, run(one)) for one in arms], f"{claim}, with e = {cls().restitution:g}"),
+        }
 
-        runs: dict[str, list[tuple[TwoLinkArm, Solution]]] = {}
-        for damping, spring in itertools.product((0.1, 2.0), (100.0, 150.0)):
-            scenario = cls(spring=spring, damping=damping)
-            runs.setdefault(f"damper {damping:g} N m s/rad", []).append((scenario, run(scenario)))
-        title = (
-            f"An impact without collision (x) throws the tip off the belt; it bounces, with e = {cls().restitution:g}"
-        )
-        return {"critical_friction": critical_friction(cls()), "bouncing": gaps(runs, title)}
+
+def _critical_friction(scenario: TwoLinkArm) -> Figure:
+    """Draw the least friction of the paradox over the first link's angle, and the start of the runs."""
+    ratio = scenario.height / scenario.link_length
+    low, high = math.acos(min(1.0, ratio)), math.acos(max(-1.0, ratio - 1.0))
+    angles = np.linspace(low, high, 402)[1:-1]
+    critical = np.array([painleve.critical_friction(x, *scenario.sizes) for x in angles])
+    least, where = painleve.least_critical_friction(*scenario.sizes)
+    figure = charts.comparison(
+        {"critical friction": (angles, critical)},
+        {
+            f"least: {least:.4f} at {where:.3f} rad": ([where], [least]),
+            "start of the runs": ([scenario.angle], [scenario.friction]),
+        },
+        "angle of the first link from the vertical [rad]",
+        "friction coefficient",
+        "Above the curve, friction pulls the sliding tip into the belt",
+    )
+    (ax,) = figure.axes
+    ax.fill_between(angles, critical, 2.0, where=critical < 2.0, color="tab:red", alpha=0.15, linewidth=0.0)
+    ax.text(0.85 * where, 1.2, "no force fulfils the laws", ha="center", fontsize=9, color="tab:red")
+    ax.set_ylim(0.0, 1.5)
+    return figure
+
+
+def _gaps(runs: list[tuple[TwoLinkArm, Solution]], title: str) -> Figure:
+    """Draw the gap of the tip over time, a panel for each damper; crosses mark impacts without collision."""
+    dampers = sorted({one.damping for one, _ in runs})
+    size = (7.2, 1.2 + 2.2 * len(dampers))
+    figure, axes = charts.panels(len(dampers), 1, title, size, sharex=True, sharey=True)
+    for ax, damping in zip(axes, dampers, strict=True):
+        own = [(one, solution) for one, solution in runs if one.damping == damping]
+        gaps = {f"spring {one.spring:g} N m/rad": (found.t, 1e3 * one.gap(found)) for one, found in own}
+        charts.histories({"gap [mm]": gaps}, xlabel="", axes=[ax])
+        for place, (_, found) in enumerate(own):
+            times, colour = found.events.time[found.events.cause == Cause.PAINLEVE], charts.COLOURS[place]
+            ax.plot(times, np.zeros(len(times)), "x", color=colour, markersize=8, clip_on=False, zorder=3)
+        ax.set_title(f"damper {damping:g} N m s/rad", fontsize=9, loc="right")
+    axes[-1].set_xlabel("time [s]")
+    charts.legend(figure)
+    return figure

@@ -6,29 +6,35 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Coordinate, GeneralisedBody, Plate, Point, PointFrame, Rest
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
+from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.woodpecker import toy
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
 _LAWS = {"newton": NewtonImpact, "energetic": EnergeticImpact}
+_LENGTH: Mapping[str, Any] = {"unit": "m", "above": 0.0}
 _BEAK = 0
-"""Number of the beak's contact."""
-
+"""Index of the beak's contact."""
 _SETTLED = 2.0
-"""After which the cycles are close to their limit [s]."""
+"""Time after which the cycles are close to their limit [s]."""
+_SHOWN = 3
+"""Number of cycles in a figure."""
 
 
 @final
@@ -36,7 +42,7 @@ _SETTLED = 2.0
 class Woodpecker(Scenario):
     """Glocker's model of the toy, started with its sleeve jammed and the bird swinging away.
 
-    The published start has the sleeve 0.9 micrometres inside the pole, by rounding; here it just touches.
+    In the published start the sleeve is 0.9 micrometres inside the pole, by rounding; here it just touches.
 
     References
     ----------
@@ -49,19 +55,13 @@ class Woodpecker(Scenario):
     coordinate_units: ClassVar[Mapping[str, str]] = {"y": "m", "phi_m": "rad", "phi_s": "rad"}
     units: ClassVar[Mapping[str, str]] = {"cycle_duration": "s", "cycle_descent": "m"}
 
-    pole_radius: float = parameter(2.5e-3, doc="radius r_O of the pole", unit="m", above=0.0, usual=(1e-4, 1.0))
-    sleeve_radius: float = parameter(
-        3.1e-3, doc="inner radius r_M of the sleeve", unit="m", above=0.0, usual=(1e-4, 1.0)
-    )
-    sleeve_height: float = parameter(5.8e-3, doc="half height h_M of the sleeve", unit="m", above=0.0)
-    sleeve_arm: float = parameter(1e-2, doc="distance l_M of the spring from the pole's axis", unit="m", above=0.0)
-    bird_arm: float = parameter(
-        1.5e-2, doc="distance l_G of the bird's mass centre from the spring", unit="m", above=0.0
-    )
-    beak_height: float = parameter(2e-2, doc="height h_S of the beak over the bird's mass centre", unit="m", above=0.0)
-    beak_arm: float = parameter(
-        2.01e-2, doc="distance l_S of the beak from the bird's mass centre", unit="m", above=0.0
-    )
+    pole_radius: float = parameter(2.5e-3, doc="radius r_O of the pole", usual=(1e-4, 1.0), **_LENGTH)
+    sleeve_radius: float = parameter(3.1e-3, doc="inner radius r_M of the sleeve", usual=(1e-4, 1.0), **_LENGTH)
+    sleeve_height: float = parameter(5.8e-3, doc="half height h_M of the sleeve", **_LENGTH)
+    sleeve_arm: float = parameter(1e-2, doc="distance l_M of the spring from the pole's axis", **_LENGTH)
+    bird_arm: float = parameter(1.5e-2, doc="distance l_G of the bird's mass centre from the spring", **_LENGTH)
+    beak_height: float = parameter(2e-2, doc="height h_S of the beak over the bird's mass centre", **_LENGTH)
+    beak_arm: float = parameter(2.01e-2, doc="distance l_S of the beak from the bird's mass centre", **_LENGTH)
     sleeve_mass: float = parameter(3e-4, doc="mass m_M of the sleeve", unit="kg", above=0.0)
     bird_mass: float = parameter(4.5e-3, doc="mass m_S of the bird", unit="kg", above=0.0)
     sleeve_inertia: float = parameter(5e-9, doc="moment of inertia J_M of the sleeve", unit="kg m^2", above=0.0)
@@ -73,19 +73,19 @@ class Woodpecker(Scenario):
     law: str = parameter("newton", doc="impact law", unit="", choices=("newton", "energetic"), law="impact")
     t_end: float = parameter(2.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
     @property
     def sample_interval(self) -> float:
-        """A tenth of a millisecond [s], or less in a short run."""
+        """Time between samples [s]: a tenth of a millisecond, or less in a short run."""
         return min(1e-4, self.t_end / 400)
 
     def build(self) -> System:
         """Return toy and pole at their start."""
         jammed = -(self.sleeve_radius - self.pole_radius) / self.sleeve_height
-        point = (Point(),)
+        points = (
+            (toy.beak, toy.beak_jacobian),
+            (toy.lower_edge, toy.lower_edge_jacobian),
+            (toy.upper_edge, toy.upper_edge_jacobian),
+        )
         body = GeneralisedBody(
             coordinates=(
                 Coordinate("y", "m", 0.0, -0.3411, scale=0.01, rate_scale=0.1),
@@ -96,27 +96,16 @@ class Woodpecker(Scenario):
             force=toy.force,
             potential=toy.potential,
             drawn=toy.outlines,
-            moving_frames=(
-                PointFrame(toy.beak, toy.beak_jacobian, toy.no_bias, point),
-                PointFrame(toy.lower_edge, toy.lower_edge_jacobian, toy.no_bias, point),
-                PointFrame(toy.upper_edge, toy.upper_edge_jacobian, toy.no_bias, point),
-            ),
+            moving_frames=tuple(PointFrame(pose, jacobian, toy.no_bias, (Point(),)) for pose, jacobian in points),
             constants=self.numbers(),
         )
         half = math.sqrt(0.5)
         front = Plate(Rest(orientation=(half, 0.0, half, 0.0)))  # its normal is x
         side = Plate(Rest(orientation=(half, -half, 0.0, 0.0)))  # its normal is y
         system = System([body, front, side], gravity=_GRAVITY)
-        law = _LAWS[self.law]
-        for points, face, e in (((0,), front, self.beak_restitution), ((1, 2), side, self.sleeve_restitution)):
-            system.contact(
-                body,
-                face,
-                normal=Unilateral(),
-                friction=Coulomb(self.friction),
-                impact=law(e),
-                shapes=(points, None),
-            )
+        for near, face, e in (((0,), front, self.beak_restitution), ((1, 2), side, self.sleeve_restitution)):
+            friction, impact = Coulomb(self.friction), _LAWS[self.law](e)
+            system.contact(body, face, normal=Unilateral(), friction=friction, impact=impact, shapes=(near, None))
         return system
 
     def pecks(self, solution: Solution) -> tuple[Floats, Floats]:
@@ -126,9 +115,9 @@ class Woodpecker(Scenario):
         return events.time[hits], events.q[hits, 0]
 
     def cycle(self, solution: Solution) -> tuple[float, float]:
-        """Return duration [s] and descent [m] of the cycle between the last three pecks, the mean of two; nan before.
+        """Return duration [s] and descent [m] of a cycle, the mean of the last two; nan before the third peck.
 
-        Near the limit cycle the pecks come early and late by turns, which the mean of two hides.
+        Near the limit cycle the pecks are early and late by turns; the mean of two cycles is not.
         """
         times, heights = self.pecks(solution)
         if len(times) < 3:
@@ -137,14 +126,10 @@ class Woodpecker(Scenario):
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return y [m], phi_m and phi_s [rad] over the samples."""
-        return {name: solution.q[:, i] for i, name in enumerate(("y", "phi_m", "phi_s"))}
-
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u} at the end."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
+        return dict(zip(self.coordinate_units, solution.q.T, strict=True))
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return number of pecks and impacts, and duration [s] and descent [m] of the last cycle."""
+        """Return the numbers of pecks and impacts, and duration [s] and descent [m] of the last cycle."""
         duration, descent = self.cycle(solution)
         return {
             "pecks": len(self.pecks(solution)[0]),
@@ -166,17 +151,51 @@ class Woodpecker(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return height and angles over the last cycles."""
-        from scenarios.woodpecker.figures import cycles
-
-        return {"cycles": cycles(self, solution)}
+        return {"cycles": _cycles(self, solution)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the cycles with Newton's law, and the limit cycles of both laws in the bird's phase plane."""
-        from scenarios.woodpecker.figures import cycles, limit_cycles
+        toys = {law: cls(law=law, t_end=6.0) for law in _LAWS}
+        runs = {law: (one, run(one)) for law, one in toys.items()}
+        return {"cycles": _cycles(*runs["newton"]), "limit_cycles": _limit_cycles(runs)}
 
-        runs = {}
-        for law in _LAWS:
-            scenario = cls(law=law, t_end=6.0)
-            runs[law] = scenario, run(scenario)
-        return {"cycles": cycles(*runs["newton"]), "limit_cycles": limit_cycles(runs)}
+
+def _cycles(scenario: Woodpecker, solution: Solution) -> Figure:
+    """Draw the height of the sleeve and both angles over the last cycles; dotted lines mark the pecks."""
+    shown = _last_cycles(scenario, solution)
+    t, q = 1e3 * (solution.t[shown] - solution.t[shown][0]), solution.q[shown]
+    duration, descent = scenario.cycle(solution)
+    title = f"The woodpecker on its way down, with the law {scenario.law!r}"
+    if np.isfinite(duration):
+        title = f"From peck to peck (dotted) {1e3 * duration:.1f} ms and {1e3 * descent:.2f} mm, law {scenario.law!r}"
+    figure, axes = charts.panels(2, 1, title, (7.2, 5.4), sharex=True)
+    height = {"": (t, 1e3 * (q[:, 0] - q[0, 0]))}
+    angles = {"sleeve": (t, q[:, 1]), "bird": (t, q[:, 2])}
+    charts.histories({"height of the sleeve [mm]": height, "angle [rad]": angles}, xlabel="time [ms]", axes=axes)
+    pecks = 1e3 * (scenario.pecks(solution)[0] - solution.t[shown][0])
+    for peck in pecks[(pecks >= -1.0) & (pecks <= t[-1] + 1.0)]:
+        for ax in axes:
+            ax.axvline(peck, color="0.6", linewidth=0.8, linestyle=":")
+    charts.legend(figure)
+    return figure
+
+
+def _limit_cycles(runs: Mapping[str, tuple[Woodpecker, Solution]]) -> Figure:
+    """Draw the bird's rate over its angle in the last cycles, a panel for each law."""
+    title = "The impact law decides how far the bird swings, and how fast it comes down"
+    figure, axes = charts.panels(1, len(runs), title, (7.2, 4.2), sharex=True, sharey=True)
+    for ax, (law, (scenario, solution)) in zip(axes, runs.items(), strict=True):
+        shown, (duration, descent) = _last_cycles(scenario, solution), scenario.cycle(solution)
+        cycles = {"": (solution.q[shown, 2], solution.u[shown, 2])}
+        rate = "rate of the bird [rad/s]" if ax is axes[0] else ""
+        charts.portrait(cycles, "angle of the bird [rad]", rate, ax=ax)
+        ax.set_title(f"{law}: {1e3 * duration:.1f} ms, {1e3 * descent:.2f} mm per cycle", fontsize=9)
+    return figure
+
+
+def _last_cycles(scenario: Woodpecker, solution: Solution) -> NDArray[np.bool_]:
+    """Return True for samples in the last cycles, for all samples of a shorter run; shape [n_samples]."""
+    times, _ = scenario.pecks(solution)
+    start, stop = (times[-_SHOWN - 1], times[-1]) if len(times) > _SHOWN else (0.0, solution.t_end)
+    return np.asarray((solution.t >= start) & (solution.t <= stop))

@@ -1,8 +1,8 @@
 """Equations of the woodpecker toy, for small angles: sleeve M and bird S, joined by a torsional spring.
 
-Coordinates are the height y of the sleeve and the angles phi_M, phi_S of sleeve and bird.  The model knows gaps and
-slips along the pole but no outlines: here the beak's gap lies along x, those of the sleeve's edges along y, and each
-point has a contact with its own face of the pole only.
+Coordinates are the height y of the sleeve and the angles phi_M, phi_S of sleeve and bird.  The model has gaps and slips
+along the pole but no outlines.  Here the gap of the beak is along x, the gaps of the sleeve's edges are along y, and
+each point has a contact with its own face of the pole only.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def mass(
     sleeve_arm: float,
     bird_arm: float,
 ) -> None:
-    """Write M."""
+    """Write the mass matrix M."""
     out[0] = bird_mass + sleeve_mass
     out[1] = out[3] = bird_mass * sleeve_arm
     out[2] = out[6] = bird_mass * bird_arm
@@ -71,7 +71,7 @@ def beak(
     beak_height: float,
     pole_radius: float,
 ) -> None:
-    """Write the gap of the beak, along x, and its place along the pole [m]."""
+    """Write the gap of the beak, along x, and its height along the pole [m]."""
     out[0] = sleeve_arm + bird_arm - beak_arm - pole_radius - beak_height * q[2]
     out[2] = q[0] + beak_height + sleeve_arm * q[1] + (bird_arm - beak_arm) * q[2]
 
@@ -85,31 +85,31 @@ def beak_jacobian(
 
 
 def lower_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
-    """Write the gap of the sleeve's edges that touch when it tilts to negative angles, along y, and their place [m]."""
+    """Write gap, along y, and height [m] of the sleeve's edges that touch if it tilts to negative angles."""
     out[1] = sleeve_radius - pole_radius + sleeve_height * q[1]
     out[2] = q[0] + sleeve_radius * q[1]
 
 
 def lower_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_height: float) -> None:
-    """Write the Jacobian of these edges."""
+    """Write the Jacobian of the lower edges."""
     out[4] = sleeve_height
     out[6], out[7] = 1.0, sleeve_radius
 
 
 def upper_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
-    """Write the same of the edges that touch when the sleeve tilts to positive angles."""
+    """Write gap, along y, and height [m] of the sleeve's edges that touch if it tilts to positive angles."""
     out[1] = sleeve_radius - pole_radius - sleeve_height * q[1]
     out[2] = q[0] + sleeve_radius * q[1]
 
 
 def upper_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_height: float) -> None:
-    """Write the Jacobian of these edges."""
+    """Write the Jacobian of the upper edges."""
     out[4] = -sleeve_height
     out[6], out[7] = 1.0, sleeve_radius
 
 
 def no_bias(q: Floats, u: Floats, out: Floats) -> None:
-    """Write nothing: all points are linear in q."""
+    """Write nothing: the bias of all points is zero, because they are linear in q."""
 
 
 def outlines(
@@ -122,7 +122,7 @@ def outlines(
     beak_arm: float,
     beak_height: float,
 ) -> list[list[tuple[float, float, float]]]:
-    """Return the ends of lines for sleeve, spring and bird [m], the beak of which touches the pole at x = 0."""
+    """Return the ends of lines for sleeve, spring and bird [m]; the beak touches the pole at x = 0."""
 
     def place(x: float, z: float, angle: float, across: float, up: float) -> tuple[float, float, float]:
         return x + across - up * angle, 0.0, z + up + across * angle
@@ -137,10 +137,5 @@ def outlines(
     tip = place(bird[0], bird[2], q[2], -beak_arm, beak_height)
     tail = place(bird[0], bird[2], q[2], 0.0, -beak_height)
     sleeve = [[corners[i], corners[(i + 1) % 4]] for i in range(4)]
-    return [
-        *sleeve,
-        [place(axis, q[0], q[1], sleeve_radius, 0.0), spring],
-        [spring, bird],
-        [tail, beak_root],
-        [beak_root, tip],
-    ]
+    edge = place(axis, q[0], q[1], sleeve_radius, 0.0)
+    return [*sleeve, [edge, spring], [spring, bird], [tail, beak_root], [beak_root, tip]]

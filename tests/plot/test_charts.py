@@ -63,6 +63,14 @@ def test_they_are_composed() -> None:
     assert figure.legends[0].get_window_extent().y1 <= left.get_window_extent().y0
 
 
+@pytest.mark.parametrize(("entries", "columns"), [(1, 1), (3, 3), (4, 2), (5, 3), (7, 3)])
+def test_a_legend_has_rows_of_about_equal_length(entries: int, columns: int) -> None:
+    figure = charts.histories({"x [m]": {f"run {i}": (T, i * T) for i in range(entries)}})
+    figure.draw_without_rendering()
+    places = [text.get_window_extent().x0 for text in figure.legends[0].get_texts()]
+    assert len({round(place) for place in places}) == columns
+
+
 def test_styles_differ_without_colour() -> None:
     lines = [charts.line(place) for place in range(16)]
     assert len({(str(style["linestyle"]), style["linewidth"]) for style in lines}) == 16

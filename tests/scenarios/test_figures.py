@@ -26,8 +26,7 @@ NAMES: dict[str, tuple[str, str]] = {
     "dominoes": ("row wave", "row wave"),
     "dumbbell": (
         "fig02_drift_motion fig03_drift_tangential_velocity fig04_jump_motion fig05_jump_tilted_motion "
-        "fig06_jump_tilted_normal_velocity fig07_flutter_motion fig08_theta fig09_beta fig10_gamma fig11_paths "
-        "fig12_impact_laws fig13_all_impact_laws",
+        "fig06_jump_tilted_normal_velocity fig07_flutter_motion fig08_theta fig09_beta fig10_gamma fig11_paths",
         "fig02_drift_motion fig03_drift_tangential_velocity fig09_beta",
     ),
     "egg_on_table": ("friction history jumps spin", "history"),

@@ -15,7 +15,7 @@ import nonsmooth as ns
 from scenarios.dumbbell import DumbbellScenario
 from scenarios.dumbbell.trace import Trace
 
-EXPECTED = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13}
+EXPECTED = {2, 3, 4, 5, 6, 7, 8, 9, 10, 11}
 Runner = Callable[..., Any]
 
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from scenarios.polyhedron_stack.scenario import PolyhedronStack
+from scenarios.polyhedron_stack import PolyhedronStack
 
 
 @pytest.mark.slow
 def test_it_stands() -> None:
     """Nothing happens, and nothing moves."""
     tower = PolyhedronStack(push=0.0, t_end=1.0)
-    solution = ns.simulate(tower.build(), tower.t_end, sample_interval=tower.sample_interval)
+    solution = ns.run_scenario(tower)
     assert solution.events.causes() == ["start"]
     assert np.max(np.abs(solution.q - solution.q[0])) <= 1e-11
 
@@ -23,15 +23,7 @@ def test_it_stands() -> None:
 def test_the_uppermost_slides_as_far_as_friction_lets_it(push: float) -> None:
     tower = PolyhedronStack(push=push)
     assert tower.stands
-    solution = ns.simulate(tower.build(), tower.t_end, sample_interval=tower.sample_interval)
+    solution = ns.run_scenario(tower)
     criteria = tower.acceptance(solution)
     assert len(criteria) == 3
     assert all(one.fulfilled for one in criteria)
-
-
-@pytest.mark.slow
-def test_figures() -> None:
-    pytest.importorskip("matplotlib")
-    tower = PolyhedronStack(t_end=0.05)
-    solution = ns.simulate(tower.build(), tower.t_end, sample_interval=tower.sample_interval)
-    assert set(tower.figures(solution)) == {"tower"}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
-from scenarios.slider_crank.scenario import SliderCrank
+from scenarios.slider_crank import SliderCrank
 
 GRAVITY = 9.81
 
@@ -120,16 +119,3 @@ def test_wrong_input() -> None:
         SliderCrank(clearance=0.0)
     with pytest.raises(ns.UnknownName, match=r"SliderCrank\.law"):
         SliderCrank(law="poisson")
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path) -> None:
-    """One panel per run."""
-    pytest.importorskip("matplotlib")
-    scenario = SliderCrank(t_end=0.01)
-    drawn: dict[str, Any] = {**scenario.figures(_run(scenario)), **SliderCrank.gallery(ns.run_scenario)}
-    assert sorted(drawn) == ["height", "heights"]
-    assert [len(figure.axes) for _, figure in sorted(drawn.items())] == [1, 2]
-    for name, figure in drawn.items():
-        assert figure.axes[-1].get_xlabel()
-        figure.savefig(tmp_path / f"{name}.png")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,8 +12,7 @@ from scipy.optimize import minimize_scalar
 
 import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
-from scenarios.sliding_rod import figures
-from scenarios.sliding_rod.paradox import Rod
+from scenarios.sliding_rod.paradox import RodContact
 from scenarios.sliding_rod.scenario import GRAVITY, SlidingRod
 
 EXACT = ns.EventDriven(tolerance=1e-11)
@@ -22,7 +20,7 @@ EXACT = ns.EventDriven(tolerance=1e-11)
 
 def _run(**start: Any) -> tuple[SlidingRod, ns.Solution]:
     scenario = SlidingRod(**start)
-    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, engine=EXACT)
+    solution = ns.run_scenario(scenario, EXACT)
     assert solution.energy.residual <= 1e-8
     return scenario, solution
 
@@ -38,7 +36,7 @@ def _struck(**start: Any) -> bool:
 @pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
 def test_both_sides_of_the_threshold(tilt: float, end_radius: float) -> None:
     """A thousandth below the critical friction the rod slides on, a thousandth above no force exists."""
-    critical = Rod(0.1, 0.1, end_radius).critical_friction(tilt)
+    critical = RodContact(0.1, 0.1, end_radius).critical_friction(tilt)
     for side in (-1e-3, 1e-3):
         assert _struck(tilt=tilt, end_radius=end_radius, friction=critical * (1.0 + side)) == (side > 0.0)
 
@@ -59,7 +57,7 @@ def test_threshold_of_a_sharp_rod() -> None:
         assert high == pytest.approx(exact * below / (below + end_radius), abs=2e-9)
     assert short[0] / short[1] == pytest.approx(10.0, rel=0.02)
     assert short[1] / short[2] == pytest.approx(10.0, rel=0.002)
-    least = minimize_scalar(Rod(0.1, 0.1, 0.0).critical_friction, bounds=(0.2, 1.5), options={"xatol": 1e-10})
+    least = minimize_scalar(RodContact(0.1, 0.1, 0.0).critical_friction, bounds=(0.2, 1.5), options={"xatol": 1e-10})
     assert least.fun == pytest.approx(exact, abs=1e-12)
     assert math.tan(least.x) == pytest.approx(2.0, abs=1e-6)
 
@@ -189,18 +187,3 @@ def test_wrong_input(tilt: float) -> None:
         SlidingRod(tilt=tilt)
     for word in ("SlidingRod.tilt", "must be", str(tilt)):
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The gallery, here over fewer runs, and the figure of a run can be drawn."""
-    pytest.importorskip("matplotlib")
-    monkeypatch.setattr(figures, "ANGLES", 4)
-    monkeypatch.setattr(figures, "COEFFICIENTS", 3)
-    scenario, solution = _run(t_end=0.02)
-    drawn = {**scenario.figures(solution), **SlidingRod.gallery(ns.run_scenario)}
-    assert sorted(drawn) == ["histories", "history", "paradox"]
-    for name, figure in drawn.items():
-        assert figure.axes[0].get_ylabel()
-        assert figure.axes[-1].get_xlabel()
-        figure.savefig(tmp_path / f"{name}.png")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ EXACT = ns.EventDriven(tolerance=1e-11)
 
 def _run(engine: ns.EventDriven | None = None, **start: Any) -> tuple[TippeTop, ns.Solution]:
     scenario = TippeTop(**start)
-    solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, engine=engine)
+    solution = ns.run_scenario(scenario, engine)
     assert solution.energy.residual <= 1e-8
     return scenario, solution
 
@@ -192,17 +191,3 @@ def test_wrong_input() -> None:
         TippeTop(tilt=2.6)
     for word in ("TippeTop.tilt", "large sphere", "2.6"):
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path) -> None:
-    """The gallery and the figure of a run can be drawn."""
-    pytest.importorskip("matplotlib")
-    scenario, solution = _run(contact_radius=0.0, t_end=0.2)
-    drawn = {"run": scenario.figures(solution)["history"]}
-    drawn |= TippeTop.gallery(ns.run_scenario)
-    assert sorted(drawn) == ["contact_radius", "history", "run", "spin"]
-    for name, figure in drawn.items():
-        assert all(axis.get_ylabel() for axis in figure.axes)
-        assert figure.axes[-1].get_xlabel()
-        figure.savefig(tmp_path / f"{name}.png")

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +10,7 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.solution.modes import mode_shares
+from scenarios.two_link_arm import TwoLinkArm
 from scenarios.two_link_arm.painleve import (
     critical_friction,
     least_critical_friction,
@@ -20,7 +18,6 @@ from scenarios.two_link_arm.painleve import (
     reduced_coefficient,
     second_angle,
 )
-from scenarios.two_link_arm.scenario import TwoLinkArm
 
 RATIO = 5.0 / 3.0
 SIZES = (RATIO, 1.0, 1.0)
@@ -121,17 +118,3 @@ def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
         TwoLinkArm(**wrong)
     for word in words:
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path) -> None:
-    """Titles, labels, and as many lines as runs."""
-    pytest.importorskip("matplotlib")
-    scenario = dataclasses.replace(TwoLinkArm(), t_end=0.2)
-    drawn: dict[str, Any] = {**scenario.figures(_run(scenario)), **TwoLinkArm.gallery(ns.run_scenario)}
-    assert sorted(drawn) == ["bouncing", "critical_friction", "gap"]
-    assert [len(axis.get_legend().get_texts()) for axis in drawn["bouncing"].axes] == [2, 2]
-    for name, figure in drawn.items():
-        assert figure.axes[-1].get_xlabel()
-        assert all(axis.get_ylabel() for axis in figure.axes)
-        figure.savefig(tmp_path / f"{name}.png")

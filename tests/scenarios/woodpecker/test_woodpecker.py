@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from tests.scenarios.woodpecker.time_stepping import cycle
 
 
 def _run(scenario: Woodpecker) -> ns.Solution:
-    return ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+    return ns.run_scenario(scenario)
 
 
 @pytest.fixture(scope="module")
@@ -110,17 +109,3 @@ def test_a_short_run_has_no_cycle() -> None:
     summary = scenario.summarise(_run(scenario))
     assert summary["pecks"] == 0
     assert np.isnan(summary["cycle_duration"])
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path) -> None:
-    """Of a run of any length, and of the gallery."""
-    pytest.importorskip("matplotlib")
-    short = Woodpecker(t_end=0.05)
-    drawn: dict[str, Any] = {f"short_{k}": v for k, v in short.figures(_run(short)).items()}
-    drawn |= Woodpecker.gallery(ns.run_scenario)
-    assert sorted(drawn) == ["cycles", "limit_cycles", "short_cycles"]
-    for name, figure in drawn.items():
-        assert figure.axes[-1].get_xlabel()
-        assert figure.axes[0].get_ylabel()
-        figure.savefig(tmp_path / f"{name}.png")

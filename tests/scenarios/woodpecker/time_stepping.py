@@ -7,7 +7,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from scenarios.woodpecker.scenario import Woodpecker
+from scenarios.woodpecker import Woodpecker
 
 GRAVITY = 9.81
 

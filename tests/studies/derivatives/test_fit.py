@@ -13,7 +13,7 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.flow import flow
 from nonsmooth.studies.derivatives.least_squares import fit
 from scenarios.dumbbell import DumbbellScenario
-from scenarios.sliding_rod.scenario import SlidingRod
+from scenarios.sliding_rod import SlidingRod
 
 Floats = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")

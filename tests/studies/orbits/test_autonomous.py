@@ -23,7 +23,7 @@ from nonsmooth.studies.orbits.linear import linear
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.sections import PoincareSection, StroboscopicSection
 from nonsmooth.types import Floats
-from scenarios.woodpecker.scenario import Woodpecker
+from scenarios.woodpecker import Woodpecker
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 TOP = PoincareSection("z rate", rising=False, longest=5.0)

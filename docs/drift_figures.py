@@ -1,12 +1,18 @@
-"""Figs. 12 and 13: the drift with other impact laws."""
+"""Draw the drift of the dumbbell with other impact laws: ``python docs/drift_figures.py docs/pages/figures``."""
 
 from __future__ import annotations
 
+import dataclasses
+import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
+import matplotlib
 import numpy as np
+from matplotlib.figure import Figure
 
+import nonsmooth as ns
 from laws import (
     EnergeticImpact,
     JohnsonImpact,
@@ -19,18 +25,14 @@ from laws import (
 )
 from nonsmooth import charts
 from nonsmooth.interfaces import ImpactLaw
-from nonsmooth.runs.simulate import simulate
-from nonsmooth.solution.solution import Solution
 from nonsmooth.system.replacing import with_laws
+from scenarios.dumbbell import DumbbellScenario
 from scenarios.dumbbell.trace import note
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+Ran = tuple[DumbbellScenario, ns.Solution]
 
-    from scenarios.dumbbell.scenario import DumbbellScenario
-
-    Ran = tuple[DumbbellScenario, Solution]
-
+_TURNED = DumbbellScenario(radius=5e-3, rod_mass_fraction=0.0, restitution=0.6, friction=0.15)
+"""Start at which the impact law decides the direction of the drift."""
 _STRIKE = 0.25
 """Speed at which ball 2 strikes in the drift [m/s]; there the laws that depend on it have the e of the others."""
 _VISCOELASTIC = 33.8
@@ -41,7 +43,17 @@ _PAIR = "energetic (compliant limit)", "Newton, in one step"
 _MOVED = "displacement of the mass centre along y [mm]"
 
 
-def drift_by_law(pairs: Sequence[tuple[Ran, Ran]]) -> Figure:
+def main() -> None:
+    """Save both figures in the folder given."""
+    matplotlib.use("Agg")
+    starts = DumbbellScenario(mode="drift"), _TURNED
+    both = [[dataclasses.replace(start, impact=law) for law in ("energetic", "newton")] for start in starts]
+    pairs = [[(scenario, ns.run_scenario(scenario)) for scenario in pair] for pair in both]
+    for stem, figure in {"drift_two_laws": drift_by_law(pairs), "drift_all_laws": drifts_of_all(_TURNED)}.items():
+        figure.savefig(Path(sys.argv[1]) / f"{stem}.png", dpi=110)
+
+
+def drift_by_law(pairs: Sequence[Sequence[Ran]]) -> Figure:
     """Draw the displacement of the mass centre along the rod's first direction (y) by both laws, a panel for each pair.
 
     The first run of a pair is by the energetic law, the second one by Newton's; other parameters are the same.
@@ -72,7 +84,7 @@ def drifts_of_all(scenario: DumbbellScenario) -> Figure:
     names = []
     for place, (name, law) in enumerate(_laws(scenario).items()):
         system = with_laws(scenario.build(), impact=law)
-        solution = simulate(system, scenario.t_end, sample_interval=scenario.sample_interval)
+        solution = ns.simulate(system, scenario.t_end, sample_interval=scenario.sample_interval)
         t, moved, speed = _drift(scenario, solution)
         dashes, marker = ("-", "--", ":")[place % 3], ("", "o", "s")[place // 3]
         style: dict[str, Any] = {
@@ -99,7 +111,7 @@ def drifts_of_all(scenario: DumbbellScenario) -> Figure:
     return figure
 
 
-def _drift(scenario: DumbbellScenario, solution: Solution) -> tuple[np.ndarray, np.ndarray, float]:
+def _drift(scenario: DumbbellScenario, solution: ns.Solution) -> tuple[np.ndarray, np.ndarray, float]:
     """Return times [s], displacements of the mass centre along y [mm], and the velocity that it settles to [mm/s]."""
     motion = scenario.motion(solution)
     y = motion.centre[:, 1]
@@ -121,3 +133,7 @@ def _laws(scenario: DumbbellScenario) -> dict[str, ImpactLaw]:
         "Moreau, $e_T = 0$": MoreauImpact(e, 0.0, duration=duration),
         "Newton": NewtonImpact(e, duration=duration),
     }
+
+
+if __name__ == "__main__":
+    main()

@@ -6,37 +6,43 @@ import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import HullBody, Plate, Rest
+from bodies import HullBody, Plate, Polyhedron, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth import charts
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
+from scenarios.solids import draw_solids
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
 
-_SAMPLES = 400
 _GRAVITY = 9.81
 _SIDES = (6, 5, 4, 3)
-"""Sides of the prisms, from below."""
+"""Sides of the prisms, from the lowest to the uppermost."""
+_COLOURS = ("#0072b2", "#009e73", "#e69f00", "#cc79a7")
 
 
 @final
 @dataclass(frozen=True)
 class PolyhedronStack(Scenario):
-    """Prisms of six, five, four and three sides on each other, each a little smaller than that under it and turned.
+    """Prisms of six, five, four and three sides on each other, each smaller than the prism below and turned against it.
 
-    What holds them are corners on faces and edges across edges; as the uppermost slides, its corners leave the face
-    below, and the crossings of its edges take over.
+    Corners on faces and edges across edges carry the prisms.  As the uppermost prism slides, its corners leave the
+    face below, and the crossings of its edges carry it.
     """
 
     title: ClassVar[str] = "Tower of prisms"
+    samples: ClassVar[int] = 400
     coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m"}
     units: ClassVar[Mapping[str, str]] = {"way": "m", "friction_loss": "J"}
 
@@ -59,17 +65,8 @@ class PolyhedronStack(Scenario):
                 "PolyhedronStack.push", "must be positive without friction", self.push, "Nothing would happen."
             )
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A four-hundredth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     def prisms(self) -> list[HullBody]:
-        """Return the prisms from below."""
+        """Return the prisms, from the lowest to the uppermost."""
         found = []
         for i, sides in enumerate(_SIDES):
             radius, angles = self.radius * self.taper**i, 2.0 * np.pi * np.arange(sides) / sides
@@ -95,32 +92,28 @@ class PolyhedronStack(Scenario):
             )
         return system
 
-    def positions(self, solution: Solution) -> Floats:
-        """Return the centres over the samples [m], shape [n_samples, n, 3]."""
-        return solution.q.reshape(len(solution.t), -1, 7)[:, :, :3]
-
     @property
     def way(self) -> float:
-        """How far friction lets the uppermost slide, v^2 / (2 mu g) [m]."""
+        """Distance over which friction stops the uppermost prism, v^2 / (2 mu g) [m]."""
         return self.push**2 / (2.0 * self.friction * _GRAVITY) if self.friction > 0.0 else math.inf
 
     @property
     def stands(self) -> bool:
-        """Whether the uppermost stops long before it tips, and nothing below it slides or is turned over."""
+        """Whether the uppermost prism stops long before it tips, and no prism below slides or tips."""
         inner = self.radius * self.taper ** (len(_SIDES) - 2) * math.cos(math.pi / _SIDES[-2])
         return self.way < 0.5 * inner and self.friction * self.height < 0.6 * inner
+
+    def positions(self, solution: Solution) -> Floats:
+        """Return the centres over the samples [m], shape [n_samples, n, 3]."""
+        return solution.q.reshape(len(solution.t), -1, 7)[:, :, :3]
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x, y and z of every prism [m] over the samples."""
         places = self.positions(solution)
         return {f"{c}_{i + 1}": places[:, i, j] for i in range(len(_SIDES)) for j, c in enumerate("xyz")}
 
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u}: positions [m], quaternions, velocities at the end."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
-
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return how far each prism went, and the events by cause."""
+        """Return the distance of each prism from its start [m], the number of events by cause, and the loss [J]."""
         causes = solution.events.causes()
         ends = solution.q_end.reshape(-1, 7)[:, :3]
         return {
@@ -130,18 +123,11 @@ class PolyhedronStack(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return what was lost to friction and, of a push that it survives, how far each prism went."""
+        """Return the balance of energy and, if the tower withstands the push, the way of its prisms."""
         account = solution.energy
         start, end = account.kinetic_start + account.potential_start, account.kinetic_end + account.potential_end
-        found = [
-            Criterion.near(
-                "energy less what was lost over that at the start",
-                (end + account.loss) / start,
-                1.0,
-                1e-9,
-                "balance of energy",
-            )
-        ]
+        name = "energy less what was lost over that at the start"
+        found = [Criterion.near(name, (end + account.loss) / start, 1.0, 1e-9, "balance of energy")]
         if self.stands and self.t_end > self.push / (self.friction * _GRAVITY):
             way = solution.q_end.reshape(-1, 7)[:, :3] - self.positions(solution)[0]
             source = "Coulomb's law: v^2 / (2 mu g)"
@@ -151,7 +137,28 @@ class PolyhedronStack(Scenario):
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the tower before and after, and the way of the uppermost."""
-        from scenarios.polyhedron_stack.figures import tower
+        """Return the tower at the start and at the end, and the way of the uppermost prism."""
+        return {"tower": _tower(self, solution)}
 
-        return {"tower": tower(self, solution)}
+
+def _tower(scenario: PolyhedronStack, solution: Solution) -> Figure:
+    """Draw the tower at the start and at the end, and the way of the uppermost prism with its events."""
+    claim = "Pushed, the uppermost prism slides to rest; the tower below stays"
+    title = claim if scenario.stands else "The uppermost prism is pushed"
+    figure, (start, end, history) = charts.panels(1, 3, title, (9.6, 4.6), width_ratios=(1.0, 1.0, 1.6))
+    solids = [shape for prism in scenario.prisms() for shape in prism.shapes if isinstance(shape, Polyhedron)]
+    for ax, sample, name in ((start, 0, "start"), (end, -1, f"t = {solution.t[-1]:.2g} s")):
+        draw_solids(ax, solids, solution.q[sample].reshape(-1, 7), -1.1, 0.4, _COLOURS)
+        ax.set_title(name, fontsize=10)
+        ax.set(xticks=[], yticks=[])
+    t, way = 1e3 * solution.t, 1e3 * scenario.positions(solution)[:, -1, 0]
+    events = solution.events
+    left = 1e3 * events.time[np.array(events.causes()) == "end of a feature"]
+    expected: dict[str, Any] = {"uppermost prism": (t, way)}
+    if scenario.friction > 0.0:
+        expected["v² / (2 μ g)"] = t, np.full(len(t), 1e3 * scenario.way)
+    marks = {"a corner leaves the face": (left, np.interp(left, t, way))} if len(left) else {}
+    charts.comparison(expected, marks, "time [ms]", "way [mm]", ax=history)
+    history.set_ylim(bottom=0.0)
+    charts.legend(figure)
+    return figure

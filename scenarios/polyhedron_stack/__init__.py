@@ -1,1 +1,0 @@
-"""A tower of prisms."""
