@@ -12,7 +12,7 @@ from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.histories.history import History, LabelledArray
 from nonsmooth.histories.request import Parts, Request, numbers_of, read_times
 from nonsmooth.histories.variables import VARIABLES, Variable
-from nonsmooth.system.labels import labels
+from nonsmooth.system.names import labels
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

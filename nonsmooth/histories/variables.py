@@ -12,7 +12,7 @@ it.  Its attributes are the numbers that a new variable can be made of:
 - :class:`~nonsmooth.histories.states.Energies`: energies, works and losses;
 - :class:`~nonsmooth.histories.contacts.NearContacts`: gaps and velocities of contacts, open ones too;
 - :class:`~nonsmooth.histories.contacts.ClosedContacts`: forces of closed contacts;
-- :class:`~nonsmooth.histories.joints.Joints`: forces of joints;
+- :class:`~nonsmooth.histories.states.Joints`: forces of joints;
 - :class:`~nonsmooth.histories.impulses.Impulses`: impulses of events.
 """
 
@@ -28,9 +28,8 @@ from numpy.typing import NDArray
 
 from nonsmooth.histories.contacts import ClosedContacts, NearContacts
 from nonsmooth.histories.impulses import Impulses
-from nonsmooth.histories.joints import Joints
 from nonsmooth.histories.request import Request
-from nonsmooth.histories.states import Energies, Frames, Modes, States
+from nonsmooth.histories.states import Energies, Frames, Joints, Modes, States
 
 
 @final

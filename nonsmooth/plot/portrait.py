@@ -11,7 +11,7 @@ from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside
-from nonsmooth.system.labels import labels
+from nonsmooth.system.names import labels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,10 +12,9 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.files.gate import Gate
 from nonsmooth.files.reading import Setup, engine_of, load_system
 from nonsmooth.interfaces import Engine, Measure
-from nonsmooth.results.damage import naming_damage
 from nonsmooth.results.description import named_elsewhere
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.results.solution_folder import SolutionFolder, naming_damage
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.solution import Solution

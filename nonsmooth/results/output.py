@@ -1,4 +1,4 @@
-"""Output: where the results of a run go while it runs, and what is said there of where they come from."""
+"""Output: the folder of the results of a run, with their origin."""
 
 from __future__ import annotations
 

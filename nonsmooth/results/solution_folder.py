@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
@@ -15,24 +16,29 @@ from numpy.typing import NDArray
 from nonsmooth.checks import check_kind
 from nonsmooth.datasets import described
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.histories.history import LabelledArray
 from nonsmooth.interfaces import Engine
-from nonsmooth.results.damage import naming_damage
-from nonsmooth.results.description import MESSAGE, UNFINISHED, attributes_of, energies, system_variable
+from nonsmooth.results.description import (
+    MESSAGE,
+    UNFINISHED,
+    attributes_of,
+    energies,
+    state_bytes,
+    state_from,
+    system_variable,
+)
 from nonsmooth.results.output import Output
 from nonsmooth.results.overwriting import arrays_of_run, check_ours, check_replaceable, empty
-from nonsmooth.results.state_file import state_bytes, state_from
+from nonsmooth.solution.end import RunRequest
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.solution.variables import (
     GROWING,
-    of_events,
+    SAMPLES,
+    of_all_of_events,
     of_memory,
-    of_rest_of_events,
-    of_rest_of_samples,
     of_samples,
     of_system,
     stored_events,
@@ -51,10 +57,26 @@ _STATES = (f"{WRITER}/state-0.npz", f"{WRITER}/state-1.npz")
 _LAST = f"{WRITER}/state-end.npz"
 _OWN = "scenario_coordinates"
 """Attribute with the names of the arrays that the scenario adds."""
-_ROWS = ("time", "q", "u", "account", "law_state", "booked")
-"""Arrays that make the rows of the samples."""
 _LENGTHS = {"time": "time", "event": "event_time", "listing": "listed_contact"}
 """An array over each of the dimensions that grow."""
+
+
+@contextlib.contextmanager
+def naming_damage(thing: str) -> Iterator[None]:
+    """Raise InvalidInput with the name of the thing in place of the errors of a reader of damaged content.
+
+    Raises
+    ------
+    InvalidInput
+        If a value is missing or of another kind.
+    """
+    try:
+        yield
+    except NonsmoothError:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
+        reason = f"{type(error).__name__}: {error}"
+        raise InvalidInput(thing, "must be as a run has written it", reason, "It is damaged.") from error
 
 
 @final
@@ -215,7 +237,7 @@ class SolutionFolder:
 
         They are time, q, u, accounts, inner states of laws, booked energies, shape [n, 1 + n_y + 4].
         """
-        parts = [self._arrays.read(name, 0, self._lengths["time"] if n is None else n) for name in _ROWS]
+        parts = [self._arrays.read(name, 0, self._lengths["time"] if n is None else n) for name in SAMPLES]
         return np.column_stack(parts) if len(parts[0]) else np.zeros((0, 1 + sum(p.shape[1] for p in parts[1:])))
 
     def state(self) -> State:
@@ -423,5 +445,4 @@ def _variables(events: Events, rows: Floats, n_q: int, n_u: int) -> list[Labelle
     """Events and samples as arrays."""
     n_states = rows.shape[1] - 1 - n_q - n_u - N_ACCOUNTS - BOOKED
     t, q, u, *rest = np.split(rows, np.cumsum([1, n_q, n_u, N_ACCOUNTS, n_states]), axis=1)
-    samples = [*of_samples(t[:, 0], q, u), *of_rest_of_samples(*rest)]
-    return [*samples, *of_events(events), *of_rest_of_events(events)]
+    return [*of_samples(t[:, 0], q, u, *rest), *of_all_of_events(events)]

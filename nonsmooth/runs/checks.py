@@ -17,7 +17,7 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.so_far import Until
-from nonsmooth.solution.request import RunRequest
+from nonsmooth.solution.end import RunRequest
 from nonsmooth.solution.state import State
 from nonsmooth.system.input_checks import check_quaternion
 

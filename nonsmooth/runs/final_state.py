@@ -24,8 +24,7 @@ from nonsmooth.model.checkpoint import Booleans, Checkpoint, Difference, Integer
 from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
-from nonsmooth.runs.imbalance import imbalance_span
-from nonsmooth.runs.outcome import RunOutcome, cause_of
+from nonsmooth.runs.outcome import RunOutcome, cause_of, imbalance_span
 from nonsmooth.solution.checks import friction_gain
 from nonsmooth.solution.end import Counters, End, RunStatus
 from nonsmooth.solution.energy import EnergyAccount

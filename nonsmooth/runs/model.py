@@ -46,8 +46,7 @@ from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
-from nonsmooth.solution.end import RunStatus
-from nonsmooth.solution.request import RunRequest
+from nonsmooth.solution.end import RunRequest, RunStatus
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, State
 from nonsmooth.storage.files import FileError

@@ -19,7 +19,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.checks import check_candidates
-from nonsmooth.solution.request import RunRequest
+from nonsmooth.solution.end import RunRequest
 from nonsmooth.solution.state import Integers, State
 
 _COUNTERS = (

@@ -1,4 +1,4 @@
-"""End of a run: state, counters, status, and the numbers by which the engine judges it."""
+"""Request of a run, its arguments, and its end: state, counters, status, and the measures of the engine."""
 
 from __future__ import annotations
 
@@ -9,6 +9,35 @@ from typing import Protocol, final
 
 from nonsmooth.interfaces import Measure
 from nonsmooth.solution.state import State
+
+
+@final
+@dataclass(frozen=True)
+class RunRequest:
+    """End and samples of a run: the arguments that its steps and samples depend on, apart from its start.
+
+    They are no part of a state, because a run may continue to another end time. The folder of a run keeps them, so that
+    a run that was cut off can be resumed.
+
+    Attributes
+    ----------
+    t_end : float
+        End time [s].
+    sample_start : float
+        Time of the first sample [s].
+    sample_interval : float
+        Time between samples [s].
+    has_default_samples : bool
+        True if the user gave no interval: no step is then shortened for the samples.
+    is_conditional : bool
+        True if a condition of the user may end the run. No file holds the condition.
+    """
+
+    t_end: float
+    sample_start: float
+    sample_interval: float
+    has_default_samples: bool
+    is_conditional: bool
 
 
 class RunStatus(StrEnum):

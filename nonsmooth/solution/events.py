@@ -1,13 +1,11 @@
-"""The events of a run: when, why, where, and what they did to modes and energy."""
+"""Events of a run: times, causes, contacts, and changes of modes, velocities and energy."""
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,76 +20,86 @@ ReadRows: TypeAlias = Callable[[str, int, int | None], NDArray[Any]]
 """Reads rows from one to another of a column by its name; the stop None is the end."""
 _BLOCK = 2**14
 """Events of a block that is read at once."""
+ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
+"""Columns of the energies of an event [J]."""
 _LISTED = ("listed", "codes", "listed_impulse", "listed_memory")
 """Columns with a row for each contact that is listed with an event."""
 
 
-@dataclass(frozen=True)
+@final
+class _Column(functools.cached_property[NDArray[Any]]):
+    """A column of the events: it is read at its first use, and kept as an attribute of the events."""
+
+    def __init__(self, description: str) -> None:
+        super().__init__(lambda events: events.rows(self.attrname, 0, None))
+        self.__doc__ = description
+
+
+@final
 class Events:
     """All events in order of time; several may share an instant.
 
-    The events of a run with an output folder may be in that folder; each column is read when it is first used.
+    The columns of a run with an output folder may be in that folder, and each is read at its first use.  A pickled copy
+    has all columns, because the folder may be gone when the copy is used.
 
-    Attributes
+    Parameters
     ----------
-    time : array
-        [s], shape [n].
-    cause : array
-        Index into :data:`nonsmooth.engine.memory.modes.CAUSES`, shape [n].
-    contact : array
-        Index into ``system.contacts`` of the contact that caused it, or into ``system.guards`` where that is the cause;
-        -1 at the start; shape [n].
-    phases : array
-        Changes of phase within an impact, else 0; shape [n].
-    truncated : array
-        1 where an endless cascade inside an impact was cut short, shape [n].
-    driven_work, restitution_loss, friction_loss, closing_loss : array
-        Energies of the event [J], shape [n].
-    q : array
-        Coordinates, shape [n, n_q].
-    u_before, u_after : array
-        Velocities, shape [n, n_u].
-    integrated : array
-        What else is integrated, after the event: :data:`~nonsmooth.engine.memory.layout.N_ACCOUNTS` energies [J], then
-        the inner states of laws, contact by contact; shape [n, N_ACCOUNTS + n_states].
-    booked : array
-        Energies booked in events until then [J]: work of driven bodies, losses by restitution, friction and closing,
-        shape [n, 4].
+    n : int
+        Number of events.
     n_contacts : int
-        Contacts of the system.
-    first : array
-        Where the contacts listed with each event begin in the three arrays below, shape [n + 1].
-    listed : array
-        Contacts that were closed before, during or after the event, or caused it, shape [n_listed].
-    codes : array
-        Their bits of Eq. (29) before + 8 during + 64 after the event, shape [n_listed].
-    listed_impulse : array
-        Their normal and two tangential impulses [N s], shape [n_listed, 3].
-    listed_memory : array
-        What they go on with: slip direction, rate at which they closed last [m/s], way of slip that an oriented law
-        takes them to face, the mode in which averaged forces end, features; shape [n_listed, 8].
+        Number of contacts of the system.
+    read : callable
+        ``read(name, start, stop)`` reads rows of a column by its name; the stop None is its end.
     """
 
-    time: Floats
-    cause: Integers
-    contact: Integers
-    phases: Integers
-    truncated: Integers
-    driven_work: Floats
-    restitution_loss: Floats
-    friction_loss: Floats
-    closing_loss: Floats
-    q: Floats
-    u_before: Floats
-    u_after: Floats
-    integrated: Floats
-    booked: Floats
-    n_contacts: int
-    first: Integers
-    listed: Integers
-    codes: Integers
-    listed_impulse: Floats
-    listed_memory: Floats
+    time = _Column("Times [s], shape [n].")
+    cause = _Column("Members of :class:`nonsmooth.engine.memory.modes.Cause`, shape [n].")
+    contact = _Column(
+        "Index into ``system.contacts`` of the contact that caused it, or into ``system.guards`` if a guard is the "
+        "cause; -1 at the start; shape [n]."
+    )
+    phases = _Column("Changes of phase within an impact, else 0; shape [n].")
+    truncated = _Column("1 if an endless cascade inside an impact was cut short, shape [n].")
+    driven_work = _Column("Work of driven bodies in the event [J], shape [n].")
+    restitution_loss = _Column("Loss to restitution in the event [J], shape [n].")
+    friction_loss = _Column("Loss to friction in the event [J], shape [n].")
+    closing_loss = _Column("Loss in closing steps and projections of the event [J], shape [n].")
+    q = _Column("Coordinates, shape [n, n_q].")
+    u_before = _Column("Velocities before the event, shape [n, n_u].")
+    u_after = _Column("Velocities after the event, shape [n, n_u].")
+    integrated = _Column(
+        "Other integrated quantities after the event: :data:`~nonsmooth.engine.memory.layout.N_ACCOUNTS` energies [J], "
+        "then the inner states of laws, contact by contact; shape [n, N_ACCOUNTS + n_states]."
+    )
+    booked = _Column(
+        "Energies accounted in events until then [J]: work of driven bodies, losses by restitution, friction and "
+        "closing, shape [n, 4]."
+    )
+    first = _Column("Row at which the contacts of each event begin in the columns below, shape [n + 1].")
+    listed = _Column("Contacts that were closed before, during or after the event, or caused it, shape [n_listed].")
+    codes = _Column("Their bits of Eq. (29) before + 8 during + 64 after the event, shape [n_listed].")
+    listed_impulse = _Column("Their normal and two tangential impulses [N s], shape [n_listed, 3].")
+    listed_memory = _Column(
+        "State that each keeps: slip direction, rate of the last closing [m/s], slip direction that an oriented law "
+        "faces, mode after the time-stepping fallback, features; shape [n_listed, 8]."
+    )
+
+    def __init__(self, n: int, n_contacts: int, read: ReadRows) -> None:
+        self.n_contacts, self._n, self._read = n_contacts, n, read
+
+    @classmethod
+    def held(cls, n_contacts: int, columns: Mapping[str, NDArray[Any]]) -> Events:
+        """Events whose columns are in memory."""
+        return cls(len(columns["time"]), n_contacts, lambda name, start, stop: columns[name][start:stop])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Events.held, (self.n_contacts, {name: getattr(self, name) for name in COLUMNS})
+
+    def rows(self, name: str, start: int, stop: int | None) -> NDArray[Any]:
+        """Rows of a column from one to another; the column is not kept."""
+        # a column that was used before is an attribute
+        used = vars(self).get(name)
+        return self._read(name, start, stop) if used is None else np.asarray(used[start:stop])
 
     @classmethod
     def from_buffers(cls, floats: Floats, integers: Integers, n_contacts: int, n_q: int, n_u: int, n_y: int) -> Events:
@@ -117,50 +125,22 @@ class Events:
         j = np.arange(int(first[-1])) - first[event]
         pair = head[event] + CODE_HEAD + 2 * j
         push, kept = np.split(floats[(start[event] + width + LISTED * j)[:, None] + np.arange(LISTED)], [3], axis=1)
-        return cls(
-            time_and_energies[:, 0],
-            integers[head],
-            integers[head + 1],
-            integers[head + 2],
-            integers[head + 3],
-            time_and_energies[:, 1],
-            time_and_energies[:, 2],
-            time_and_energies[:, 3],
-            time_and_energies[:, 4],
-            q,
-            u_before,
-            u_after,
-            integrated,
-            booked,
-            n_contacts,
-            first,
-            integers[pair],
-            integers[pair + 1],
-            push,
-            kept,
-        )
-
-    @classmethod
-    def lazy(cls, n: int, n_contacts: int, read: ReadRows) -> Events:
-        """Events whose columns are read when they are first used; ``read`` reads rows of a column by its name."""
-        made = object.__new__(cls)
-        vars(made).update(n_contacts=n_contacts, _length=n, _read=read)
-        return made
-
-    def __getattr__(self, name: str) -> Any:
-        """Read a column of :meth:`lazy` at its first use."""
-        if name not in _COLUMNS:
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-        return vars(self).setdefault(name, self._read(name, 0, None))
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Let a copy hold all columns, because a folder need not be there any more."""
-        return {name: getattr(self, name) for name in ("n_contacts", *_COLUMNS)}
-
-    def _rows(self, name: str, start: int, stop: int | None) -> NDArray[Any]:
-        """Rows of a column, which is not kept in memory unless it is there."""
-        found = vars(self).get(name)
-        return self._read(name, start, stop) if found is None else np.asarray(found[start:stop])
+        columns = {
+            "time": time_and_energies[:, 0],
+            **{name: integers[head + i] for i, name in enumerate(("cause", "contact", "phases", "truncated"))},
+            **{name: time_and_energies[:, i] for i, name in enumerate(ENERGIES, 1)},
+            "q": q,
+            "u_before": u_before,
+            "u_after": u_after,
+            "integrated": integrated,
+            "booked": booked,
+            "first": first,
+            "listed": integers[pair],
+            "codes": integers[pair + 1],
+            "listed_impulse": push,
+            "listed_memory": kept,
+        }
+        return cls.held(n_contacts, columns)
 
     def blocks(self) -> Iterator[Events]:
         """These events in blocks, one after another, at least one: of a long run only one block is in memory."""
@@ -180,9 +160,9 @@ class Events:
             if name == "first":
                 return np.asarray((first - first[0])[low:high])
             begin, end = listed if name in _LISTED else (start, stop)
-            return self._rows(name, begin + low, end if high is None else begin + high)
+            return self.rows(name, begin + low, end if high is None else begin + high)
 
-        return Events.lazy(stop - start, self.n_contacts, read)
+        return Events(stop - start, self.n_contacts, read)
 
     @classmethod
     def joined(cls, parts: Sequence[Events]) -> Events:
@@ -196,14 +176,14 @@ class Events:
                 sizes = np.concatenate([np.diff(part.first) for part in parts])
                 return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)[start:stop]
             if stop is None:
-                return np.concatenate([part._rows(name, 0, None) for part in parts])[start:]
+                return np.concatenate([part.rows(name, 0, None) for part in parts])[start:]
             spans = [(part, max(0, start - at), stop - at) for part, at in zip(parts, starts, strict=False)]
-            return np.concatenate([part._rows(name, low, max(low, min(high, len(part)))) for part, low, high in spans])
+            return np.concatenate([part.rows(name, low, max(low, min(high, len(part)))) for part, low, high in spans])
 
-        return cls.lazy(starts[-1], parts[0].n_contacts, read)
+        return cls(starts[-1], parts[0].n_contacts, read)
 
     def _bits(self, shift: int) -> Integers:
-        """Return the bits of every contact at every event, shape [n, n_contacts]."""
+        """Bits of every contact at every event, shape [n, n_contacts]."""
         bits = np.zeros((len(self), self.n_contacts), dtype=np.int64)
         bits[self._event_of_entry(), self.listed] = self.codes >> shift & CODE
         return bits
@@ -234,39 +214,34 @@ class Events:
         return impulse
 
     def codes_after(self, numbers: Integers) -> Integers:
-        """Return the bits after events by number, shape [n, n_contacts]; before the first, -1, no contact is closed."""
+        """Bits after events by number, shape [n, n_contacts]; before the first, -1, no contact is closed."""
         before_all = np.zeros((1, self.n_contacts), np.int64)
         return np.concatenate([self.after, before_all])[numbers]
 
     def __repr__(self) -> str:
-        """Return how many there are of which cause."""
+        """Number of events, in all and by cause."""
         causes = ", ".join(f"{n} {cause}" for cause, n in Counter(self.causes()).most_common())
         return f"Events({len(self)}: {causes})" if causes else "Events(0)"
 
-    @functools.cached_property
-    def _length(self) -> int:
-        """Number of events."""
-        return len(self.time)
-
     def __len__(self) -> int:
-        return self._length
+        return self._n
 
     def causes(self) -> list[str]:
-        """Return the causes in words."""
+        """Causes in words."""
         return [CAUSES[code] for code in self.cause]
 
     def triggers(self, contacts: Sequence[str], guards: Sequence[str]) -> list[str]:
-        """Return the name of the contact, or of the guard, that caused each event; "" at the start."""
+        """Name of the contact, or of the guard, that caused each event; "" at the start."""
         pairs = zip(self.cause.tolist(), self.contact.tolist(), strict=True)
         return ["" if i < 0 else (guards if cause == Cause.GUARD else contacts)[i] for cause, i in pairs]
 
     def words(self, which: str) -> list[str]:
-        """Return the mode words ``before``, ``during`` or ``after`` every event."""
+        """Mode words ``before``, ``during`` or ``after`` every event."""
         codes: Integers = {"before": self.before, "during": self.during, "after": self.after}[which]
         return self.spelled(codes)
 
     def intervals(self) -> dict[str, int]:
-        """Return how many events followed the one before after which time, by the decade that it begins with [s].
+        """Numbers of events by the decade of the time since the event before [s].
 
         "1e-05" stands for 1e-5 s and more, below 1e-4 s, and "0" for the same instant.
         """
@@ -278,7 +253,7 @@ class Events:
         return {decade: n for decade, n in found.items() if n}
 
     def count(self, *causes: int) -> int:
-        """Return how many events have one of the causes."""
+        """Number of events with one of the causes."""
         return int(np.isin(self.cause, causes).sum())
 
     @staticmethod
@@ -289,4 +264,5 @@ class Events:
         return [found[i] for i in np.ravel(inverse)]
 
 
-_COLUMNS = tuple(field.name for field in dataclasses.fields(Events) if field.name != "n_contacts")
+COLUMNS = tuple(name for name, value in vars(Events).items() if isinstance(value, _Column))
+"""Names of the columns."""

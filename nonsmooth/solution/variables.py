@@ -1,20 +1,23 @@
-"""Arrays of a solution with their axes and units, the same in memory and on disk."""
+"""Arrays of a solution with their axes and units, in memory and on disk: tables of samples and of events."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.datasets import described
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
 from nonsmooth.histories import history
 from nonsmooth.histories.history import LabelledArray
-from nonsmooth.solution.events import Events, ReadRows
-from nonsmooth.system.labels import labels
+from nonsmooth.solution.events import ENERGIES, Events, ReadRows
+from nonsmooth.system.names import labels
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
@@ -25,156 +28,185 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 GROWING = ("time", "event", "listing")
 """Dimensions along which results grow: samples, events, and the contacts listed with them one after another."""
-_ENERGIES = {
-    "driven_work": "work of driven bodies in the event",
-    "restitution_loss": "loss to restitution in the event",
-    "friction_loss": "loss to friction in the event",
-    "closing_loss": "loss in closing steps and projections of the event",
+_ACCOUNT = {
+    "units": "J",
+    "long_name": "energies since the start",
+    "account_names": "work of driven bodies, loss to friction, gross exchange, work of loads",
 }
-_ACCOUNTS = ("work of driven bodies", "loss to friction", "gross exchange", "work of loads")
-_ACCOUNT = {"units": "J", "long_name": "energies since the start", "account_names": ", ".join(_ACCOUNTS)}
 _INNER = {"long_name": "inner states of friction and traction laws, contact by contact, in SI units of each law"}
 _BOOKED = {
     "units": "J",
-    "long_name": "energies booked at instants since the start",
-    "booked_names": ", ".join(_ENERGIES),
+    "long_name": "energies accounted at instants since the start",
+    "booked_names": ", ".join(ENERGIES),
 }
-_MEMORY = {"long_name": "what the contact goes on with, see of_memory_units"}
-_REMEMBERED = (
+_MEMORY = (
     ("first part of the slip direction", "1"),
     ("second part of the slip direction", "1"),
     ("rate of closing", "m/s"),
-    ("way of slip that an oriented law faces", "1"),
-    ("mode in which its averaged forces end", "1"),
+    ("slip direction that an oriented law faces", "1"),
+    ("mode after the time-stepping fallback", "1"),
     *((f"feature {number}", "1") for number in range(CANDIDATE)),
 )
+"""Names and units of the columns of ``Events.listed_memory``."""
 _MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
 _SHIFTS = {"mode_before": BEFORE, "mode_during": DURING, "mode_after": AFTER}
-
-
-def of_system(system: System) -> list[LabelledArray]:
-    """Return the labels of bodies, coordinates and contacts, and the laws of the latter."""
-    names, rows_of, contacts = system.names, labels(system), system.contacts
-    known = dict(zip(map(id, system.bodies), names.bodies, strict=True))
-    found = [
-        _words("body", "body", names.bodies, "body"),
-        _words("body_kind", "body", [type(body).__name__ for body in system.bodies], "class of the body"),
-    ]
-    for dimension, rows in (("coordinate", rows_of.coordinates), ("velocity", rows_of.velocities)):
-        whose, label, unit = zip(*rows, strict=True) if rows else ((), (), ())
-        found += [
-            _words(dimension, dimension, label, f"{dimension} of a body"),
-            _words(f"{dimension}_body", dimension, whose, "body that it belongs to"),
-            _words(f"{dimension}_units", dimension, unit, "its unit"),
-        ]
-    found.append(_words("contact", "contact", names.contacts, "contact"))
-    found.append(_words("guard", "guard", names.guards, "guard"))
-    for which in ("first", "second"):
-        between = [known[id(getattr(contact, which))] for contact in contacts]
-        found.append(_words(f"contact_{which}_body", "contact", between, f"{which} body of the contact"))
-    for role in ("normal", "friction", "impact"):
-        laws = [getattr(contact, role) for contact in contacts]
-        words = {key: repr(law) for key, law in {id(law): law for law in laws}.items()}
-        found.append(
-            _words(f"contact_{role}", "contact", [words[id(law)] for law in laws], f"law of the contact: {role}")
-        )
-    directions = ("normal", "first tangent", "second tangent")
-    return [*found, _words("direction", "direction", directions, "direction at a contact")]
-
-
-def of_memory() -> list[LabelledArray]:
-    """Return names and units of what a contact goes on with."""
-    names, units = zip(*_REMEMBERED, strict=True)
-    return [
-        _words("of_memory", "of_memory", names, "what a contact goes on with"),
-        _words("of_memory_units", "of_memory", units, "its unit"),
-    ]
+_CAUSE: dict[str, Any] = {
+    "flag_values": list(range(len(CAUSES))),
+    "flag_meanings": " ".join(cause.replace(" ", "_") for cause in CAUSES),
+}
 
 
 def _words(name: str, dimension: str, words: Sequence[str], what: str) -> LabelledArray:
     return LabelledArray.of(name, (dimension,), np.array(words, dtype=str), what)
 
 
-def of_samples(t: Floats, q: Floats, u: Floats) -> list[LabelledArray]:
-    """Return samples."""
+def of_system(system: System) -> list[LabelledArray]:
+    """Labels of bodies, coordinates, contacts and guards, and the laws of the contacts."""
+    names, contacts = system.names, system.contacts
+    known = dict(zip(map(id, system.bodies), names.bodies, strict=True))
+    found = [
+        _words("body", "body", names.bodies, "body"),
+        _words("body_kind", "body", [type(body).__name__ for body in system.bodies], "class of the body"),
+    ]
+    rows_of = labels(system)
+    for dimension, rows in (("coordinate", rows_of.coordinates), ("velocity", rows_of.velocities)):
+        bodies, label, unit = zip(*rows, strict=True) if rows else ((), (), ())
+        found += [
+            _words(dimension, dimension, label, f"{dimension} of a body"),
+            _words(f"{dimension}_body", dimension, bodies, "body that it belongs to"),
+            _words(f"{dimension}_units", dimension, unit, "its unit"),
+        ]
+    found += [_words(kind, kind, words, kind) for kind, words in (("contact", names.contacts), ("guard", names.guards))]
+    for which in ("first", "second"):
+        between = [known[id(getattr(contact, which))] for contact in contacts]
+        found.append(_words(f"contact_{which}_body", "contact", between, f"{which} body of the contact"))
+    for role in ("normal", "friction", "impact"):
+        laws = [getattr(contact, role) for contact in contacts]
+        # contacts share laws, and the text of a law takes longer than its identity
+        words = {key: repr(law) for key, law in {id(law): law for law in laws}.items()}
+        texts = [words[id(law)] for law in laws]
+        found.append(_words(f"contact_{role}", "contact", texts, f"law of the contact: {role}"))
+    directions = ("normal", "first tangent", "second tangent")
+    return [*found, _words("direction", "direction", directions, "direction at a contact")]
+
+
+def of_memory() -> list[LabelledArray]:
+    """Names and units of the state that a contact keeps."""
+    names, units = zip(*_MEMORY, strict=True)
     return [
-        LabelledArray("time", ("time",), t, {"units": "s", "standard_name": "time", "axis": "T", "long_name": "time"}),
-        _over("q", ("time", "coordinate"), q, "coordinates of all bodies"),
-        _over("u", ("time", "velocity"), u, "velocities of all bodies"),
+        _words("of_memory", "of_memory", names, "state that a contact keeps"),
+        _words("of_memory_units", "of_memory", units, "its unit"),
     ]
 
 
-def _over(name: str, dimensions: tuple[str, str], values: Floats, what: str) -> LabelledArray:
-    return LabelledArray.of(name, dimensions, values, f"{what}, see {dimensions[1]}_units")
+_SAMPLES: tuple[tuple[str, tuple[str, ...], dict[str, Any]], ...] = (
+    ("time", ("time",), {"units": "s", "standard_name": "time", "axis": "T", "long_name": "time"}),
+    ("q", ("time", "coordinate"), described("coordinates of all bodies, see coordinate_units")),
+    ("u", ("time", "velocity"), described("velocities of all bodies, see velocity_units")),
+    ("account", ("time", "of_account"), _ACCOUNT),
+    ("law_state", ("time", "of_law_state"), _INNER),
+    ("booked", ("time", "of_booked"), _BOOKED),
+)
+"""Arrays of samples: name, dimensions and attributes."""
+SAMPLES = tuple(name for name, *_ in _SAMPLES)
+"""Names of the arrays of samples, in the order of the columns of a row of the samples."""
 
 
-def of_rest_of_samples(accounts: Floats, law_states: Floats, booked: Floats) -> list[LabelledArray]:
-    """Return what a run has besides coordinates and velocities: energies and inner states of laws."""
-    return [
-        LabelledArray("account", ("time", "of_account"), accounts, _ACCOUNT),
-        LabelledArray("law_state", ("time", "of_law_state"), law_states, _INNER),
-        LabelledArray("booked", ("time", "of_booked"), booked, _BOOKED),
-    ]
+def of_samples(*values: Floats) -> list[LabelledArray]:
+    """Samples: the first arrays of :data:`SAMPLES`, with these values."""
+    return [LabelledArray(name, over, array, more) for (name, over, more), array in zip(_SAMPLES, values, strict=False)]
 
 
-def of_rest_of_events(events: Events) -> list[LabelledArray]:
-    """Return the same at events, and what the contacts listed with them go on with."""
-    accounts, law_states = np.split(events.integrated, [N_ACCOUNTS], axis=1)
-    return [
-        LabelledArray("event_account", ("event", "of_account"), accounts, _ACCOUNT),
-        LabelledArray("event_law_state", ("event", "of_law_state"), law_states, _INNER),
-        LabelledArray("event_booked", ("event", "of_booked"), events.booked, _BOOKED),
-        LabelledArray("listed_memory", ("listing", "of_memory"), events.listed_memory, _MEMORY),
-    ]
+@final
+@dataclass(frozen=True)
+class _StoredArray:
+    """A stored array of events: a row of the tables below.
+
+    Attributes
+    ----------
+    name : str
+        Name of the array.
+    dimensions : tuple of str
+        Names of its axes.
+    attributes : mapping
+        Description, unit and other attributes.
+    values : callable
+        Takes events to the array.
+    column : str
+        Column of the events that it holds, "" if it holds a part or a function of a column.
+    kind : type
+        Type of its numbers in a file.
+    """
+
+    name: str
+    dimensions: tuple[str, ...]
+    attributes: Mapping[str, Any]
+    values: Callable[[Events], NDArray[Any]]
+    column: str = ""
+    kind: type[np.number[Any]] = np.float64
+
+    def of(self, events: Events) -> LabelledArray:
+        """The array of some events."""
+        values = np.asarray(self.values(events), self.kind)
+        return LabelledArray(self.name, self.dimensions, values, self.attributes)
+
+
+def _column(
+    name: str, axes: str, column: str, what: str, unit: str = "1", kind: type[np.number[Any]] = np.float64, **more: Any
+) -> _StoredArray:
+    """Row of an array that holds a column of events; with the unit "", another array has the unit of each entry."""
+    attributes = {**described(what, unit), **more}
+    return _StoredArray(name, tuple(axes.split()), attributes, attrgetter(column), column, kind)
+
+
+def _mode(name: str, shift: int) -> _StoredArray:
+    """Row of the modes of the contacts listed with events, whose bits ``Events.codes`` has."""
+    attributes = {**described(f"mode of the contact {name.removeprefix('mode_')} the event", "1"), **_MODE}
+    return _StoredArray(name, ("listing",), attributes, lambda events: events.codes >> shift & CODE, kind=np.uint8)
+
+
+_SIZE = {**described("contacts listed", "1"), "sample_dimension": "listing"}
+_EVENTS = (
+    _column("event_time", "event", "time", "time of the event", "s", standard_name="time"),
+    _column("event_cause", "event", "cause", "cause", kind=np.int8, **_CAUSE),
+    _column("event_contact", "event", "contact", "index in `contact` or, by its cause, `guard`, from 0", kind=np.int32),
+    _column("event_phases", "event", "phases", "changes of phase within the impact", kind=np.int32),
+    _column("event_truncated", "event", "truncated", "1 where an endless cascade was cut short", kind=np.int8),
+    _column("driven_work", "event", "driven_work", "work of driven bodies in the event", "J"),
+    _column("restitution_loss", "event", "restitution_loss", "loss to restitution in the event", "J"),
+    _column("friction_loss", "event", "friction_loss", "loss to friction in the event", "J"),
+    _column("closing_loss", "event", "closing_loss", "loss in closing steps and projections of the event", "J"),
+    _column("event_q", "event coordinate", "q", "coordinates at the event, see coordinate_units", ""),
+    _column("event_u_before", "event velocity", "u_before", "velocities before the event, see velocity_units", ""),
+    _column("event_u_after", "event velocity", "u_after", "velocities after the event, see velocity_units", ""),
+    _StoredArray("event_size", ("event",), _SIZE, lambda events: np.diff(events.first), kind=np.int32),
+    _column("listed_contact", "listing", "listed", "index in `contact`, from 0", kind=np.int32),
+    *(_mode(name, shift) for name, shift in _SHIFTS.items()),
+    _column("impulse", "listing direction", "listed_impulse", "impulse of the contact in the event", "N s"),
+)
+"""Arrays of events.  The contacts listed with them are a contiguous ragged array: ``event_size`` of each event."""
+_CONTINUED = (
+    _StoredArray("event_account", ("event", "of_account"), _ACCOUNT, lambda events: events.integrated[:, :N_ACCOUNTS]),
+    _StoredArray(
+        "event_law_state", ("event", "of_law_state"), _INNER, lambda events: events.integrated[:, N_ACCOUNTS:]
+    ),
+    _StoredArray("event_booked", ("event", "of_booked"), _BOOKED, attrgetter("booked"), "booked"),
+    _column(
+        "listed_memory", "listing of_memory", "listed_memory", "state that a contact keeps, see of_memory_units", ""
+    ),
+)
+"""Arrays of events that only a run which is continued needs."""
+_OF_COLUMN = {row.column: row for row in (*_EVENTS, *_CONTINUED) if row.column}
 
 
 def of_events(events: Events) -> list[LabelledArray]:
-    """Return events, and the contacts listed with them as a contiguous ragged array: ``event_size`` of each event."""
-
-    def over(name: str, values: NDArray[Any], what: str, units: str = "1", **more: Any) -> LabelledArray:
-        return LabelledArray.of(name, ("event",), values, what, units, **more)
-
-    def listed(name: str, values: NDArray[Any], what: str, **more: Any) -> LabelledArray:
-        return LabelledArray.of(name, ("listing",), values, what, "1", **more)
-
-    causes: dict[str, Any] = {
-        "flag_values": list(range(len(CAUSES))),
-        "flag_meanings": " ".join(c.replace(" ", "_") for c in CAUSES),
-    }
-    bits = {name: (events.codes >> shift & CODE).astype(np.uint8) for name, shift in _SHIFTS.items()}
-    return [
-        over("event_time", events.time, "time of the event", "s", standard_name="time"),
-        over("event_cause", events.cause.astype(np.int8), "cause", **causes),
-        over(
-            "event_contact",
-            events.contact.astype(np.int32),
-            "index in `contact` or, by its cause, `guard`, from 0",
-        ),
-        over("event_phases", events.phases.astype(np.int32), "changes of phase within the impact"),
-        over("event_truncated", events.truncated.astype(np.int8), "1 where an endless cascade was cut short"),
-        *(over(name, getattr(events, name), what, "J") for name, what in _ENERGIES.items()),
-        _over("event_q", ("event", "coordinate"), events.q, "coordinates at the event"),
-        _over("event_u_before", ("event", "velocity"), events.u_before, "velocities before the event"),
-        _over("event_u_after", ("event", "velocity"), events.u_after, "velocities after the event"),
-        over("event_size", np.diff(events.first).astype(np.int32), "contacts listed", sample_dimension="listing"),
-        listed("listed_contact", events.listed.astype(np.int32), "index in `contact`, from 0"),
-        *(listed(name, bits[name], f"mode of the contact {name[5:]} the event", **_MODE) for name in _SHIFTS),
-        LabelledArray.of(
-            "impulse",
-            ("listing", "direction"),
-            events.listed_impulse,
-            "impulse of the contact in the event",
-            "N s",
-        ),
-    ]
+    """Times, causes, energies, states and listed contacts of events."""
+    return [row.of(events) for row in _EVENTS]
 
 
-_FLOATS = {"time": "event_time", "q": "event_q", "u_before": "event_u_before", "u_after": "event_u_after"}
-_FLOATS |= {name: name for name in (*_ENERGIES, "listed_memory")}
-_FLOATS |= {"booked": "event_booked", "listed_impulse": "impulse"}
-_INTEGERS = {name: f"event_{name}" for name in ("cause", "contact", "phases", "truncated")}
-_INTEGERS |= {"listed": "listed_contact"}
-"""Stored arrays of the columns of events."""
+def of_all_of_events(events: Events) -> list[LabelledArray]:
+    """All columns of events, from which :func:`stored_events` makes them again."""
+    return [row.of(events) for row in (*_EVENTS, *_CONTINUED)]
 
 
 def stored_events(read: ReadRows, n: int, n_contacts: int) -> Events:
@@ -191,10 +223,9 @@ def stored_events(read: ReadRows, n: int, n_contacts: int) -> Events:
     """
 
     def column(name: str, start: int, stop: int | None) -> NDArray[Any]:
-        if name in _FLOATS:
-            return read(_FLOATS[name], start, stop)
-        if name in _INTEGERS:
-            return read(_INTEGERS[name], start, stop).astype(np.int64)
+        if name in _OF_COLUMN:
+            row = _OF_COLUMN[name]
+            return read(row.name, start, stop).astype(np.float64 if row.kind is np.float64 else np.int64, copy=False)
         if name == "integrated":
             return np.hstack([read("event_account", start, stop), read("event_law_state", start, stop)])
         if name == "codes":
@@ -203,7 +234,7 @@ def stored_events(read: ReadRows, n: int, n_contacts: int) -> Events:
         sizes = read("event_size", 0, None).astype(np.int64)
         return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)[start:stop]
 
-    return Events.lazy(n, n_contacts, column)
+    return Events(n, n_contacts, column)
 
 
 def to_dataset(solution: Solution) -> xarray.Dataset:

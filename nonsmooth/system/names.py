@@ -11,10 +11,13 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import TYPE_CHECKING, final
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
+
+if TYPE_CHECKING:
+    from nonsmooth.system.system import System
 
 _BETWEEN = " - "
 _RESERVED = (_BETWEEN, "(", ")")
@@ -154,3 +157,27 @@ def check_name(where: str, name: object, taken: Collection[str] = ()) -> None:
         )
     if name in taken:
         raise InvalidInput(where, "must be one that nothing of its kind has yet", name, "Choose another.")
+
+
+@final
+@dataclass(frozen=True)
+class Labels:
+    """Names of the coordinates and velocities of a system, in its order.
+
+    Attributes
+    ----------
+    coordinates, velocities : tuple of tuple of str
+        Body, name with the body's, unit.
+    """
+
+    coordinates: tuple[tuple[str, str, str], ...]
+    velocities: tuple[tuple[str, str, str], ...]
+
+
+def labels(system: System) -> Labels:
+    """Labels of the coordinates and velocities of a system, such as "ball 2 x" [m]."""
+    pairs = list(zip(system.bodies, system.names.bodies, strict=True))
+    return Labels(
+        tuple((label, f"{label} {name}", unit) for body, label in pairs for name, unit in body.q_labels),
+        tuple((label, f"{label} {name}", unit) for body, label in pairs for name, unit in body.u_labels),
+    )

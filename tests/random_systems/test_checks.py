@@ -27,6 +27,7 @@ from bodies import (
 from laws import Coulomb, EnergeticImpact, HuntCrossley, Unilateral
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.solution.events import COLUMNS, Events
 from nonsmooth.solution.recorded import Recorded
 from tests.benchmarks.random_systems import convex, drops, generate
 from tests.benchmarks.random_systems.campaign import _kept, table
@@ -157,9 +158,8 @@ def test_compliant_bodies_may_start_indented_but_must_feel_it() -> None:
     right = ns.simulate(case.build(), case.t_end, sample_interval=case.sample_interval)
     assert findings(case, right) == []
     unmoved = _spoilt(right, 0.0 * right.q + right.q[0], 0.0 * right.u)
-    columns = {field.name: getattr(right.events, field.name) for field in dataclasses.fields(right.events)}
-    none = {name: column[:0] for name, column in columns.items() if name not in ("n_contacts", "first")}
-    still = dataclasses.replace(right.events, **none, first=right.events.first[:1])
+    none = {name: getattr(right.events, name)[: int(name == "first")] for name in COLUMNS}
+    still = Events.held(right.events.n_contacts, none)
     recorded = Recorded.of(still, unmoved.recorded.rows, unmoved.recorded.engine)
     found = findings(case, dataclasses.replace(unmoved, recorded=recorded))
     assert "unfelt" in {text.split(":")[0] for text in found}

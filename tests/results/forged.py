@@ -14,7 +14,7 @@ import numpy as np
 import nonsmooth as ns
 from nonsmooth.errors import NonsmoothError
 from nonsmooth.model.checkpoint import Difference
-from nonsmooth.results.state_file import state_bytes, state_from
+from nonsmooth.results.description import state_bytes, state_from
 from tests.results.runs import balls, on_hills
 
 VALUES = (-1, 0, 1, 2, 3, 7, 255, 2**31, 2**40, -(2**62), 0.5, -1e9, 1e300, np.nan, np.inf)

@@ -17,7 +17,7 @@ import nonsmooth as ns
 from nonsmooth.cli.main import main
 from nonsmooth.results.output import SOLUTION, Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.solution.request import RunRequest
+from nonsmooth.solution.end import RunRequest
 from nonsmooth.storage.lock import LOCK
 from tests.results.runs import balls
 from tests.storage.forging import forge, say

@@ -12,7 +12,7 @@ import nonsmooth as ns
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
-from nonsmooth.results.state_file import state_bytes
+from nonsmooth.results.description import state_bytes
 from nonsmooth.solution.state import State
 from tests.results.forged import T_END, forged, refused_or_runs
 from tests.results.runs import balls, on_hills

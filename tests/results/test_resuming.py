@@ -21,9 +21,9 @@ import nonsmooth as ns
 from laws import Coulomb
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.model.checkpoint import Difference
+from nonsmooth.results.description import state_bytes, state_from
 from nonsmooth.results.output import OtherVersions, Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.runs import folder_sink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.so_far import RunSoFar

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 
 import nonsmooth as ns
-from nonsmooth.solution.events import Events
+from nonsmooth.solution import events
 
 LISTED = "listed_impulse", "listed_memory"
-COLUMNS = tuple(
-    field.name
-    for field in dataclasses.fields(Events)
-    if field.name not in ("n_contacts", "first", "listed", "codes", *LISTED)
-)
+COLUMNS = tuple(name for name in events.COLUMNS if name not in ("first", "listed", "codes", *LISTED))
 
 
 def differences(one: ns.Solution, other: ns.Solution) -> list[str]:

@@ -12,8 +12,7 @@ import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.interfaces import Guard
-from nonsmooth.solution.draw_graph import draw
-from nonsmooth.solution.graph_layout import places_of
+from nonsmooth.solution.draw_graph import draw, places_of
 from nonsmooth.solution.modes import ContactModes, TransitionGraph, grouped, mode_shares, transition_graph, transitions
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.solution import Solution
-from nonsmooth.system.labels import labels
+from nonsmooth.system.names import labels
 
 
 @final
