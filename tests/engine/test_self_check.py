@@ -142,7 +142,7 @@ def _over(
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
     system.contact(plate, ball, **laws)
-    system._contacts[0] = dataclasses.replace(system.contacts[0], kinematics=gap)
+    system._declared.contacts[0] = dataclasses.replace(system.contacts[0], kinematics=gap)
     system.place(ball, position=(0.0, 0.0, z), velocity=(1.0, 0.0, 0.0))
     return system
 
