@@ -1,3 +1,5 @@
+from nonsmooth.engine.memory.modes import Cause as Cause
+from nonsmooth.engine.memory.modes import Mode as Mode
 from nonsmooth.engines.event_driven import EventDriven as EventDriven
 from nonsmooth.errors import InvalidInput as InvalidInput
 from nonsmooth.errors import NoDistance as NoDistance
@@ -9,6 +11,7 @@ from nonsmooth.errors import UnknownName as UnknownName
 from nonsmooth.files.reading import Setup as Setup
 from nonsmooth.files.reading import load_system as load_system
 from nonsmooth.files.writing import save_system as save_system
+from nonsmooth.histories.history import History as History
 from nonsmooth.interfaces import Criterion as Criterion
 from nonsmooth.placing.starts import at_height as at_height
 from nonsmooth.placing.starts import resting as resting
@@ -29,6 +32,7 @@ from nonsmooth.runs.simulate import assemble as assemble
 from nonsmooth.runs.simulate import run_scenario as run_scenario
 from nonsmooth.runs.simulate import simulate as simulate
 from nonsmooth.scenario_function import scenario as scenario
+from nonsmooth.solution.end import RunStatus as RunStatus
 from nonsmooth.solution.solution import Solution as Solution
 from nonsmooth.solution.state import State as State
 from nonsmooth.system.materials import ContactLaws as ContactLaws

@@ -119,7 +119,7 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
 
 
 @final
-class Table(Sequence[float]):
+class SharedNumbers(Sequence[float]):
     """Many numbers, of which the engine has one copy for all contacts with the same object.
 
     Parameters
@@ -140,13 +140,13 @@ class Table(Sequence[float]):
         return found if isinstance(place, slice) else float(found)
 
     def __eq__(self, other: object) -> bool:
-        return self is other or (isinstance(other, Table) and np.array_equal(self.numbers, other.numbers))
+        return self is other or (isinstance(other, SharedNumbers) and np.array_equal(self.numbers, other.numbers))
 
     def __hash__(self) -> int:
         return hash((len(self), self.numbers[:8].tobytes()))
 
 
-Value: TypeAlias = float | tuple[float, ...] | Table
+Value: TypeAlias = float | tuple[float, ...] | SharedNumbers
 """A parameter of a compiled function."""
 
 

@@ -21,7 +21,7 @@ from nonsmooth.engine.native import kernel
 from nonsmooth.engine.native.forms import FORMS, Form
 from nonsmooth.engine.native.kernel import PLAIN, address_of, at, jit
 from nonsmooth.errors import RunsInPython
-from nonsmooth.parameters import Table, Value, not_offered
+from nonsmooth.parameters import SharedNumbers, Value, not_offered
 
 _SHIM = "def shim({arguments}):\n {call}\n{ending}"
 _GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
@@ -69,7 +69,7 @@ def bind(
         A plain function whose first arguments are the roles of the form.
     form : str
         One of :data:`nonsmooth.engine.native.forms.FORMS`.
-    values : mapping of str to float, tuple of float or Table
+    values : mapping of str to float, tuple of float or SharedNumbers
         The parameters of the law's object and its surroundings. The function gets tuples and tables as blocks.
     owner : str
         The law, for messages.
@@ -94,7 +94,7 @@ def bind(
     heap: list[float] = [math.nan] * first + [0.0] * len(names)
     for i, name in enumerate(names, start=first):
         value = values[name]
-        if isinstance(value, Table):
+        if isinstance(value, SharedNumbers):
             heap[i] = float(len(heap))
             heap += value.numbers.tolist()
         elif isinstance(value, tuple):
@@ -110,7 +110,7 @@ def bind(
 
 
 def _vectors(values: Mapping[str, Value], names: tuple[str, ...]) -> tuple[bool, ...]:
-    return tuple(isinstance(values[name], (tuple, Table)) for name in names)
+    return tuple(isinstance(values[name], (tuple, SharedNumbers)) for name in names)
 
 
 def refused(function: Callable[..., Any], form: str) -> Refusal | None:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.export.meshes import Mesh, along_axes, bar, board, dot
+from nonsmooth.export.meshes import ShadedMesh, along_axes, bar, board, dot
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.interfaces.look import Look
 from nonsmooth.scene.extent import Extent
-from nonsmooth.scene.scene import Part, Scene
+from nonsmooth.scene.scene import FrameLook, Scene
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -39,7 +39,7 @@ class DrawnMesh:
         Number of the body, -1 of a load or a joint.
     track : int
         Number of the track.
-    mesh : Mesh
+    mesh : ShadedMesh
         In the axes of the track.
     colour : str
         As "#rrggbb".
@@ -50,7 +50,7 @@ class DrawnMesh:
     name: str
     body: int
     track: int
-    mesh: Mesh
+    mesh: ShadedMesh
     colour: str
     sheet: bool = False
 
@@ -144,13 +144,13 @@ def _colour(scene: Scene, body: int) -> str:
     return _BODIES[moving % len(_BODIES)] if bodies[body].n_u > 0 else _HELD
 
 
-def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, Mesh]]:
+def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
     """Give the meshes of a look, and whether they stand for lines."""
     if len(look.triangles):
         middle = 0.5 * (look.vertices.min(axis=0) + look.vertices.max(axis=0))
         centre = look.vertices[look.triangles].mean(axis=1) - middle
         turned = (len(look.triangles) >= _ROUND) & (np.prod(centre, axis=1) > 0.0)
-        yield False, Mesh(look.vertices, look.triangles, np.where(turned, _TURNED, 1.0))
+        yield False, ShadedMesh(look.vertices, look.triangles, np.where(turned, _TURNED, 1.0))
     for first, last in look.vertices[look.lines]:
         if np.any(first != last):
             yield True, bar(first, last, 0.03 * unit)
@@ -159,7 +159,9 @@ def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, Mesh]]:
         yield False, dot(place, 0.06 * unit)
 
 
-def _sheet(part: Part, origin: Floats, axes: Floats, low: Floats, high: Floats, unit: float) -> tuple[Floats, Mesh]:
+def _sheet(
+    part: FrameLook, origin: Floats, axes: Floats, low: Floats, high: Floats, unit: float
+) -> tuple[Floats, ShadedMesh]:
     """Return where a piece of a plane is, and the piece; it stays where the bodies are when the plane slides in itself.
 
     It goes as far as the bodies at the first time, seen along its normal, and some way on.

@@ -15,7 +15,7 @@ from nonsmooth.export.gltf import Tree
 from nonsmooth.export.meshes import along_axes, arrow
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.impulses import Impulses
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 from nonsmooth.parameters import Rule, check_number
 from nonsmooth.scene.scene import knots, sides
 from nonsmooth.storage.files import replacing
@@ -56,7 +56,7 @@ class Arrows:
 def arrows(solution: Solution) -> Iterator[Arrows]:
     """Give the arrows of each contact that takes part in an impact; they show what bodies that move get."""
     # also of an engine that records no contacts, and so no events
-    found = Impulses.recorded(Request(solution, np.zeros(0)))
+    found = Impulses.recorded(HistoryRequest(solution, np.zeros(0)))
     side = sides(solution.system)[found.impulse_contact][:, None]
     push = side * (found.normal_impulse[:, None] * found.impulse_normal + found.friction_impulse)
     size = np.linalg.norm(push, axis=1)

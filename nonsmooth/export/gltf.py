@@ -10,7 +10,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.export.meshes import Mesh, corner_normals
+from nonsmooth.export.meshes import ShadedMesh, corner_normals
 from nonsmooth.histories.arrays import Floats
 
 _FLOAT, _BYTE, _VERTICES = 5126, 5121, 34962
@@ -57,7 +57,7 @@ class Tree:
         self.nodes.append({"name": name, **more})
         return len(self.nodes) - 1
 
-    def mesh(self, mesh: Mesh, colour: str) -> int:
+    def mesh(self, mesh: ShadedMesh, colour: str) -> int:
         """Add a mesh, once; return its number."""
         key = id(mesh), colour
         if key not in self.known:
@@ -101,7 +101,7 @@ class Tree:
         return _container(told, blob)
 
 
-def _attributes(buffer: _Buffer, mesh: Mesh, shown: str) -> dict[str, int]:
+def _attributes(buffer: _Buffer, mesh: ShadedMesh, shown: str) -> dict[str, int]:
     """Add the corners of all triangles, each with its own normal and colour."""
     corners = mesh.vertices[mesh.triangles].reshape(-1, 3).astype(np.float32)
     normals = corner_normals(mesh).reshape(-1, 3).astype(np.float32)

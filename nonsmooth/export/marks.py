@@ -12,7 +12,7 @@ from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.contacts import ClosedContacts
 from nonsmooth.histories.impulses import Impulses
 from nonsmooth.histories.replay import replay_of
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -42,7 +42,7 @@ class Marks:
         """
         if not replay_of(solution).is_flow:
             return cls(len(times) * (len(WORDS) * (np.zeros((0, 3)),),))
-        request = Request(solution, times)
+        request = HistoryRequest(solution, times)
         forces, impulses = ClosedContacts.of(request), Impulses.of(request)
         points = forces.contact_point.mean(axis=1)
         struck = (impulses.normal_impulse > 0.0) & np.all(np.isfinite(impulses.impulse_point), axis=(1, 2))

@@ -17,7 +17,7 @@ _CREASE = np.cos(0.6)
 
 @final
 @dataclass(frozen=True, eq=False)
-class Mesh:
+class ShadedMesh:
     """Triangles, each with a shade of one colour.
 
     Attributes
@@ -35,12 +35,12 @@ class Mesh:
     shade: Floats
 
     @classmethod
-    def of(cls, vertices: Floats, triangles: Integers) -> Mesh:
+    def of(cls, vertices: Floats, triangles: Integers) -> ShadedMesh:
         """Return a mesh of one shade."""
         return cls(vertices, triangles, np.ones(len(triangles)))
 
 
-def bar(first: Floats, last: Floats, radius: float) -> Mesh:
+def bar(first: Floats, last: Floats, radius: float) -> ShadedMesh:
     """Return a round bar from one point to another [m], shape [3] each; they must differ."""
     turn = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
     ring = radius * np.column_stack([0.0 * turn, np.cos(turn), np.sin(turn)])
@@ -53,15 +53,15 @@ def bar(first: Floats, last: Floats, radius: float) -> Mesh:
     i, j, n = i[:_SIDES], j[:_SIDES], _SIDES * _RINGS
     caps = [np.column_stack([i, j, 0 * i + len(points)]), np.column_stack([j + n, i + n, 0 * i + len(points) + 1])]
     axes = along_axes((last - first)[None])[0]
-    return Mesh.of(first + np.concatenate([points, ends]) @ axes.T, np.concatenate([sides, *caps]))
+    return ShadedMesh.of(first + np.concatenate([points, ends]) @ axes.T, np.concatenate([sides, *caps]))
 
 
-def arrow() -> Mesh:
+def arrow() -> ShadedMesh:
     """Return an arrow of the length 1 along the first axis."""
     shaft, head = bar(np.zeros(3), np.array([0.75, 0.0, 0.0]), 0.03), bar(np.array([0.7, 0.0, 0.0]), np.eye(3)[0], 0.09)
     # the bar that is its head narrows to a point
     point = head.vertices * np.column_stack([np.ones(len(head.vertices)), *2 * [(1.0 - head.vertices[:, 0]) / 0.3]])
-    return Mesh.of(
+    return ShadedMesh.of(
         np.concatenate([shaft.vertices, point]), np.concatenate([shaft.triangles, head.triangles + len(shaft.vertices)])
     )
 
@@ -81,15 +81,15 @@ def along_axes(ways: Floats) -> Floats:
     return np.stack([first, np.cross(third, first), third], axis=2)
 
 
-def dot(place: Floats, radius: float) -> Mesh:
+def dot(place: Floats, radius: float) -> ShadedMesh:
     """Return an octahedron about a place [m], shape [3]."""
     corners = place + radius * np.concatenate([np.eye(3), -np.eye(3)])
     upper = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2)]
     lower = [(b, a, 5) for a, b, _ in upper]
-    return Mesh.of(corners, np.array(upper + lower))
+    return ShadedMesh.of(corners, np.array(upper + lower))
 
 
-def board(low: Floats, high: Floats, cell: float) -> Mesh:
+def board(low: Floats, high: Floats, cell: float) -> ShadedMesh:
     """Return a rectangle at the height zero between two corners [m], shape [2] each, chequered in two shades."""
     n_x, n_y = np.maximum(1, np.ceil((high - low) / cell - 1e-9)).astype(int).tolist()
     x, y = np.meshgrid(low[0] + cell * np.arange(n_x + 1), low[1] + cell * np.arange(n_y + 1), indexing="ij")
@@ -98,7 +98,7 @@ def board(low: Floats, high: Floats, cell: float) -> Mesh:
     right = at + n_y + 1
     triangles = np.stack([np.column_stack([at, right, right + 1]), np.column_stack([at, right + 1, at + 1])], axis=1)
     vertices = np.column_stack([x.ravel(), y.ravel(), 0.0 * x.ravel()])
-    return Mesh(vertices, triangles.reshape(-1, 3), np.repeat(np.where((i + j) % 2, 0.93, 1.0), 2))
+    return ShadedMesh(vertices, triangles.reshape(-1, 3), np.repeat(np.where((i + j) % 2, 0.93, 1.0), 2))
 
 
 def face_normals(corners: Floats) -> Floats:
@@ -108,7 +108,7 @@ def face_normals(corners: Floats) -> Floats:
     return np.asarray(normal / np.where(size > 0.0, size, 1.0))
 
 
-def corner_normals(mesh: Mesh) -> Floats:
+def corner_normals(mesh: ShadedMesh) -> Floats:
     """Return the unit normal at each corner of each triangle, shape [m, 3, 3]: round, but for edges and flat faces.
 
     It is the mean of the normals of the faces about the vertex that meet this one without an edge.

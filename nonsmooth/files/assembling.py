@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.files.components import Table, component, naming
+from nonsmooth.files.components import TomlTable, component, naming
 from nonsmooth.files.gate import Gate
 from nonsmooth.files.parsing import check_keys, number, tables_in, words
 from nonsmooth.interfaces import Body, Guard, ImpactLaw, Joint, Load, NormalLaw, TangentialLaw
@@ -21,7 +21,7 @@ _ROLES: dict[str, type] = {"normal": NormalLaw, "friction": TangentialLaw, "impa
 _PLACES = ("touching", "at_height", "resting")
 
 
-def system(tables: Table, path: Path, gate: Gate) -> System:
+def system(tables: TomlTable, path: Path, gate: Gate) -> System:
     """Return the system of the tables of a file, whose names a gate lets pass.
 
     Raises
@@ -80,7 +80,7 @@ def system(tables: Table, path: Path, gate: Gate) -> System:
     return made_system
 
 
-def _start(made: System, body: Body, start: Table) -> None:
+def _start(made: System, body: Body, start: TomlTable) -> None:
     place = start.pop("place", None)
     if place is None and {"q", "u"} & set(start):
         check_keys("start by q and u", start, ("q", "u"), required=("q", "u"))
@@ -102,7 +102,7 @@ def _start(made: System, body: Body, start: Table) -> None:
 class _Reader:
     path: Path
     gate: Gate
-    laws: Table
+    laws: TomlTable
     bodies: dict[str, Body]
 
     def body(self, name: str, thing: str) -> Body:
@@ -110,11 +110,11 @@ class _Reader:
             raise UnknownName(f"{thing}: body", name, self.bodies)
         return self.bodies[name]
 
-    def between(self, table: Table, thing: str) -> tuple[Body, Body]:
+    def between(self, table: TomlTable, thing: str) -> tuple[Body, Body]:
         one, two = words(f"{thing}.between", table.get("between"), 2)
         return self.body(one, thing), self.body(two, thing)
 
-    def excluded(self, table: Table, thing: str) -> list[tuple[Body, Body]]:
+    def excluded(self, table: TomlTable, thing: str) -> list[tuple[Body, Body]]:
         left_out = table.get("exclude", [])
         if not isinstance(left_out, list):
             raise InvalidInput(thing, "must be a list of pairs", left_out, 'For example [["a", "b"]].')
@@ -127,7 +127,7 @@ class _Reader:
             raise UnknownName(f"{thing}: law", value, [*self.laws, *registry.names("laws")])
         return component(thing, value, base, self.gate)
 
-    def contact_laws(self, table: Table, thing: str) -> ContactLaws:
+    def contact_laws(self, table: TomlTable, thing: str) -> ContactLaws:
         for role in ("normal", "friction"):
             if role not in table:
                 remedy = "Write a name of [laws], an installed name, or a table with its type."
@@ -136,7 +136,7 @@ class _Reader:
         with naming(thing):
             return ContactLaws(**laws)
 
-    def tie(self, add: Callable[..., None], table: Table, thing: str, base: type) -> None:
+    def tie(self, add: Callable[..., None], table: TomlTable, thing: str, base: type) -> None:
         own = dict(table)
         first, second = self.between(own, thing)
         name, frames = own.pop("name", ""), own.pop("frames", [0, 0])
@@ -147,7 +147,7 @@ class _Reader:
         with naming(thing):
             add(made, first, second, frames=tuple(frames), name=name)
 
-    def contact(self, made: System, table: Table, thing: str) -> None:
+    def contact(self, made: System, table: TomlTable, thing: str) -> None:
         check_keys(thing, table, ("name", "between", "shapes", *_ROLES), required=("between",))
         first, second = self.between(table, thing)
         shapes = table.get("shapes", ["all", "all"])
@@ -158,7 +158,7 @@ class _Reader:
         with naming(thing):
             made.contact(first, second, normal=n, friction=f, impact=i, shapes=shapes, name=name)
 
-    def materials(self, made: System, table: Table, of: dict[str, list[Body]], thing: str) -> None:
+    def materials(self, made: System, table: TomlTable, of: dict[str, list[Body]], thing: str) -> None:
         check_keys(thing, table, ("pairs", "default", "exclude"))
         pairs: dict[tuple[str, str], ContactLaws] = {}
         for i, pair in enumerate(tables_in(f"{thing}.pairs", table.get("pairs", []))):

@@ -23,10 +23,10 @@ _BASES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 TYPE = "type"
 """The key that says of which class a component is."""
 
-Table = dict[str, Any]
+TomlTable = dict[str, Any]
 
 
-def table_of(component: Any, thing: str, declared: Any = None) -> Table:
+def table_of(component: Any, thing: str, declared: Any = None) -> TomlTable:
     """Return a component as a table of plain values.
 
     Parameters
@@ -45,7 +45,7 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
         can hold.
     """
     owner: Any = type(component)
-    table: Table = {}
+    table: TomlTable = {}
     if declared is not owner:
         # the classes of helpers have no installed names
         name = registry.name_of(owner) if issubclass(owner, _BASES) else named.name_of(thing, owner)
@@ -140,7 +140,7 @@ def component(thing: str, value: Any, base: type, gate: Gate) -> Any:
     return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, gate)
 
 
-def _helper(thing: str, base: type, table: Table, gate: Gate) -> Any:
+def _helper(thing: str, base: type, table: TomlTable, gate: Gate) -> Any:
     """Return an object of one of several classes that have no installed names: their names are those of Python."""
     word = table.get(TYPE)
     if not named.is_name(word):
@@ -151,7 +151,7 @@ def _helper(thing: str, base: type, table: Table, gate: Gate) -> Any:
     return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, gate)
 
 
-def _made(thing: str, owner: Any, table: Table, gate: Gate) -> Any:
+def _made(thing: str, owner: Any, table: TomlTable, gate: Gate) -> Any:
     hints = hints_of(owner)
     fields = {field.name: field for field in dataclasses.fields(owner) if field.init}
     for key in table:

@@ -11,11 +11,11 @@ from typing import Any
 
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files import formats
-from nonsmooth.files.components import Table
+from nonsmooth.files.components import TomlTable
 from nonsmooth.storage.files import content_of
 
 
-def parse(path: Path) -> Table:
+def parse(path: Path) -> TomlTable:
     """Tables of a file.
 
     Raises
@@ -39,7 +39,7 @@ def parse(path: Path) -> Table:
         raise InvalidInput(f"{path}", rule, "hundreds of times", "No system needs so many.") from error
 
 
-def changed(tables: Table, changes: Mapping[str, Any], path: Path) -> Table:
+def changed(tables: TomlTable, changes: Mapping[str, Any], path: Path) -> TomlTable:
     """Tables with new values at some dotted keys. Numbers in a key count through arrays, from 0.
 
     Raises

@@ -11,7 +11,7 @@ from nonsmooth.checks import path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import assembling
-from nonsmooth.files.components import TYPE, Table, component, group_of, hints_of
+from nonsmooth.files.components import TYPE, TomlTable, component, group_of, hints_of
 from nonsmooth.files.gate import TRUSTED, Gate
 from nonsmooth.files.parsing import changed, check_keys, number, parse, value
 from nonsmooth.files.writing import tables_of
@@ -66,7 +66,7 @@ class Setup:
     engine: Engine
     system: System = field(repr=False)
     changes: Mapping[str, Any]
-    _tables: Table
+    _tables: TomlTable
     _gate: Gate
 
     def build(self) -> System:
@@ -139,7 +139,7 @@ def setup_of(system: System, t_end: float) -> Setup:
     return _setup(Path("system"), tables_of(system, t_end=t_end), {}, TRUSTED)
 
 
-def _setup(path: Path, said: Table, changes: Mapping[str, Any], gate: Gate) -> Setup:
+def _setup(path: Path, said: TomlTable, changes: Mapping[str, Any], gate: Gate) -> Setup:
     tables = changed(said, changes, path)
     check_keys(f"{path}", tables, _KEYS, required=("bodies",))
     title = tables.get("title", "")
@@ -168,7 +168,7 @@ _UNKNOWN = "SI"
 """Unit of what is no parameter of a class, as the words of a start: they are in SI units."""
 
 
-def numbers(tables: Table, gate: Gate) -> dict[str, tuple[float, Rule]]:
+def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
     """Return all numbers by dotted key, "bodies.ball.radius", and what is known of each.
 
     Elements of arrays count from 0; the gate says what classes the names mean.
@@ -197,7 +197,7 @@ def _numbers(
         yield key, (place, rule or Rule(key, _UNITS.get(way[0], _UNKNOWN)))
 
 
-def _class(table: Table, group: str, gate: Gate) -> Any:
+def _class(table: TomlTable, group: str, gate: Gate) -> Any:
     """Return the class that the table of a component names, None where it is no such table."""
     word = table.get(TYPE)
     if group not in registry.GROUPS or not isinstance(word, str):

@@ -9,7 +9,7 @@ from nonsmooth.checks import check_kind, is_finite, path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
-from nonsmooth.files.components import TYPE, Table, table_of
+from nonsmooth.files.components import TYPE, TomlTable, table_of
 from nonsmooth.interfaces import Body, Engine
 from nonsmooth.storage.files import replacing
 from nonsmooth.system.contact import ContactDeclaration, Tie, Watched
@@ -78,7 +78,7 @@ def tables_of(
     sample_interval: float | None = None,
     engine: Engine | None = None,
     title: str = "",
-) -> Table:
+) -> TomlTable:
     """Return the tables of a system, as :func:`save_system` writes them.
 
     Raises
@@ -86,7 +86,7 @@ def tables_of(
     InvalidInput
         If a component cannot be written; it is named.
     """
-    tables: Table = {"title": title} if title else {}
+    tables: TomlTable = {"title": title} if title else {}
     times = {"t_end": t_end, "sample_interval": sample_interval}
     for name, value in times.items():
         if value is not None:
@@ -117,7 +117,7 @@ class _Laws:
     """The laws met so far: equal ones are written once, under a name."""
 
     def __init__(self) -> None:
-        self.tables: Table = {}
+        self.tables: TomlTable = {}
         self._met: list[tuple[Any, str]] = []
 
     def name(self, law: Any, thing: str) -> str:
@@ -133,7 +133,7 @@ class _Laws:
         return name
 
 
-def _free(name: str, taken: Table) -> str:
+def _free(name: str, taken: TomlTable) -> str:
     number, free = 1, name
     while free in taken:
         number += 1
@@ -141,7 +141,7 @@ def _free(name: str, taken: Table) -> str:
     return free
 
 
-def _body(system: System, body: Body, thing: str) -> Table:
+def _body(system: System, body: Body, thing: str) -> TomlTable:
     table = table_of(body, thing)
     if body.n_q:
         q, u = system.start(body)
@@ -149,8 +149,8 @@ def _body(system: System, body: Body, thing: str) -> Table:
     return table
 
 
-def _contact(declared: ContactDeclaration, known: dict[int, str], laws: _Laws, thing: str) -> Table:
-    table: Table = {"between": [known[id(declared.first)], known[id(declared.second)]]}
+def _contact(declared: ContactDeclaration, known: dict[int, str], laws: _Laws, thing: str) -> TomlTable:
+    table: TomlTable = {"between": [known[id(declared.first)], known[id(declared.second)]]}
     if declared.name:
         table["name"] = declared.name
     if declared.shapes != (None, None):
@@ -162,12 +162,12 @@ def _contact(declared: ContactDeclaration, known: dict[int, str], laws: _Laws, t
     return table
 
 
-def _name_of(declared: Tie | Watched) -> Table:
+def _name_of(declared: Tie | Watched) -> TomlTable:
     return {"name": declared.name} if declared.chosen else {}
 
 
-def _tie(tie: Tie, known: dict[int, str], thing: str) -> Table:
-    head: Table = {"between": [known[id(tie.first)], known[id(tie.second)]]}
+def _tie(tie: Tie, known: dict[int, str], thing: str) -> TomlTable:
+    head: TomlTable = {"between": [known[id(tie.first)], known[id(tie.second)]]}
     head |= _name_of(tie)
     if tie.frames != (0, 0):
         head["frames"] = list(tie.frames)

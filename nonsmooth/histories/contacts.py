@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, TANGENT, TRACTI
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.cones import beyond_cones
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 from nonsmooth.model.laid_out import LaidOut
 
 
@@ -41,7 +41,7 @@ class NearContacts:
     slip_speed: Floats
 
     @classmethod
-    def of(cls, request: Request) -> NearContacts:
+    def of(cls, request: HistoryRequest) -> NearContacts:
         """Evaluate the contacts near each other at the times of a request."""
         memory, contact, chosen = request.replay.laid.memory, owners.Contact, request.contacts
         table = np.empty((3, len(request.times), len(chosen)))
@@ -68,7 +68,7 @@ class ClosedContacts:
 
     Attributes
     ----------
-    request : Request
+    request : HistoryRequest
         Run, times and contacts.
     first : array
         First entry of each time, then the number of entries m, shape [n + 1].
@@ -92,7 +92,7 @@ class ClosedContacts:
         Tangential velocity of the second body relative to the first [m/s], shape [m, 3].
     """
 
-    request: Request
+    request: HistoryRequest
     first: Integers
     contact: Integers
     mode: Integers
@@ -105,7 +105,7 @@ class ClosedContacts:
     slip_velocity: Floats
 
     @classmethod
-    def of(cls, request: Request) -> ClosedContacts:
+    def of(cls, request: HistoryRequest) -> ClosedContacts:
         """Evaluate the closed contacts of all times of a request; the entries have all contacts, chosen or not."""
         replay, row = request.replay, request.times
         read, at = _ClosedReader(replay.laid), replay.closed(row)

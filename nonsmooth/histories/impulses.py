@@ -11,7 +11,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import NORMAL, POINT_A
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.replay import check_recorded
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 
 
 @final
@@ -46,7 +46,7 @@ class Impulses:
     friction_impulse: Floats
 
     @classmethod
-    def of(cls, request: Request) -> Impulses:
+    def of(cls, request: HistoryRequest) -> Impulses:
         """Impulses of a run.
 
         Raises
@@ -58,7 +58,7 @@ class Impulses:
         return cls.recorded(request)
 
     @classmethod
-    def recorded(cls, request: Request) -> Impulses:
+    def recorded(cls, request: HistoryRequest) -> Impulses:
         """Impulses that the engine recorded, none of an engine that records no contacts."""
         events, replay = request.solution.events, request.replay
         n, memory = len(events.listed), replay.laid.memory

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.histories.history import History, LabelledArray
-from nonsmooth.histories.request import Parts, Request, numbers_of, read_times
+from nonsmooth.histories.request import HistoryRequest, Parts, numbers_of, read_times
 from nonsmooth.histories.variables import VARIABLES, Variable
 from nonsmooth.system.names import labels
 
@@ -39,7 +39,7 @@ def read_history(
         raise InvalidInput(f"{_WHERE}: times", "must be left out", times, "Impulses have the times of their events.")
     given = read_times(_WHERE, solution, times)
     kinds = list(dict.fromkeys(_KINDS[axis] for row in rows for axis in row.axes if axis in _KINDS))
-    request = Request(solution, np.atleast_1d(given), numbers_of(f"{_WHERE}: of", solution.system, kinds, of))
+    request = HistoryRequest(solution, np.atleast_1d(given), numbers_of(f"{_WHERE}: of", solution.system, kinds, of))
     readings: dict[Any, Any] = {}
     for row in rows:
         if row.reading not in readings:
@@ -75,7 +75,7 @@ def _labelled(row: Variable, values: NDArray[Any], single: bool) -> LabelledArra
     return LabelledArray.of(row.name, row.axes, values[0] if single else values, row.description, row.unit)
 
 
-def _names(request: Request, axes: set[str]) -> tuple[dict[str, tuple[str, ...]], tuple[LabelledArray, ...]]:
+def _names(request: HistoryRequest, axes: set[str]) -> tuple[dict[str, tuple[str, ...]], tuple[LabelledArray, ...]]:
     """Names along the axes, and the units of coordinates and velocities."""
     system, names = request.solution.system, request.solution.system.names
     found: dict[str, tuple[str, ...]] = {}

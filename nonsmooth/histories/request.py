@@ -1,4 +1,4 @@
-"""Request: the run, the times and the parts of the system that a history is asked for."""
+"""HistoryRequest: the run, the times and the parts of the system that a history is asked for."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Parts: TypeAlias = Part | Sequence[Part] | Integers
 
 @final
 @dataclass(frozen=True)
-class Request:
+class HistoryRequest:
     """A run, times within it, and chosen contacts, bodies and joints of its system.
 
     Attributes

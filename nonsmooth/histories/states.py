@@ -14,7 +14,7 @@ from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.replay import check_recorded
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.laying import articulations
 from nonsmooth.queries.places import BodyFrames
@@ -39,7 +39,7 @@ class States:
     law_state: Floats
 
     @classmethod
-    def of(cls, request: Request) -> States:
+    def of(cls, request: HistoryRequest) -> States:
         """Read the states at the times of a request."""
         solution = request.solution
         sizes = np.cumsum([solution.q.shape[1], solution.u.shape[1], N_ACCOUNTS])
@@ -54,14 +54,14 @@ class Modes:
 
     Attributes
     ----------
-    request : Request
+    request : HistoryRequest
         Run, times and contacts.
     """
 
-    request: Request
+    request: HistoryRequest
 
     @classmethod
-    def of(cls, request: Request) -> Modes:
+    def of(cls, request: HistoryRequest) -> Modes:
         """Modes at the times of a request.
 
         Raises
@@ -98,7 +98,7 @@ class Frames:
     motion: Floats
 
     @classmethod
-    def of(cls, request: Request) -> Frames:
+    def of(cls, request: HistoryRequest) -> Frames:
         """Evaluate the bodies of a request at its times."""
         solution, bodies = request.solution, request.bodies
         n_q = solution.q.shape[1]
@@ -163,7 +163,7 @@ class Energies:
     coordinate_rate: Floats
 
     @classmethod
-    def of(cls, request: Request) -> Energies:
+    def of(cls, request: HistoryRequest) -> Energies:
         """Evaluate the bodies at the times of a request, in one pass."""
         laid, account = request.replay.laid, request.solution.energy
         memory, bodies, first = laid.memory, laid.system.bodies, laid.n_q + laid.n_u
@@ -226,7 +226,7 @@ class Joints:
     joint_moment: Floats
 
     @classmethod
-    def of(cls, request: Request) -> Joints:
+    def of(cls, request: HistoryRequest) -> Joints:
         """Solve for the forces at the times of a request."""
         joints = _readers(request.replay.laid)
         chosen = [joints[number] for number in request.numbers("joint")]

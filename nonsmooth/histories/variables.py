@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.histories.contacts import ClosedContacts, NearContacts
 from nonsmooth.histories.impulses import Impulses
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 from nonsmooth.histories.states import Energies, Frames, Joints, Modes, States
 
 
@@ -60,7 +60,7 @@ class Variable:
     unit: str
     axes: tuple[str, ...]
     description: str
-    reading: Callable[[Request], Any]
+    reading: Callable[[HistoryRequest], Any]
     values: Callable[[Any], NDArray[Any]]
     over: str = "time"
 

@@ -23,7 +23,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record
-from nonsmooth.parameters import Table
+from nonsmooth.parameters import SharedNumbers
 from nonsmooth.system.contact import Contact
 
 
@@ -115,7 +115,7 @@ def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
     meshes may be large, so the parameters get a reference to a table, which several searches share.
     """
     function, values = search.candidates.function, search.candidates.values
-    tables = {name: value for name, value in values.items() if isinstance(value, Table)}
+    tables = {name: value for name, value in values.items() if isinstance(value, SharedNumbers)}
     # with an empty tuple in place of each table
     address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, search.owner)
     # the trial reads the tables behind the other parameters; the engine reads them at their distance from those

@@ -27,7 +27,7 @@ from nonsmooth.interfaces import AnisotropicFrictionLaw, CompliantNormalLaw, Imp
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import BodyLayouts
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
@@ -58,7 +58,7 @@ class Kind:
     offsets: dict[Any, int] = field(default_factory=dict)
     block: list[float] = field(default_factory=list)
     written: list[tuple[int, int]] = field(default_factory=list)
-    tables: list[tuple[int, int, Table]] = field(default_factory=list)
+    tables: list[tuple[int, int, SharedNumbers]] = field(default_factory=list)
 
     def store(self, declared: Any, values: Sequence[float]) -> int:
         """Append values to the block; the result is their place, which is noted as the field ``declared``."""
@@ -233,7 +233,7 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
     with_state = law if is_coefficient and isinstance(law, StatefulFrictionLaw) else None
     if with_state is not None:
         available = {**available, "state": with_state.initial_state}
-    tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
+    tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), SharedNumbers)}
     # the parameters, with nothing in place of tables: the memory holds each table once, and a reference to it here
     address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
     # geometry with large tables is slow to try out: once for the same function and tables

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.components import TYPE, Table, table_of
+from nonsmooth.files.components import TYPE, TomlTable, table_of
 from nonsmooth.files.writing import text_of_system
 from nonsmooth.histories.history import LabelledArray
 from nonsmooth.interfaces import Engine
@@ -91,7 +91,7 @@ def attributes_of(output: Output, engine: Engine, request: RunRequest) -> dict[s
     }
 
 
-def _table(engine: Engine) -> Table:
+def _table(engine: Engine) -> TomlTable:
     """Return an engine as a table; one that no file can name by its class in Python, and its options as words."""
     try:
         return table_of(engine, "engine")
@@ -100,7 +100,7 @@ def _table(engine: Engine) -> Table:
         return {TYPE: f"{type(engine).__module__}:{type(engine).__qualname__}", **options}
 
 
-def named_elsewhere(table: Table) -> bool:
+def named_elsewhere(table: TomlTable) -> bool:
     """Tell whether the table of an engine names a class in Python, which is none that is installed."""
     return ":" in str(table.get(TYPE))
 

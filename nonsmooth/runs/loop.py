@@ -49,7 +49,7 @@ class Callbacks(NamedTuple):
     until: Until | None
 
 
-class Ending(NamedTuple):
+class LoopEnd(NamedTuple):
     """How the calls of an engine ended.
 
     Attributes
@@ -110,7 +110,7 @@ class EngineLoop:
         self._checkpoint, self._n_events_before = self.start, self.records.n_events
         self._run_so_far = None if self.callbacks.until is None else RunSoFar(self.model, self.records, self.engine)
 
-    def run(self) -> Ending:
+    def run(self) -> LoopEnd:
         """Run to the end time, to a failure, until a condition is met or the user interrupts.
 
         Raises
@@ -146,7 +146,7 @@ class EngineLoop:
             self._take_checkpoint()
         n_known_events = records.n_events - self._n_events_before
         hint = "" if status == Status.DONE else self._monitor.hint(status)
-        return Ending(status, is_interrupted, self._checkpoint, n_known_events, hint, output_error)
+        return LoopEnd(status, is_interrupted, self._checkpoint, n_known_events, hint, output_error)
 
     @functools.cached_property
     def _monitor(self) -> StallMonitor:

@@ -15,7 +15,7 @@ from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.overlaps import Overlap, first_overlap
 from nonsmooth.runs.diagnosis import failing_function
-from nonsmooth.runs.loop import Ending
+from nonsmooth.runs.loop import LoopEnd
 from nonsmooth.solution.end import RunStatus
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Solution
@@ -111,7 +111,7 @@ def cause_of(engine: Engine, status: int) -> EndCause | None:
     return next((cause for cause in engine.causes if cause.code == status), None)
 
 
-def outcome(model: LaidOut, ending: Ending, engine: Engine) -> RunOutcome:
+def outcome(model: LaidOut, ending: LoopEnd, engine: Engine) -> RunOutcome:
     """Status and message of a run of an engine that has ended.
 
     The first that holds is the reason: lost results, a function that wrote past its block, a cause that the engine

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.scene.scene import Part, Scene
+from nonsmooth.scene.scene import FrameLook, Scene
 
 _ROUND = 1.0
 """Margin of a sheet around the moving bodies, relative to their size, so that they are seen to stand on it."""
@@ -68,7 +68,7 @@ class Extent:
         return min(self.reach, 0.5 * float(np.linalg.norm(self.high - self.low)))
 
 
-def nearest(part: Part, origin: Floats, axes: Floats, place: Floats) -> Floats:
+def nearest(part: FrameLook, origin: Floats, axes: Floats, place: Floats) -> Floats:
     """Point of a sheet nearest to a place at each time [m], shape [n, 3]."""
     normal = axes[:, part.frame, :, 2]
     height = np.einsum("ij,ij->i", place - origin[:, part.frame], normal) - part.look.vertices[0, 2]
@@ -109,7 +109,7 @@ def outlines(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> list
     return found
 
 
-def _holds(part: Part, origin: Floats, axes: Floats, moving: list[int]) -> bool:
+def _holds(part: FrameLook, origin: Floats, axes: Floats, moving: list[int]) -> bool:
     """True if the origins of the frames stay in front of a sheet."""
     normal = axes[:, part.frame, :, 2]
     height = np.einsum("nfi,ni->nf", origin[:, moving] - origin[:, part.frame, None], normal)
@@ -128,7 +128,7 @@ def _taken(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> tuple[
     return np.stack([*places, *(origin[:, frame] for frame in ends)], axis=1), np.array(radii + [0.0] * len(ends))
 
 
-def _rectangle(part: Part, origin: Floats, axes: Floats, places: Floats, radii: Floats) -> Floats:
+def _rectangle(part: FrameLook, origin: Floats, axes: Floats, places: Floats, radii: Floats) -> Floats:
     """Corners of the rectangle in a sheet that contains the projections of spheres at all times [m], shape [4, 2]."""
     flat = (places - origin[:, part.frame, None]) @ axes[:, part.frame, :, :2]
     (a, b), (c, d) = (flat - radii[:, None]).min(axis=(0, 1)), (flat + radii[:, None]).max(axis=(0, 1))
@@ -136,7 +136,7 @@ def _rectangle(part: Part, origin: Floats, axes: Floats, places: Floats, radii: 
 
 
 def _cut(corners: Floats, normal: Floats, level: float) -> Floats:
-    """Part of a convex polygon with positive ``corners @ normal + level``; the whole polygon if there is none."""
+    """FrameLook of a convex polygon with positive ``corners @ normal + level``; the whole polygon if there is none."""
     heights = corners @ normal + level
     kept = list[Floats]()
     for a, b, p, q in zip(corners, np.roll(corners, -1, axis=0), heights, np.roll(heights, -1), strict=True):

@@ -27,7 +27,7 @@ _SPECK = 1e-2
 
 @final
 @dataclass(frozen=True, eq=False)
-class Part:
+class FrameLook:
     """A visible shape on a frame.
 
     Attributes
@@ -79,7 +79,7 @@ class Scene:
     ----------
     system : System
         The system.
-    parts : tuple of Part
+    parts : tuple of FrameLook
         Solids, sheets, lines and marks.
     strokes : tuple of Stroke
         Links, loads and joints.
@@ -88,19 +88,19 @@ class Scene:
     """
 
     system: System
-    parts: tuple[Part, ...]
+    parts: tuple[FrameLook, ...]
     strokes: tuple[Stroke, ...]
     n_frames: int
 
     @classmethod
     def of(cls, system: System) -> Scene:
         """Scene of a system."""
-        parts = list[Part]()
+        parts = list[FrameLook]()
         first, frame = dict[int, int](), 0
         for number, body in enumerate(system.bodies):
             first[id(body)] = frame
             for offset, look in _looks(body):
-                parts.append(Part(frame + offset, number, look))
+                parts.append(FrameLook(frame + offset, number, look))
             frame += len(body.frames)
         strokes = list[Stroke]()
         for body in system.bodies:
@@ -152,7 +152,7 @@ def _looks(body: Body) -> Iterator[tuple[int, Look]]:
     yield from enumerate(body.sketch)
 
 
-def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[Part]) -> Iterator[Stroke]:
+def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[FrameLook]) -> Iterator[Stroke]:
     """Line between the ends of a load or joint; for a joint also lines to its ends from bodies that are too short."""
     bodies = tie.first, tie.second
     frames = [first[id(body)] + offset for body, offset in zip(bodies, tie.frames, strict=True)]

@@ -85,7 +85,7 @@ class Counters:
     wall_seconds: float
 
 
-class Ending(Protocol):
+class EndSource(Protocol):
     """Source of the end of a run: the end itself, or the memory of the model after the run."""
 
     def read(self) -> End:

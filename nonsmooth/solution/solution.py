@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.interfaces import Body
 from nonsmooth.notices import say
-from nonsmooth.solution.end import Counters, End, Ending, RunStatus
+from nonsmooth.solution.end import Counters, End, EndSource, RunStatus
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.recorded import Recorded, Track
@@ -40,13 +40,13 @@ class Solution:
         The system that ran.
     recorded : Recorded
         Samples and events as the engine recorded them.
-    ending : Ending
+    ending : EndSource
         Source of :attr:`end`.
     """
 
     system: System
     recorded: Recorded
-    ending: Ending
+    ending: EndSource
 
     def __reduce__(self) -> tuple[Callable[..., Solution], tuple[Any, ...]]:
         """Copy the end, without the memory of the model from which it is read."""

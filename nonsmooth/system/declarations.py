@@ -14,8 +14,7 @@ from nonsmooth.system.contact import Contact, ContactDeclaration
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws, check_sharing
 from nonsmooth.system.members import Members
 from nonsmooth.system.names import between
-from nonsmooth.system.pairing import ContactGeometries
-from nonsmooth.system.selection import Side, select
+from nonsmooth.system.pairing import ContactGeometries, Side, select
 
 _Facing: TypeAlias = tuple[Side, Side, ContactKinematics]
 _WITHOUT_SHAPE = -1

@@ -12,7 +12,7 @@ from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
 from nonsmooth.histories.contacts import ClosedContacts
 from nonsmooth.histories.impulses import Impulses
 from nonsmooth.histories.replay import replay_of
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 from nonsmooth.scene.extent import Extent, outlines
 from nonsmooth.scene.scene import Scene, knots, sides
 
@@ -65,7 +65,7 @@ def event_arrays(
 ) -> dict[str, tuple[str, NDArray[Any]]]:
     """Arrays of events; ``times`` are the knots [s], which contain all instants of events."""
     # an engine that records no contacts has no events, and no impulses
-    events, impulses = solution.events, Impulses.recorded(Request(solution, times))
+    events, impulses = solution.events, Impulses.recorded(HistoryRequest(solution, times))
     sign = side[impulses.impulse_contact][:, None]
     push, rub = sign * impulses.normal_impulse[:, None] * impulses.impulse_normal, sign * impulses.friction_impulse
     return {
@@ -195,7 +195,7 @@ def _forces(solution: Solution, times: Floats) -> Arrays:
             "force_push": ("f4", nowhere),
             "force_rub": ("f4", nowhere),
         }
-    found = ClosedContacts.of(Request(solution, times))
+    found = ClosedContacts.of(HistoryRequest(solution, times))
     side = sides(solution.system)[found.contact]
     return {
         "force_first": ("i4", found.first),

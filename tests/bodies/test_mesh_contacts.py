@@ -32,7 +32,7 @@ from nonsmooth.binding.call import pair_caller
 from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
-from nonsmooth.parameters import Table
+from nonsmooth.parameters import SharedNumbers
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, bracket, hills, torus
@@ -307,7 +307,7 @@ def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> No
     rig = Rig((TriangleMesh(Triangles(points, triangles)), Sphere(radius)), build.laws())
     assert len(rig.contacts) > 10
     surface = rig.contacts[0].kinematics.parameters()["surface"]
-    assert isinstance(surface, Table)
+    assert isinstance(surface, SharedNumbers)
     # and not once for each contact
     assert len(surface) < len(rig._model.memory.floats) < 3 * len(surface)
     for _ in range(60):

@@ -23,7 +23,7 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 
@@ -87,7 +87,7 @@ class ApexMesh(ContactKinematics):
     ----------
     first : tuple of float
         The cone (:func:`bodies.shapes.frustum.frustum_numbers`).
-    surface : Table
+    surface : SharedNumbers
         The surface (:mod:`bodies.contacts.surface.surface_tables`).
     patch : int
         Number of the patch.
@@ -100,7 +100,7 @@ class ApexMesh(ContactKinematics):
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
 
     first: Numbers
-    surface: Table
+    surface: SharedNumbers
     patch: int
     size: float
     counts: tuple[int, int, int]

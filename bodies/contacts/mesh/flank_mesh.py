@@ -14,7 +14,7 @@ from bodies.shapes.frustum import SIDE, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 _cross = compiled(evaluate_flank_edge)
@@ -39,14 +39,14 @@ class FlankMesh(ContactKinematics):
     ----------
     crossing : FlankEdge
         That of side and edge, seen alone.
-    surface : Table
+    surface : SharedNumbers
         The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
 
     crossing: FlankEdge
-    surface: Table
+    surface: SharedNumbers
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[FlankMesh, ...]:

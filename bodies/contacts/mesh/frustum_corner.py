@@ -32,7 +32,7 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 
@@ -144,7 +144,7 @@ class FrustumCorner(ContactKinematics):
         The corner in its body frame [m].
     star, lengths : tuple of float
         Unit vectors along its edges, and their lengths [m].
-    surface : Table
+    surface : SharedNumbers
         The surface (:mod:`bodies.contacts.surface.surface_tables`).
     size : float
         Size of the larger body [m].
@@ -158,7 +158,7 @@ class FrustumCorner(ContactKinematics):
     place: tuple[float, float, float]
     star: Numbers
     lengths: Numbers
-    surface: Table
+    surface: SharedNumbers
     size: float
     corner: int
 

@@ -25,7 +25,7 @@ from bodies.shapes.cylinder import Cylinder
 from bodies.shapes.frustum import SIDE, SWEEP, Frustum, Point
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 
@@ -69,7 +69,7 @@ class FrustumMesh(ContactKinematics):
         Its centre in the body frame [m].
     up : float
         1 for the upper rim, else -1.
-    surface : Table
+    surface : SharedNumbers
         The surface (:mod:`bodies.contacts.surface.surface_tables`).
     patch : int
         Number of the patch.
@@ -83,7 +83,7 @@ class FrustumMesh(ContactKinematics):
     radius: float
     center: Point
     up: float
-    surface: Table
+    surface: SharedNumbers
     patch: int
     n_faces: int
 

@@ -50,7 +50,7 @@ from bodies.shapes.frustum import HIGH, SIDE, SWEEP, Frustum
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
@@ -228,7 +228,7 @@ class FrustumPairs(ContactKinematics):
         What finds them.
     rims : tuple of float
         Radius and centre of each rim in the body frame [m].
-    lengths : Table
+    lengths : SharedNumbers
         Lengths of the edges of the surface's corners, one corner after the other [m]; one number but for discs.
     n_features : int
         How many features the surface has.
@@ -239,7 +239,7 @@ class FrustumPairs(ContactKinematics):
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
     search: CandidateSearch
     rims: Numbers
-    lengths: Table
+    lengths: SharedNumbers
     n_features: int
     number: int
 
@@ -256,7 +256,7 @@ class FrustumPairs(ContactKinematics):
         values: dict[str, Value] = {
             "frustum": numbers,
             "n_points": float(len(rows)),
-            "points": Table([*itertools.chain(*rows)] or [0.0]),
+            "points": SharedNumbers([*itertools.chain(*rows)] or [0.0]),
             "surface": surface_numbers(own, patches),
             "size": max(own.size, 2.0 * first.extent),
             "most": float(MOST_NEAR),
@@ -275,7 +275,7 @@ class FrustumPairs(ContactKinematics):
         }
         search = CandidateSearch(find_near_frustum, values, counts)
         rims = tuple(x for radius, center in first.standing_rims for x in (radius, *center))
-        n, table = len(own.planes) + n_edges + len(own.corners), Table(lengths or [0.0])
+        n, table = len(own.planes) + n_edges + len(own.corners), SharedNumbers(lengths or [0.0])
         return tuple(cls(search, rims, table, n, number) for number in range(MOST_NEAR))
 
     @property

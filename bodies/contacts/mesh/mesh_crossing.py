@@ -18,7 +18,7 @@ from bodies.meshes.patches import patches_for_body
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION
-from nonsmooth.parameters import Table
+from nonsmooth.parameters import SharedNumbers
 from nonsmooth.types import Floats
 
 _ASTRAY = 1e-6
@@ -107,7 +107,7 @@ def judge_crossing(
         out[POINT_B + i] = out[POINT_A + i] - apart * out[NORMAL + i]
 
 
-def edges_of(second: Features) -> Iterator[tuple[Numbers, Table, str]]:
+def edges_of(second: Features) -> Iterator[tuple[Numbers, SharedNumbers, str]]:
     """Yield row, surface and name of the convex edges of a mesh."""
     surface = surface_numbers(second, patches_for_body(second, 0.0))
     for i in range(len(second.edges)):

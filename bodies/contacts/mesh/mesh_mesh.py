@@ -15,7 +15,7 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import patches_for_ball, patches_for_body
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 
 MOST_EACH = 500
 """Pairs of features of two surfaces up to which each of them is a contact of its own."""
@@ -35,7 +35,7 @@ class MeshEdges:
     ----------
     edges : tuple
         The edges (:func:`bodies.contacts.surface.surface_tables.edge_row`).
-    surfaces : tuple of Table
+    surfaces : tuple of SharedNumbers
         The surfaces (:mod:`bodies.contacts.surface.surface_tables`).
     radius : float
         Radius about the second edge [m].
@@ -46,7 +46,7 @@ class MeshEdges:
     """
 
     edges: tuple[Numbers, Numbers]
-    surfaces: tuple[Table, Table]
+    surfaces: tuple[SharedNumbers, SharedNumbers]
     radius: float
     size: float
     names: tuple[str, str]
@@ -57,7 +57,7 @@ class MeshEdges:
         first: Features,
         rows: Sequence[Numbers],
         names: Sequence[str],
-        surface: Table,
+        surface: SharedNumbers,
         radius: float,
         size: float,
     ) -> Iterator[MeshEdges]:

@@ -15,7 +15,7 @@ from bodies.meshes.patches import patches_for_body
 from bodies.shapes.smooth import SmoothShape, extent
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
@@ -72,7 +72,7 @@ class MeshSmooth(ContactKinematics):
 
     Attributes
     ----------
-    surface : Table
+    surface : SharedNumbers
         The surface (:mod:`bodies.contacts.surface.surface_tables`), in patches for a body of this size.
     patch : int
         Number of the patch.
@@ -83,7 +83,7 @@ class MeshSmooth(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SmoothShape)
-    surface: Table
+    surface: SharedNumbers
     patch: int
     second: SmoothShape
     counts: tuple[int, int, int]

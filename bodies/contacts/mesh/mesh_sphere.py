@@ -16,7 +16,7 @@ from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 
@@ -88,7 +88,7 @@ class MeshSphere(ContactKinematics):
 
     Attributes
     ----------
-    surface : Table
+    surface : SharedNumbers
         The surface (:mod:`bodies.contacts.surface.surface_tables`).
     patch : int
         Number of the patch.
@@ -107,7 +107,7 @@ class MeshSphere(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
-    surface: Table
+    surface: SharedNumbers
     patch: int
     center: tuple[float, float, float]
     radius: float

@@ -41,7 +41,7 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import NORMAL
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 
@@ -203,7 +203,7 @@ class SweptPairs(ContactKinematics):
     ----------
     search : CandidateSearch
         What finds them.
-    surfaces : tuple of Table
+    surfaces : tuple of SharedNumbers
         The surface, and that of the core (:mod:`bodies.contacts.surface.surface_tables`).
     size : float
         Size of the larger body [m].
@@ -215,7 +215,7 @@ class SweptPairs(ContactKinematics):
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
     search: CandidateSearch
-    surfaces: tuple[Table, Table]
+    surfaces: tuple[SharedNumbers, SharedNumbers]
     size: float
     n_features: int
     number: int
@@ -234,10 +234,10 @@ class SweptPairs(ContactKinematics):
             "n_vertices": float(len(core.vertices)),
             "vertices": _vertices(core),
             "n_faces": float(len(core.planes)),
-            "faces": Table(face_table(core) or (0.0,)),
+            "faces": SharedNumbers(face_table(core) or (0.0,)),
             "n_edges": float(len(core.edges)),
-            "edges": Table(tuple(itertools.chain(*edge_rows(core)))),
-            "ends": Table(end_table(core)),
+            "edges": SharedNumbers(tuple(itertools.chain(*edge_rows(core)))),
+            "ends": SharedNumbers(end_table(core)),
             "sweep": sweep,
             "most": float(MOST_NEAR),
             "turning": 0.5 / extents[0] + 0.5 / extents[1],
@@ -274,15 +274,15 @@ class SweptPairs(ContactKinematics):
         return tuple(f"feature {i}" for i in range(self.n_features))
 
 
-def _vertices(core: Polytope) -> Table:
+def _vertices(core: Polytope) -> SharedNumbers:
     """Return a row of each vertex of a core, and behind all rows the unit vectors along their edges."""
     stars = [star_of(core, i) for i in range(len(core.vertices))]
     begins = itertools.accumulate((len(star) for star in stars), initial=_ROW * len(stars))
     rows = [(*place, len(star) // 3, begin) for place, star, begin in zip(core.vertices, stars, begins, strict=False)]
-    return Table([*itertools.chain(*rows), *itertools.chain(*stars)])
+    return SharedNumbers([*itertools.chain(*rows), *itertools.chain(*stars)])
 
 
-def surface_of_core(core: Polytope) -> Table:
+def surface_of_core(core: Polytope) -> SharedNumbers:
     """Return the surface of a core; a segment has none."""
     if not core.faces:
         return NOTHING

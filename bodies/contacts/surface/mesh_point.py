@@ -18,7 +18,7 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 Corner = tuple[tuple[float, float, float], Numbers, str]
@@ -124,7 +124,7 @@ class _Vertex:
 
     Attributes
     ----------
-    surface : Table
+    surface : SharedNumbers
         The surface (:mod:`bodies.contacts.surface.surface_tables`).
     n_faces : int
         Number of its faces.
@@ -138,7 +138,7 @@ class _Vertex:
         What it is called.
     """
 
-    surface: Table
+    surface: SharedNumbers
     n_faces: int
     patch: int
     place: tuple[float, float, float]

@@ -19,7 +19,7 @@ from bodies.meshes.patches import patches_for_ball
 from bodies.shapes.polytope import Polytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
-from nonsmooth.parameters import Table, Value
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 MOST_NEAR = 256
@@ -66,7 +66,7 @@ class SurfacePairs(ContactKinematics):
     ----------
     search : CandidateSearch
         What finds them.
-    surfaces : tuple of Table
+    surfaces : tuple of SharedNumbers
         The surfaces (:mod:`bodies.contacts.surface.surface_tables`).
     size : float
         Size of the larger body [m].
@@ -78,7 +78,7 @@ class SurfacePairs(ContactKinematics):
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, TriangleMesh)
     search: CandidateSearch
-    surfaces: tuple[Table, Table]
+    surfaces: tuple[SharedNumbers, SharedNumbers]
     size: float
     n_faces: int
     number: int

@@ -13,7 +13,7 @@ from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches
 from bodies.meshes.topology import Integers, neighbours
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.parameters import Table
+from nonsmooth.parameters import SharedNumbers
 
 Numbers = tuple[float, ...]
 
@@ -32,7 +32,7 @@ NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
 - an edge: first end, direction, length, in either face the direction from the edge into it, patch;
 - a corner: place, patch, where its star of unit vectors along its edges begins, and their number.
 """
-NOTHING = Table((0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(4 * [0.0])))
+NOTHING = SharedNumbers((0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(4 * [0.0])))
 """The surface of a body without volume: no point is inside of it."""
 BITS = 52
 """Bits of a number that are exact: with more patches every node counts as having all."""
@@ -41,7 +41,7 @@ _LEAF = 4
 
 
 @lru_cache(maxsize=4)
-def surface_numbers(features: Features, patches: Patches) -> Table:
+def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
     """Return the numbers of a surface whose features are divided into patches."""
     triangles = _triangles(features)
     edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float)])
@@ -73,7 +73,7 @@ def surface_numbers(features: Features, patches: Patches) -> Table:
         len(faces),
         patches.count,
     )
-    return Table(np.concatenate([head, *(part.ravel() for part in parts)]))
+    return SharedNumbers(np.concatenate([head, *(part.ravel() for part in parts)]))
 
 
 def edge_rows(features: Features) -> Vector:

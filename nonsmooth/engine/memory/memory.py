@@ -28,7 +28,7 @@ from nonsmooth.engine.memory.tables import (
     storage_of,
     stride_of,
 )
-from nonsmooth.parameters import Table
+from nonsmooth.parameters import SharedNumbers
 
 
 class Heap:
@@ -50,7 +50,7 @@ class Heap:
         self._written: list[tuple[np.ndarray, int]] = []
         # numbers by which a function finds a table of shared parameters, such as those of a mesh: offset of the number
         # among all floats, the offset that is subtracted from that of the table, and the table
-        self._references: list[tuple[int, int, Table]] = []
+        self._references: list[tuple[int, int, SharedNumbers]] = []
 
     def block(self, size: int) -> int:
         """Append ``size`` zeros, for numbers that the engine writes. Result: their offset among all floats."""
@@ -77,7 +77,7 @@ class Heap:
         self._values.extend(times * array("d", values))
         return start
 
-    def refer(self, place: int, start: int, table: Table) -> None:
+    def refer(self, place: int, start: int, table: SharedNumbers) -> None:
         """Let :meth:`close` set the number at offset ``place`` to the distance [floats] of a table from ``start``."""
         # at start begin the parameters of the function that reads the table. It gets only their address, so the table
         # must be found from there. Before close no table has an offset

@@ -21,7 +21,7 @@ from laws import Anisotropic, Cohesive, Coulomb, Directional, Frictionless, Stri
 from nonsmooth import ContactLaws
 from nonsmooth.histories.contacts import ClosedContacts
 from nonsmooth.histories.impulses import Impulses
-from nonsmooth.histories.request import Request
+from nonsmooth.histories.request import HistoryRequest
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.solution.checks import impulses_beyond_cone
 from tests.benchmarks.random_systems.case import Case
@@ -108,7 +108,7 @@ def reported(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict
     given = {frozenset((i, j)): laws for i, j, laws in case.contacts}
     laws = [given[frozenset((numbers[id(c.first)], numbers[id(c.second)]))] for c in solution.system.contacts]
     times = solution.t[np.unique(np.linspace(0, len(solution.t) - 1, _MOST).astype(int))]
-    request = Request(solution, times)
+    request = HistoryRequest(solution, times)
     f, p, events = ClosedContacts.of(request), Impulses.of(request), solution.events
     speeds = np.linalg.norm(f.slip_velocity, axis=1).tolist()
     forces = Reported(
