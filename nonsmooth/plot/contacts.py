@@ -8,8 +8,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.charts import marker
-from nonsmooth.plot.arguments import Contacts, axes_of, contacts_of, part_of, times_of
-from nonsmooth.plot.lines import beside, draw_lines, over_time, title_of
+from nonsmooth.plot.arguments import (
+    Contacts,
+    axes_of,
+    beside,
+    contacts_of,
+    draw_lines,
+    over_time,
+    part_of,
+    times_of,
+    title_of,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.plot.arguments import axes_of, times_of
-from nonsmooth.plot.lines import beside, over_time
+from nonsmooth.plot.arguments import axes_of, beside, over_time, times_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,8 +9,7 @@ import numpy as np
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.replay import check_recorded
-from nonsmooth.plot.arguments import Contacts, axes_of, contacts_of
-from nonsmooth.plot.lines import beside, over_time, title_of
+from nonsmooth.plot.arguments import Contacts, axes_of, beside, contacts_of, over_time, title_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

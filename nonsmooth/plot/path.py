@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.request import numbers_of
 from nonsmooth.interfaces import Body
-from nonsmooth.plot.arguments import axes_of, times_of
-from nonsmooth.plot.lines import beside
+from nonsmooth.plot.arguments import axes_of, beside, times_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats, Integers
-from nonsmooth.plot.arguments import axes_of, times_of
-from nonsmooth.plot.lines import beside
+from nonsmooth.plot.arguments import axes_of, beside, times_of
 from nonsmooth.system.names import labels
 
 if TYPE_CHECKING:

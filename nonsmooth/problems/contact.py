@@ -15,7 +15,6 @@ from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, Solver, solver_of
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.problems.contact_result import ContactMode, ContactResult
-from nonsmooth.problems.delassus import write_delassus
 from nonsmooth.problems.matrices import (
     check_arrays,
     check_friction,
@@ -23,6 +22,7 @@ from nonsmooth.problems.matrices import (
     columns_of,
     law_without_value,
     memory_of,
+    write_delassus,
 )
 from nonsmooth.watch import Watch
 

@@ -14,7 +14,7 @@ from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import call_entry
-from nonsmooth.problems.delassus import read_delassus
+from nonsmooth.problems.matrices import read_delassus
 
 Floats = NDArray[np.float64]
 

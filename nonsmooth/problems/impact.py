@@ -14,7 +14,6 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import ImpactOutcome
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
-from nonsmooth.problems.delassus import write_delassus
 from nonsmooth.problems.matrices import (
     check_arrays,
     check_friction,
@@ -22,6 +21,7 @@ from nonsmooth.problems.matrices import (
     columns_of,
     law_without_value,
     memory_of,
+    write_delassus,
 )
 from nonsmooth.watch import Watch
 

@@ -1,13 +1,13 @@
-"""A folder of results becomes a solution again."""
+"""Opening of a folder of results: the solution, its system and its engine."""
 
 from __future__ import annotations
 
 import tempfile
-from dataclasses import fields
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NoReturn, final
 
-from nonsmooth.engines.unavailable import Unavailable
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.gate import Gate
 from nonsmooth.files.reading import Setup, engine_of, load_system
@@ -19,6 +19,47 @@ from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    from nonsmooth.engine.memory.memory import Memory
+
+
+@final
+@dataclass(frozen=True)
+class Unavailable(Engine):
+    """Takes the place of an engine that is not installed: samples and events are known, the run cannot continue.
+
+    Attributes
+    ----------
+    described : dict
+        Class and options of the engine, as the folder has them.
+    recorded_contacts : bool
+        True if the events hold modes and impulses.
+    """
+
+    described: Mapping[str, Any] = field(hash=False)
+    recorded_contacts: bool
+
+    @property
+    def records_contacts(self) -> bool:
+        """As the engine that ran."""
+        return self.recorded_contacts
+
+    def check(self, system: System) -> None:
+        """Accept any system, because nothing runs."""
+
+    def counts(self, n_slots: int) -> Mapping[str, int]:
+        """None, because nothing runs."""
+        return {}
+
+    def settings(self, time_scale: float) -> Mapping[str, float]:
+        """None, because nothing runs."""
+        return {}
+
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> NoReturn:
+        """Raise InvalidInput, because a run needs its engine."""
+        raise InvalidInput("engine", "must be there to go on", dict(self.described), "Give the one that ran.")
+
 
 _NONE: dict[str, Any] = {"limits": {}}
 """Counters of a run that is unfinished, where 0 is none."""

@@ -21,7 +21,7 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.engine_driver import EngineDriver
-from nonsmooth.runs.output_sink import OutputSink
+from nonsmooth.runs.folder_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.runs.stall_monitor import StallMonitor

@@ -38,11 +38,10 @@ from nonsmooth.runs.checks import (
     checked_request,
 )
 from nonsmooth.runs.final_state import FinalState, FixedPlaces, UnreadEnd
-from nonsmooth.runs.folder_sink import FolderSink
+from nonsmooth.runs.folder_sink import FolderSink, OutputSink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import Callbacks, EngineLoop, Progress
 from nonsmooth.runs.outcome import RunOutcome, interpenetration, outcome
-from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request

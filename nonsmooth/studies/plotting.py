@@ -6,8 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 from nonsmooth.charts import COLOURS
-from nonsmooth.plot.arguments import axes_of
-from nonsmooth.plot.lines import beside
+from nonsmooth.plot.arguments import axes_of, beside
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

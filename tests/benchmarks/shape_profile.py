@@ -35,8 +35,8 @@ from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.folder_sink import OutputSink
 from nonsmooth.runs.loop import Callbacks, EngineLoop
-from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from scenarios.dice_throw import DiceThrow
 from scenarios.mesh_drop import MeshDrop

@@ -19,7 +19,7 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, SOLVERS, Solver
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
-from nonsmooth.problems.delassus import write_delassus
+from nonsmooth.problems.matrices import write_delassus
 
 Floats = NDArray[np.float64]
 FRICTION = 0.3

@@ -133,7 +133,7 @@ def test_a_body_that_tumbles_past_a_ball_is_missed_by_no_step(body: EllipsoidBod
 
 def test_events_are_kept_however_often_the_engine_is_called(monkeypatch: pytest.MonkeyPatch) -> None:
     """Events that take neither a step nor an impact are not lost between two calls."""
-    output_sink = importlib.import_module("nonsmooth.runs.output_sink")
+    output_sink = importlib.import_module("nonsmooth.runs.folder_sink")
     plate, box = Plate(), BoxBody(0.01, 0.01, 0.01, 2700.0)
     system = ns.System([plate, box])
     system.contact(plate, box, **LAWS)

@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
-from nonsmooth.problems.delassus import write_delassus
+from nonsmooth.problems.matrices import write_delassus
 from tests.benchmarks.solvers import FRICTION, bodies, lay_out
 
 

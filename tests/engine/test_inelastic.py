@@ -11,7 +11,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.problems.contact import _memory
-from nonsmooth.problems.delassus import write_delassus
+from nonsmooth.problems.matrices import write_delassus
 from tests.benchmarks.solvers import bodies
 
 Floats = NDArray[np.float64]

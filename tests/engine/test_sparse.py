@@ -19,7 +19,7 @@ from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
-from nonsmooth.problems.delassus import read_delassus, write_delassus
+from nonsmooth.problems.matrices import read_delassus, write_delassus
 
 RADIUS = 0.01
 TINY = 1e-300

@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.viewer.player.update import BUNDLE, TOLD, build, bundled, sources
+from tests.viewer.bundle import BUNDLE, RECORD, build, bundled, sources
 
 
 def test_the_bundle_was_made_of_these_sources() -> None:
-    told = json.loads(TOLD.read_text(encoding="utf-8"))
-    remedy = "run python -m nonsmooth.viewer.player.update"
-    assert told["sources"] == sources(), remedy
-    assert told["bundle"] == bundled(), remedy
+    record = json.loads(RECORD.read_text(encoding="utf-8"))
+    remedy = "run python -m tests.viewer.bundle"
+    assert record["sources"] == sources(), remedy
+    assert record["bundle"] == bundled(), remedy
 
 
 def test_it_asks_for_nothing_outside_and_holds_its_licence() -> None:

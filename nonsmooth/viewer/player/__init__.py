@@ -1,1 +1,0 @@
-"""Sources of the player, of which ``python -m nonsmooth.viewer.player.update`` makes the bundle beside this folder."""
