@@ -1,4 +1,4 @@
-"""What laws of one kind have in common when they tell whether a force obeys them."""
+"""Common certificates of laws of one kind: whether a force obeys a law."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Pair = tuple[float, float]
 
 
 def coefficient_of(law: FrictionLaw, state: tuple[float, ...] | None = None) -> Callable[[float], float]:
-    """Return the coefficient of a law as a function of the slip speed [m/s] alone, by default in its initial state."""
+    """Coefficient of a law as a function of the slip speed [m/s] alone, by default in its initial state."""
     offered: dict[str, object] = dict(law.parameters())
     if isinstance(law, StatefulFrictionLaw):
         offered["state"] = law.initial_state if state is None else state
@@ -39,7 +39,7 @@ def opposes_slip(
     tolerance: float,
     state: tuple[float, ...] | None = None,
 ) -> bool:
-    """Tell whether a force lies in the disc of a friction law and, under slip, on its edge against the slip.
+    """True if a force lies in the disc of a friction law and, under slip, on its edge against the slip.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def opposes_slip(
 def follows_compliance(
     law: CompliantNormalLaw, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
 ) -> bool:
-    """Tell whether a normal force [N] is that of a compliant law."""
+    """True if a normal force [N] is the force of a compliant law."""
     names = list(inspect.signature(law.force).parameters)[3:]
     parameters = {name: law.parameters()[name] for name in names}
     return abs(law.force(indentation, rate, closing_rate, **parameters) - force) <= tolerance
@@ -77,7 +77,7 @@ def follows_compliance(
 def lies_in_half_ellipses(
     law: AnisotropicFrictionLaw, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float
 ) -> bool:
-    """Tell whether a force lies in the bound of an anisotropic law and, under slip, where the slip is normal to it.
+    """True if a force lies in the bound of an anisotropic law and, under slip, at the point normal to the slip.
 
     Slip and force are along the law's axis and across it; for the rest see :func:`opposes_slip`.
     """
@@ -102,7 +102,7 @@ def follows_traction(
     traction: tuple[float, ...],
     tolerance: float,
 ) -> bool:
-    """Tell whether force and moment [N, N m] are those of a law of traction."""
+    """True if force and moment [N, N m] are the values of a law of traction."""
     names = list(inspect.signature(law.traction).parameters)[4:]
     out = [math.nan] * (5 + len(state))
     law.traction(normal_force, motion, state, out, **{name: law.parameters()[name] for name in names})
@@ -112,7 +112,7 @@ def follows_traction(
 def follows_map(
     law: ImpactMap, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float
 ) -> bool:
-    """Tell whether impulses give the velocities [m/s] that those of a map give, for maps in closed form.
+    """True if impulses give the velocities [m/s] of the impulses of a map, for maps in closed form.
 
     A map that solves a problem has a certificate of the problem instead: its solution may be one of several.
     """

@@ -27,13 +27,13 @@ _MARKERS = "osD^v<>p"
 
 
 def line(place: int) -> dict[str, Any]:
-    """Return the line style at a place of the legend; styles differ in dashes as well as in colour."""
+    """Line style at a place of the legend; styles differ in dashes as well as in colour."""
     turn, which = divmod(place, len(COLOURS))
     return {"color": COLOURS[which], "linestyle": _DASHES[which], "linewidth": 1.3 + 0.9 * turn}
 
 
 def marker(place: int) -> dict[str, Any]:
-    """Return the style of open markers at a place of the legend; styles differ in shape as well as in colour."""
+    """Style of open markers at a place of the legend; styles differ in shape as well as in colour."""
     which = place % len(COLOURS)
     return {"color": COLOURS[which], "marker": _MARKERS[which], "linestyle": "none", "fillstyle": "none"}
 
@@ -41,7 +41,7 @@ def marker(place: int) -> dict[str, Any]:
 def panels(
     rows: int = 1, columns: int = 1, title: str = "", size: tuple[float, float] = (7.2, 4.4), **subplots: Any
 ) -> tuple[Figure, list[Axes]]:
-    """Return a figure and its empty panels with a grid, row by row.
+    """Figure and its empty panels with a grid, row by row.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is asked of every input at a public door: its kind, and that numbers are numbers."""
+"""Checks of the arguments of public functions: kinds, and finite numbers."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def check_callable(thing: str, value: object, call: str) -> None:
 
 
 def is_finite(value: Any) -> bool:
-    """Tell whether something is a finite number, of Python or numpy; True and False are none."""
+    """True if a value is a finite number of Python or numpy; booleans are not numbers."""
     if isinstance(value, (bool, np.bool_)):
         return False
     try:
@@ -54,7 +54,7 @@ def is_finite(value: Any) -> bool:
 
 
 def floats(thing: str, value: Any) -> NDArray[np.float64]:
-    """Return an array of numbers of its own; InvalidInput if they are none, as texts and truth values are."""
+    """Array of numbers of its own; InvalidInput if they are none, as texts and truth values are."""
     try:
         if np.asarray(value).dtype.kind in "USb":
             raise TypeError("texts and truth values are no numbers")
@@ -66,7 +66,7 @@ def floats(thing: str, value: Any) -> NDArray[np.float64]:
 
 
 def path_of(thing: str, value: object) -> Path:
-    """Return the path that is given as one or as a text.
+    """Path that is given as one or as a text.
 
     Raises
     ------

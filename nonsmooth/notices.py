@@ -1,4 +1,4 @@
-"""What a user is told on standard error while something takes its time."""
+"""Notices on standard error while a computation takes long."""
 
 from __future__ import annotations
 

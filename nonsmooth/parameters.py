@@ -22,7 +22,7 @@ class UnusualValue(NonsmoothWarning):
 
 @dataclass(frozen=True)
 class Rule:
-    """What is known of one parameter.
+    """Description, unit and range of one parameter.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Rule:
     integer: bool = False
 
     def describe(self) -> str:
-        """Return the allowed range in words."""
+        """Allowed range in words."""
         if self.choices:
             return "one of " + ", ".join(self.choices)
         parts = []
@@ -85,7 +85,7 @@ _known: WeakKeyDictionary[type, Rules] = WeakKeyDictionary()
 
 
 def rules(owner: type) -> Rules:
-    """Return the declared parameters of a component class by name."""
+    """Declared parameters of a component class by name."""
     # asked for with every object that is made
     if owner not in _known:
         found = {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
@@ -94,7 +94,7 @@ def rules(owner: type) -> Rules:
 
 
 def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
-    """Return the error of a function that asks for what is no parameter; most often that is a field not declared so."""
+    """Error of a function that asks for what is no parameter; most often that is a field not declared so."""
     declared = f'{name}: float = parameter(0.2, doc="what it is")'
     remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
     return UnknownName(f"{asking} asks for a parameter that", name, offered, remedy=remedy)
@@ -178,7 +178,7 @@ class Component:
 
     @classmethod
     def example(cls) -> Mapping[str, Any]:
-        """Return values of fields with which ``nonsmooth check`` can look at the class; none by default.
+        """Values of fields with which ``nonsmooth check`` can look at the class; none by default.
 
         Those that no number or word can give: shapes, tensors, functions.  Required numbers take some value of their
         range by themselves.
@@ -186,11 +186,11 @@ class Component:
         return {}
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return what the component's compiled functions may ask for, by name."""
+        """Parameters that the component's compiled functions may take, by name."""
         return self.numbers()
 
     def numbers(self) -> dict[str, float]:
-        """Return the declared numbers by name."""
+        """Declared numbers by name."""
         numbers = {}
         for name, (_, rule) in rules(type(self)).items():
             if rule.unit != "" and getattr(self, name) is not None:
@@ -229,7 +229,7 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
 
 
 def from_all_words(owner: type, words: Mapping[str, str], kind: str, option: str) -> Any:
-    """Return an object of ``owner`` out of ``name=value`` words, which must cover what has no default.
+    """Object of ``owner`` out of ``name=value`` words, which must cover what has no default.
 
     ``option`` is how a missing one can be given, with {name}, for messages.
 

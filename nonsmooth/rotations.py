@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 def rotation(q: Any) -> Array:
-    """Return the rotation matrix of a unit quaternion (scalar first), shape [3, 3]."""
+    """Rotation matrix of a unit quaternion (scalar first), shape [3, 3]."""
     a, b, c, d = (float(x) for x in q)
     return np.array(
         [
@@ -24,13 +24,13 @@ def rotation(q: Any) -> Array:
 
 
 def cross(a: Any, b: Any) -> Array:
-    """Return the cross product of two vectors, in a tenth of the time that numpy takes for one."""
+    """Cross product of two vectors, in a tenth of the time that numpy takes for one."""
     (x, y, z), (u, v, w) = a, b
     return np.array([y * w - z * v, z * u - x * w, x * v - y * u])
 
 
 def turned(q: Any, vector: Any) -> Array:
-    """Return a quaternion after a turn by a rotation vector in world axes."""
+    """Quaternion after a turn by a rotation vector in world axes."""
     x, y, z = (float(component) for component in vector)
     angle = math.sqrt(x * x + y * y + z * z)
     s = 0.5 if angle == 0.0 else math.sin(0.5 * angle) / angle

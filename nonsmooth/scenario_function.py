@@ -71,7 +71,7 @@ def scenario(
 
 
 def _fields(name: str, declared: Mapping[str, inspect.Parameter], t_end: float) -> dict[str, tuple[Any, Any]]:
-    """Return annotation and dataclass field of each parameter by name."""
+    """Annotation and dataclass field of each parameter by name."""
     fields: dict[str, tuple[Any, Any]] = {}
     for argument in declared.values():
         if argument.name == "t_end":
@@ -84,7 +84,7 @@ def _fields(name: str, declared: Mapping[str, inspect.Parameter], t_end: float) 
 
 
 def _class_of(function: Callable[..., System], members: Mapping[str, Any], fields: Mapping[str, Any]) -> Any:
-    """Return the frozen dataclass, which pickle and messages find under the function's name."""
+    """Frozen dataclass, which pickle and messages find under the function's name."""
     namespace: dict[str, Any] = {name: getattr(function, name) for name in ("__module__", "__qualname__", "__doc__")}
     namespace |= members
     namespace |= {name: field for name, (_, field) in fields.items()}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def user_cache() -> Path | None:
-    """Return the cache folder of the user; None for one without a home.
+    """Cache folder of the user; None for one without a home.
 
     It is that of the variable XDG_CACHE_HOME, else ``.cache`` in the home; by its standard
     (https://specifications.freedesktop.org/basedir-spec) a relative path in the variable counts as none.

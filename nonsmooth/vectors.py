@@ -16,7 +16,7 @@ UNIT_PART: Mapping[str, Any] = MappingProxyType({"minimum": -1.0 - 0.5 * _UNIT, 
 
 
 def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[float, ...]:
-    """Return a vector as floats.
+    """Vector as floats.
 
     Raises
     ------
@@ -33,7 +33,7 @@ def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[fl
 
 
 def unit_vector(thing: str, value: Sequence[float], size: int = 3) -> tuple[float, ...]:
-    """Return a vector of unit length.
+    """Vector of unit length.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def unit_vector(thing: str, value: Sequence[float], size: int = 3) -> tuple[floa
 
 
 def perpendiculars(axis: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return two unit vectors that make a right-handed triple with a unit axis in front."""
+    """Two unit vectors that make a right-handed triple with a unit axis in front."""
     x, y, z = axis
     # the coordinate axis farthest from it
     least = min(range(3), key=lambda i: abs(axis[i]))

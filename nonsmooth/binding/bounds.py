@@ -61,7 +61,7 @@ class _Bounded:
         self._values[self._place(i)] = float(value)  # type: ignore[index]
 
     def moved(self, offset: int) -> _Bounded:
-        """Return the numbers from an offset on."""
+        """Numbers from an offset on."""
         return _Bounded(self._values, self._left, self._first + offset)
 
 

@@ -16,7 +16,7 @@ Vector = NDArray[np.float64]
 def body_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> Callable[[float, Vector, Vector, Vector], None]:
-    """Return ``call(t, q, u, out)`` that runs a function of the form "body" just as the engine runs it.
+    """Function ``call(t, q, u, out)`` that runs a function of the form "body" just as the engine runs it.
 
     Its vectors are contiguous arrays of floats, and nobody checks their lengths.
 
@@ -32,7 +32,7 @@ def body_caller(
 def pair_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> Callable[[Vector, Vector, Vector], None]:
-    """Return ``call(a, b, out)`` that runs a function of the form "pair" just as the engine runs it.
+    """Function ``call(a, b, out)`` that runs a function of the form "pair" just as the engine runs it.
 
     Its vectors are contiguous arrays of floats, and nobody checks their lengths.
 
@@ -47,7 +47,7 @@ def pair_caller(
 def candidate_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> Callable[[Vector, Vector, Vector, Vector], None]:
-    """Return ``call(a, b, out, candidate)`` for the evaluator of contacts whose features are searched for.
+    """Function ``call(a, b, out, candidate)`` for the evaluator of contacts whose features are searched for.
 
     As :func:`pair_caller`; the candidate is what :class:`nonsmooth.interfaces.CandidateSearch` says, shape [4].
     """
@@ -64,7 +64,7 @@ def candidate_caller(
 def _pair_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> tuple[Callable[[Vector, Vector, Vector], None], Vector]:
-    """Return the call, and the numbers of its parameters."""
+    """Call, and the numbers of its parameters."""
     address, heap = bind(function, "pair", values, owner)
     numbers = np.array([*heap, 0.0])
     return caller("pair", address, numbers), numbers

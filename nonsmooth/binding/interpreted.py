@@ -34,7 +34,7 @@ def note(function: Callable[..., Any], error: BaseException) -> None:
 
 
 def noted(function: Callable[..., Any]) -> str:
-    """Return what a function raised last, and where; nothing if it did not."""
+    """Last error of a function with its place; nothing if it raised none."""
     return _raised.get(function, "")
 
 
@@ -51,21 +51,21 @@ def hold() -> bool:
 
 
 def let_go() -> bool:
-    """Tell whether there was a Ctrl-C while the engine ran, once."""
+    """True, once, if there was a Ctrl-C while the engine ran."""
     asked = bool(_held)
     _held.clear()
     return asked
 
 
 def address(shim: Callable[..., Any], form: str) -> int:
-    """Return the address of a C function of a form that calls a Python one."""
+    """Address of a C function of a form that calls a Python one."""
     callback = FORMS[form].prototype(_Pointer)(shim)
     _alive.append(callback)
     return int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
 
 
 def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str:
-    """Return in words what a call by address takes: of a function of numbers itself, of any other an empty one."""
+    """Words for the argument of a call by address: the function itself if it takes numbers, else an empty one."""
     kinds, prototype = tuple(FORMS[form].arguments.values()), FORMS[form].prototype(_Pointer)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
     given = tuple(heap if kind == "F" else 0 if kind == "i8" else 0.0 for kind in kinds)
@@ -76,7 +76,7 @@ def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str
 
 
 def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
-    """Return the median time of a call [s]."""
+    """Median time of a call [s]."""
     took: list[float] = []
     began = time.perf_counter()
     while len(took) < _CALLS and time.perf_counter() - began < _SECONDS:
@@ -87,7 +87,7 @@ def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
 
 
 def in_python(function: Callable[..., Any], move: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function as Python can run it: where it moves pointers, ``move(heap, offset)`` does it."""
+    """Function as Python can run it: where it moves pointers, ``move(heap, offset)`` does it."""
     return function if PLAIN else _moving(unshared(function), move)
 
 
@@ -114,7 +114,7 @@ def _moving(
 
 
 def move(heap: Any, offset: int) -> Any:
-    """Return a pointer, or a view, moved by ``offset`` numbers."""
+    """Pointer, or a view, moved by ``offset`` numbers."""
     if PLAIN:
         return at(heap, offset)
     start = ctypes.addressof(heap.contents) + offset * ctypes.sizeof(ctypes.c_double)

@@ -26,7 +26,7 @@ class Finding(NamedTuple):
 
 
 def first_without_value(findings: Iterable[Finding | None]) -> str:
-    """Return the first sentence of what has no value again, else the first of all, nothing without any."""
+    """First sentence of what has no value again, else the first of all, nothing without any."""
     found = [finding for finding in findings if finding is not None]
     return next((finding.text for finding in found if finding.again), found[0].text if found else "")
 
@@ -34,7 +34,7 @@ def first_without_value(findings: Iterable[Finding | None]) -> str:
 def without_value(
     heap: NDArray[np.float64], part: LawFunction, state: Sequence[float] | NDArray[np.float64] = (), where: str = ""
 ) -> Finding | None:
-    """Return what is known of the last input for which a function had no finite value in the engine, if there is one.
+    """Last input for which a function had no finite value in the engine, if there is one.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def without_value(
 
 
 def _outcome(part: LawFunction, inputs: dict[str, Any], values: dict[str, Any], n_state: int) -> tuple[str, bool]:
-    """Return what a function does, and whether that is no finite number."""
+    """Value or error of a function as words, and True if that is not a finite number."""
     if noted := interpreted.noted(part.function):
         return noted, True
     if FORMS[part.form].returns:

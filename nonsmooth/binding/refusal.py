@@ -41,13 +41,13 @@ class Refusal:
     text: str
 
     def describe(self, file: str) -> str:
-        """Return place and reason; a place in ``file`` is a line alone."""
+        """Place and reason; a place in ``file`` is a line alone."""
         place = f"line {self.line}" if self.file == file else f"{self.file}, line {self.line}"
         return f"{place}{f', `{self.text}`' if self.text else ''}: {self.reason}"
 
 
 def refusal(function: Callable[..., Any], error: Exception) -> Refusal:
-    """Return what an error of the compiler says of a function."""
+    """Reason why the compiler refuses a function, from its error."""
     message = _COLOUR.sub("", str(error))
     file, line = _place(message, *place_of(function))
     return Refusal(_reason(message) or type(error).__name__, file, line, linecache.getline(file, line).strip())
@@ -63,7 +63,7 @@ def _reason(message: str) -> str:
 
 
 def _place(message: str, file: str, first: int) -> tuple[str, int]:
-    """Return the first place in the message that is a file of Python; the compiler goes from the inside out."""
+    """First place in the message that is a file of Python; the compiler goes from the inside out."""
     for found in _PLACES.finditer(message):
         named, line = found["file"] or found["path"], int(found["line"] or found["number"])
         if Path(named).name == Path(file).name:

@@ -15,12 +15,12 @@ from nonsmooth.engine.native.kernel import unshared
 
 
 def name_of(function: Callable[..., Any]) -> str:
-    """Return the name of a function, or of what stands in the place of one."""
+    """Name of a function, or of what stands in the place of one."""
     return str(getattr(function, "__qualname__", repr(function)))
 
 
 def place_of(function: Callable[..., Any]) -> tuple[str, int]:
-    """Return file and first line of a function, decorators apart; no file and 0 for what is not written in Python."""
+    """File and first line of a function, decorators apart; no file and 0 for what is not written in Python."""
     code = _code(function)
     if code is None:
         return "", 0
@@ -31,13 +31,13 @@ def place_of(function: Callable[..., Any]) -> tuple[str, int]:
 
 
 def described(function: Callable[..., Any]) -> str:
-    """Return name, file and line of a function in words."""
+    """Name, file and line of a function in words."""
     file, line = place_of(function)
     return f"{name_of(function)} in {file}, line {line}" if file else f"{name_of(function)}, which has no source"
 
 
 def raised(function: Callable[..., Any], error: BaseException) -> str:
-    """Return what a function has raised, and at which line, with its text; where it is far from there, that place, too.
+    """Error that a function has raised, with its line and text, and the place if that is far from there.
 
     The line is the last one in the function's own file.
     """
@@ -48,7 +48,7 @@ def raised(function: Callable[..., Any], error: BaseException) -> str:
 
 
 def line_of(function: Callable[..., Any], error: BaseException) -> str:
-    """Return in brackets the last line of a function's own file that an error has passed, with its text."""
+    """Last line of a function's own file that an error has passed, with its text, in brackets."""
     file, line = place_of(function)
     last = _last_own(function, traceback.extract_tb(error.__traceback__))
     return _line(file, last.lineno if last is not None and last.lineno is not None else line)

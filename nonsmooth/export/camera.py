@@ -21,7 +21,7 @@ VIEWS = {
 _FAR = 6.0
 """How large the way is, measured by what the bodies take up at a time, when the camera goes with them."""
 _ROOM = 0.06
-"""What is left free on each side, of the larger extent."""
+"""Margin on each side, relative to the larger extent."""
 
 
 @final
@@ -45,7 +45,7 @@ class Camera:
 
     @classmethod
     def of(cls, film: Film, view: str) -> Camera:
-        """Return the camera of one of the views: all that ever moves is seen; of a long way what is near the bodies."""
+        """Camera of one of the views: all that ever moves is seen; of a long way what is near the bodies."""
         towards = np.array(VIEWS[view]) / np.linalg.norm(VIEWS[view])
         up = np.array([0.0, 1.0, 0.0]) if view == "top" else np.array([0.0, 0.0, 1.0])
         up = up - (up @ towards) * towards
@@ -65,7 +65,7 @@ class Camera:
 
 
 def _bounds(film: Film, flat: Floats, pieces: Sequence[DrawnMesh]) -> tuple[Floats, Floats]:
-    """Return the corners of what pieces take up at each time, shape [n, 2] each; of sheets at the first time."""
+    """Corners of what pieces take up at each time, shape [n, 2] each; of sheets at the first time."""
     low, high = np.full((len(film.times), 2), np.inf), np.full((len(film.times), 2), -np.inf)
     for i in range(len(film.times)):
         for piece in pieces:

@@ -86,7 +86,7 @@ class Film:
 
     @classmethod
     def of(cls, solution: Solution, times: Floats) -> Film:
-        """Return the film of a run at times [s], shape [n].
+        """Film of a run at times [s], shape [n].
 
         Raises
         ------
@@ -133,7 +133,7 @@ class Film:
         return cls(times, places, axes, scale, tuple(pieces), tuple(sorted(moving)), unit)
 
     def placed(self, piece: DrawnMesh, i: int) -> Floats:
-        """Return the vertices of a piece at the time of a number [m], shape [n, 3]."""
+        """Vertices of a piece at the time of a number [m], shape [n, 3]."""
         stretched = piece.mesh.vertices * [self.scale[i, piece.track], 1.0, 1.0]
         return np.asarray(self.origin[i, piece.track] + stretched @ self.axes[i, piece.track].T)
 
@@ -145,7 +145,7 @@ def _colour(scene: Scene, body: int) -> str:
 
 
 def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
-    """Give the meshes of a look, and whether they stand for lines."""
+    """Meshes of a look, each with True if it stands for a line."""
     if len(look.triangles):
         middle = 0.5 * (look.vertices.min(axis=0) + look.vertices.max(axis=0))
         centre = look.vertices[look.triangles].mean(axis=1) - middle
@@ -162,7 +162,7 @@ def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
 def _sheet(
     part: FrameLook, origin: Floats, axes: Floats, low: Floats, high: Floats, unit: float
 ) -> tuple[Floats, ShadedMesh]:
-    """Return where a piece of a plane is, and the piece; it stays where the bodies are when the plane slides in itself.
+    """Place of a piece of a plane, and the piece; it stays where the bodies are when the plane slides in itself.
 
     It goes as far as the bodies at the first time, seen along its normal, and some way on.
     """

@@ -54,7 +54,7 @@ class Arrows:
 
 
 def arrows(solution: Solution) -> Iterator[Arrows]:
-    """Give the arrows of each contact that takes part in an impact; they show what bodies that move get."""
+    """Arrows of each contact that takes part in an impact: the impulses on the bodies that move."""
     # also of an engine that records no contacts, and so no events
     found = Impulses.recorded(HistoryRequest(solution, np.zeros(0)))
     side = sides(solution.system)[found.impulse_contact][:, None]
@@ -138,7 +138,7 @@ def _packed(film: Film, keys: NDArray[np.float32], impulses: Iterable[Arrows]) -
 
 
 def quaternions(axes: Floats) -> Floats:
-    """Return unit quaternions, scalar last, of axes of shape [n, m, 3, 3]; each is nearest to the one before it."""
+    """Unit quaternions, scalar last, of axes of shape [n, m, 3, 3]; each is nearest to the one before it."""
     from scipy.spatial.transform import Rotation
 
     found = np.asarray(Rotation.from_matrix(axes.reshape(-1, 3, 3)).as_quat()).reshape(*axes.shape[:2], 4)

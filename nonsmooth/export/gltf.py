@@ -80,7 +80,7 @@ class Tree:
                 self.samplers.append({"input": time, "output": self.buffer.add(values), "interpolation": how})
 
     def packed(self, roots: list[int]) -> bytes:
-        """Return the file with the nodes that are no other's children."""
+        """File with the nodes that are no other's children."""
         top = self.node("run", rotation=_UPRIGHT, children=roots)
         blob = b"".join(self.buffer.blocks)
         told: dict[str, Any] = {
@@ -119,7 +119,7 @@ def _attributes(buffer: _Buffer, mesh: ShadedMesh, shown: str) -> dict[str, int]
 
 
 def linear(colour: str) -> Floats:
-    """Return how much light a colour "#rrggbb" has of red, green and blue, 1 the most, shape [3]."""
+    """Linear intensities of red, green and blue of a colour "#rrggbb", from 0 to 1, shape [3]."""
     shown = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0
     return np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** _GAMMA)
 

@@ -36,7 +36,7 @@ class Marks:
 
     @classmethod
     def of(cls, solution: Solution, times: Floats, seen: float) -> Marks:
-        """Return the marks of a run at times [s], shape [n]; an impact is seen for so long [s].
+        """Marks of a run at times [s], shape [n]; an impact is seen for so long [s].
 
         There are none where the engine cannot be asked for forces.
         """

@@ -36,12 +36,12 @@ class ShadedMesh:
 
     @classmethod
     def of(cls, vertices: Floats, triangles: Integers) -> ShadedMesh:
-        """Return a mesh of one shade."""
+        """Mesh of one shade."""
         return cls(vertices, triangles, np.ones(len(triangles)))
 
 
 def bar(first: Floats, last: Floats, radius: float) -> ShadedMesh:
-    """Return a round bar from one point to another [m], shape [3] each; they must differ."""
+    """Round bar from one point to another [m], shape [3] each; they must differ."""
     turn = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
     ring = radius * np.column_stack([0.0 * turn, np.cos(turn), np.sin(turn)])
     along = np.linalg.norm(last - first) * np.linspace(0.0, 1.0, _RINGS + 1)
@@ -57,7 +57,7 @@ def bar(first: Floats, last: Floats, radius: float) -> ShadedMesh:
 
 
 def arrow() -> ShadedMesh:
-    """Return an arrow of the length 1 along the first axis."""
+    """Arrow of the length 1 along the first axis."""
     shaft, head = bar(np.zeros(3), np.array([0.75, 0.0, 0.0]), 0.03), bar(np.array([0.7, 0.0, 0.0]), np.eye(3)[0], 0.09)
     # the bar that is its head narrows to a point
     point = head.vertices * np.column_stack([np.ones(len(head.vertices)), *2 * [(1.0 - head.vertices[:, 0]) / 0.3]])
@@ -67,7 +67,7 @@ def arrow() -> ShadedMesh:
 
 
 def along_axes(ways: Floats) -> Floats:
-    """Return axes, as columns, whose first runs along ways, shapes [n, 3, 3] and [n, 3].
+    """Axes, as columns, whose first runs along ways, shapes [n, 3, 3] and [n, 3].
 
     They turn no more than the ways do; where one has no length, its axes are those of the world.
     """
@@ -82,7 +82,7 @@ def along_axes(ways: Floats) -> Floats:
 
 
 def dot(place: Floats, radius: float) -> ShadedMesh:
-    """Return an octahedron about a place [m], shape [3]."""
+    """Octahedron about a place [m], shape [3]."""
     corners = place + radius * np.concatenate([np.eye(3), -np.eye(3)])
     upper = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2)]
     lower = [(b, a, 5) for a, b, _ in upper]
@@ -90,7 +90,7 @@ def dot(place: Floats, radius: float) -> ShadedMesh:
 
 
 def board(low: Floats, high: Floats, cell: float) -> ShadedMesh:
-    """Return a rectangle at the height zero between two corners [m], shape [2] each, chequered in two shades."""
+    """Rectangle at the height zero between two corners [m], shape [2] each, chequered in two shades."""
     n_x, n_y = np.maximum(1, np.ceil((high - low) / cell - 1e-9)).astype(int).tolist()
     x, y = np.meshgrid(low[0] + cell * np.arange(n_x + 1), low[1] + cell * np.arange(n_y + 1), indexing="ij")
     i, j = (one.ravel() for one in np.meshgrid(np.arange(n_x), np.arange(n_y), indexing="ij"))
@@ -102,14 +102,14 @@ def board(low: Floats, high: Floats, cell: float) -> ShadedMesh:
 
 
 def face_normals(corners: Floats) -> Floats:
-    """Return unit normals of triangles with corners of shape [m, 3, 3]; zero where one has no area."""
+    """Unit normals of triangles with corners of shape [m, 3, 3]; zero where one has no area."""
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.linalg.norm(normal, axis=1, keepdims=True)
     return np.asarray(normal / np.where(size > 0.0, size, 1.0))
 
 
 def corner_normals(mesh: ShadedMesh) -> Floats:
-    """Return the unit normal at each corner of each triangle, shape [m, 3, 3]: round, but for edges and flat faces.
+    """Unit normal at each corner of each triangle, shape [m, 3, 3]: round, but for edges and flat faces.
 
     It is the mean of the normals of the faces about the vertex that meet this one without an edge.
     """

@@ -115,7 +115,7 @@ class Movie:
 
 
 def _few_colours(pictures: list[Pixels]) -> list[Any]:
-    """Return the pictures with one palette for all: the colours that they have most of, and those of the marks."""
+    """Pictures with one palette for all: the colours that they have most of, and those of the marks."""
     from PIL import Image
 
     looked_at = np.concatenate([one.reshape(-1, 3) for one in pictures[:: -(-len(pictures) // _LOOKED_AT)]])

@@ -45,7 +45,7 @@ def require() -> None:
 
 
 def drawn(film: Film, marks: Marks, camera: Camera, size: int) -> Iterator[Pixels]:
-    """Give a picture of each time, shape [height, width, 3]; both are even, and the longer one has a size."""
+    """Pictures at the times, shape [height, width, 3]; both are even, and the longer one has the size."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.collections import PolyCollection
     from matplotlib.figure import Figure
@@ -79,7 +79,7 @@ def drawn(film: Film, marks: Marks, camera: Camera, size: int) -> Iterator[Pixel
 
 
 def _dots(figure: Figure, axes: Axes, marks: Marks) -> dict[str, Any]:
-    """Return what is drawn at the marks, by its word, of those that there are at any time."""
+    """Drawn points of the kinds of marks that occur, by the word of the kind."""
     seen = [word for k, word in enumerate(WORDS) if any(len(one[k]) for one in marks.places)]
     found = {
         word: axes.scatter([], [], s=90 if word == "impact" else 36, edgecolors="white", linewidths=0.8, zorder=3,
@@ -95,7 +95,7 @@ def _dots(figure: Figure, axes: Axes, marks: Marks) -> dict[str, Any]:
 
 
 def _faces(film: Film, camera: Camera, i: int) -> tuple[Floats, Floats]:
-    """Return the triangles that face the eye, those behind first, and their colours, shapes [m, 3, 3] and [m, 3]."""
+    """Triangles that face the eye, those behind first, and their colours, shapes [m, 3, 3] and [m, 3]."""
     sheets = [piece for piece in film.pieces if piece.sheet]
     solids = [piece for piece in film.pieces if not piece.sheet]
     placed = [film.placed(piece, i)[piece.mesh.triangles] for piece in solids]
@@ -126,5 +126,5 @@ def _shades(piece: DrawnMesh) -> Floats:
 
 
 def rgb(colour: str) -> Floats:
-    """Return red, green and blue of "#rrggbb", from 0 to 1, shape [3]."""
+    """Red, green and blue of "#rrggbb", from 0 to 1, shape [3]."""
     return np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0

@@ -22,7 +22,7 @@ _PLACES = ("touching", "at_height", "resting")
 
 
 def system(tables: TomlTable, path: Path, gate: Gate) -> System:
-    """Return the system of the tables of a file, whose names a gate lets pass.
+    """System of the tables of a file, whose names a gate lets pass.
 
     Raises
     ------

@@ -27,7 +27,7 @@ TomlTable = dict[str, Any]
 
 
 def table_of(component: Any, thing: str, declared: Any = None) -> TomlTable:
-    """Return a component as a table of plain values.
+    """Component as a table of plain values.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def table_of(component: Any, thing: str, declared: Any = None) -> TomlTable:
 
 @functools.cache
 def hints_of(owner: Any) -> Mapping[str, Any]:
-    """Return the type hints of a component's parameters."""
+    """Type hints of a component's parameters."""
     # each of them is compiled from its text: half of the time of a system from a file
     return typing.get_type_hints(owner)
 
@@ -100,7 +100,7 @@ def _plain(value: Any, thing: str, hint: Any) -> Any:
 
 
 def component(thing: str, value: Any, base: type, gate: Gate) -> Any:
-    """Return the component that a table, or the name of a class with defaults, describes.
+    """Component that a table, or the name of a class with defaults, describes.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def component(thing: str, value: Any, base: type, gate: Gate) -> Any:
 
 
 def _helper(thing: str, base: type, table: TomlTable, gate: Gate) -> Any:
-    """Return an object of one of several classes that have no installed names: their names are those of Python."""
+    """Object of one of several classes that have no installed names: their names are those of Python."""
     word = table.get(TYPE)
     if not named.is_name(word):
         raise InvalidInput(f"{thing}.{TYPE}", "must be the name of a class", word, 'For example "bodies:PointFrame".')
@@ -197,14 +197,14 @@ def naming(thing: str) -> Iterator[None]:
 
 
 def _options(hint: Any) -> tuple[Any, ...]:
-    """Return the types that a hint allows, None apart."""
+    """Types that a hint allows, None apart."""
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
         return tuple(one for one in typing.get_args(hint) if one is not type(None))
     return (hint,)
 
 
 def _elements(hint: Any, n: int) -> tuple[Any, ...]:
-    """Return the hints of the n elements of a sequence."""
+    """Hints of the n elements of a sequence."""
     for one in _options(hint):
         arguments = typing.get_args(one)
         if typing.get_origin(one) is tuple and len(arguments) == n and Ellipsis not in arguments:
@@ -223,7 +223,7 @@ def _abstract(owner: type) -> bool:
 
 
 def _component_class(hint: Any) -> Any:
-    """Return the class of components that a hint allows, None where it allows none."""
+    """Class of components that a hint allows, None where it allows none."""
     for one in _options(hint):
         if isinstance(one, type) and (issubclass(one, _BASES) or dataclasses.is_dataclass(one)):
             return one
@@ -231,13 +231,13 @@ def _component_class(hint: Any) -> Any:
 
 
 def _own_class(hint: Any) -> Any:
-    """Return the class that a reader takes where a table does not say any."""
+    """Class that a reader takes where a table does not say any."""
     owner = _component_class(hint)
     return owner if _concrete(owner) else None
 
 
 def group_of(hint: Any) -> str:
-    """Return where the classes of the components that a hint allows are listed, or of the elements, "" without any."""
+    """Page or command that lists the classes of components that a hint or its elements allow, "" without any."""
     known = (*_options(hint), *(one for option in _options(hint) for one in typing.get_args(option)))
     base = next((one for one in known if isinstance(one, type) and issubclass(one, _BASES)), None)
     return "" if base is None else next(name for name, bases in registry.GROUPS.items() if issubclass(base, bases))

@@ -17,7 +17,7 @@ from nonsmooth.files import named
 from nonsmooth.plugins import file, registry
 
 _CODE = (":", "/", "\\", ".py")
-"""What only words have that lead to code outside of the registered names."""
+"""Characters that only words with a path or a module have."""
 _RULE = "must name what an installed package has registered, as the file is not trusted"
 _REMEDY = (
     "It would run code that the file names. If you trust who wrote it, say trust=True in Python or --trust on the "
@@ -28,7 +28,7 @@ _REMEDY = (
 @final
 @dataclass(frozen=True)
 class Gate:
-    """What the names of one file may mean.
+    """Classes and functions that the names of one file may denote.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Gate:
     trusted: bool = False
 
     def component(self, thing: str, group: str, base: type, word: str) -> Any:
-        """Return the class of a component.
+        """Class of a component.
 
         Parameters
         ----------
@@ -69,12 +69,12 @@ class Gate:
         return file.find(thing, group, base, word, self.folder)
 
     def helper(self, thing: str, word: str) -> Any:
-        """Return a class without an installed name, ``module:Class``; errors as :meth:`component`."""
+        """Class without an installed name, ``module:Class``; errors as :meth:`component`."""
         self._check(thing, word)
         return named.find(thing, word)
 
     def function(self, thing: str, word: str) -> Any:
-        """Return the plain function ``module:function``; errors as :meth:`component`."""
+        """Plain function ``module:function``; errors as :meth:`component`."""
         self._check(thing, word)
         found = named.function(thing, word)
         # a module may show a function that it has from elsewhere

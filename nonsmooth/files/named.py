@@ -16,7 +16,7 @@ _REMEDY = "Define it with a name of its own in a module of a package, not in a f
 
 
 def name_of(thing: str, value: Any) -> str:
-    """Return the name under which others find a function or class.
+    """Name under which others find a function or class.
 
     Raises
     ------
@@ -40,12 +40,12 @@ def _found(module: str, name: str) -> Any:
 
 
 def is_name(word: Any) -> bool:
-    """Tell whether something has the form of such a name."""
+    """True if a word has the form of such a name."""
     return isinstance(word, str) and _NAME.fullmatch(word) is not None
 
 
 def find(thing: str, word: str) -> Any:
-    """Return what a name means.
+    """Function or class of a name.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def find(thing: str, word: str) -> Any:
 
 
 def function(thing: str, word: str) -> Any:
-    """Return the plain Python function of a name; errors as :func:`find`, or InvalidInput if it is none."""
+    """Plain Python function of a name; errors as :func:`find`, or InvalidInput if it is none."""
     found = find(thing, word)
     if not inspect.isfunction(found):
         raise InvalidInput(thing, "must name a plain Python function", word, f"It is {found!r}.")

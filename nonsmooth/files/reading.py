@@ -41,7 +41,7 @@ _KEYS = (
 @final
 @dataclass(frozen=True)
 class Setup:
-    """What a scenario file says.
+    """Content of a scenario file.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Setup:
     _gate: Gate
 
     def build(self) -> System:
-        """Return the system anew."""
+        """The system, built anew."""
         return assembling.system(self._tables, self.path, self._gate)
 
     @property
@@ -79,7 +79,7 @@ class Setup:
         return numbers(self._tables, self._gate)
 
     def varied(self, changes: Mapping[str, Any]) -> Setup:
-        """Return the same with some values changed, by dotted key.
+        """The same with some values changed, by dotted key.
 
         Raises
         ------
@@ -117,7 +117,7 @@ def load_system(path: str | Path, *, trust: bool = False) -> Setup:
 
 
 def read(path: Path, trust: bool, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
-    """Return what a file says, with some of its values changed, by dotted key ("bodies.ball.radius"), as TOML text.
+    """TOML text of a file with some of its values changed, by dotted key ("bodies.ball.radius").
 
     Raises
     ------
@@ -129,7 +129,7 @@ def read(path: Path, trust: bool, changes: Mapping[str, str] = _NO_CHANGES) -> S
 
 
 def setup_of(system: System, t_end: float) -> Setup:
-    """Return what a file of a system would say that runs for so long [s].
+    """TOML text of a system that runs until an end time [s].
 
     Raises
     ------
@@ -155,7 +155,7 @@ def _setup(path: Path, said: TomlTable, changes: Mapping[str, Any], gate: Gate) 
 
 
 def engine_of(thing: str, table: Any, gate: Gate) -> Engine:
-    """Return the engine of a table, the event-driven one where it says none; errors as :func:`load_system`."""
+    """Engine of a table, the event-driven one where it says none; errors as :func:`load_system`."""
     is_default = isinstance(table, dict) and TYPE not in table
     made: Engine = component(thing, table, EventDriven if is_default else Engine, gate)
     return made
@@ -169,7 +169,7 @@ _UNKNOWN = "SI"
 
 
 def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
-    """Return all numbers by dotted key, "bodies.ball.radius", and what is known of each.
+    """All numbers by dotted key, "bodies.ball.radius", each with its rule.
 
     Elements of arrays count from 0; the gate says what classes the names mean.
     """
@@ -198,7 +198,7 @@ def _numbers(
 
 
 def _class(table: TomlTable, group: str, gate: Gate) -> Any:
-    """Return the class that the table of a component names, None where it is no such table."""
+    """Class that the table of a component names, None where it is no such table."""
     word = table.get(TYPE)
     if group not in registry.GROUPS or not isinstance(word, str):
         return None

@@ -27,7 +27,7 @@ class FileScenario(Scenario):
 
     @classmethod
     def of(cls, system: System, t_end: float) -> FileScenario:
-        """Return the scenario of a system, whose numbers can be varied as those of its file.
+        """Scenario of a system, whose numbers can be varied as those of its file.
 
         Raises
         ------
@@ -53,11 +53,11 @@ class FileScenario(Scenario):
         return self.setup.sample_interval or self.t_end / _SAMPLES
 
     def build(self) -> System:
-        """Return the system of the file."""
+        """System of the file."""
         return self.setup.build()
 
     def resolved(self) -> Mapping[str, Any]:
-        """Return title, times, and what was set on the command line."""
+        """Title, times, and what was set on the command line."""
         said = {"title": self.setup.title, "t_end": self.t_end, "sample_interval": self.sample_interval}
         return {**self.setup.changes, **said}
 
@@ -77,31 +77,31 @@ class FileScenario(Scenario):
         return {key: number for key, (number, _) in self.setup.numbers.items()}
 
     def varied(self, **changes: Any) -> FileScenario:
-        """Return the same with some numbers changed."""
+        """The same with some numbers changed."""
         return FileScenario(self.setup.varied(changes))
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """Return nothing: q and u are in the results as they are."""
+        """None, because the results have q and u themselves."""
         return {}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u} of all bodies at the end, in the order of the file."""
+        """Coordinates q and velocities u of all bodies at the end, in the order of the file."""
         return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return how the energy was lost [J]."""
+        """Losses of energy by their cause [J]."""
         energy = solution.energy
         return {"restitution_loss": energy.restitution_loss, "friction_loss": energy.friction_loss}
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return none: a file says what runs, not what comes of it."""
+        """No expected results: a file declares a system only."""
         return ()
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return none."""
+        """None."""
         return {}
 
     @classmethod
     def gallery(cls, progress: Any) -> Mapping[str, Any]:
-        """Return none."""
+        """None."""
         return {}

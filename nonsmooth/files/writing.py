@@ -61,7 +61,7 @@ def save_system(
 
 
 def text_of_system(system: System, *, t_end: float, engine: Engine | None, title: str) -> str:
-    """Return the TOML text of a system, as :func:`save_system` writes it.
+    """The TOML text of a system, as :func:`save_system` writes it.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def tables_of(
     engine: Engine | None = None,
     title: str = "",
 ) -> TomlTable:
-    """Return the tables of a system, as :func:`save_system` writes them.
+    """Tables of a system, as :func:`save_system` writes them.
 
     Raises
     ------

@@ -32,7 +32,7 @@ def _yaml() -> Any:
 
 @functools.cache
 def _classes() -> tuple[Any, Any]:
-    """Return reader and writer."""
+    """Reader and writer."""
     yaml = _yaml()
     safe_loader: Any = yaml.SafeLoader
     safe_dumper: Any = yaml.SafeDumper
@@ -70,7 +70,7 @@ def _represent(dumper: Any, word: str) -> Any:
 
 
 def tables_of(text: str) -> dict[str, Any]:
-    """Return the tables of a text.
+    """Tables of a text.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def tables_of(text: str) -> dict[str, Any]:
 
 
 def text_of(tables: Mapping[str, Any]) -> str:
-    """Return YAML text; floats come back to the last bit.
+    """YAML text from which floats are read to the last bit.
 
     Raises
     ------

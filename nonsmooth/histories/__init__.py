@@ -1,1 +1,1 @@
-"""What held when: states, poses, forces and energies of a run at any of its times."""
+"""Histories: states, poses, forces and energies of a run at any of its times."""

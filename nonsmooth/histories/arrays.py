@@ -1,4 +1,4 @@
-"""What the arrays of histories hold."""
+"""Types of the arrays of histories."""
 
 from __future__ import annotations
 

@@ -121,7 +121,7 @@ class Difference:
     bits: tuple[Integers, ...]
 
     def __reduce__(self) -> tuple[Callable[[bytes], Difference], tuple[bytes]]:
-        """Let pickle store the packed difference, which takes less room than its arrays."""
+        """Pickled as the packed difference, which takes less memory than its arrays."""
         return Difference.unpacked, (self.packed(),)
 
     @classmethod

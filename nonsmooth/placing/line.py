@@ -61,7 +61,7 @@ class Line:
         ]
 
     def met(self) -> Vector:
-        """Return the coordinates of the body where it first meets something, or, if it overlaps, last does going back.
+        """Coordinates of the body where it first meets something, or, if it overlaps, last does going back.
 
         Raises
         ------
@@ -94,7 +94,7 @@ class Line:
         return self._probe.gaps() - self._height
 
     def _least_gap(self, distance: float) -> float:
-        """Return the least gap of the contacts that no solids tell of, less the height [m]."""
+        """Least gap of the contacts that no solids tell of, less the height [m]."""
         return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
 
     def _at_distance(self, distance: float) -> list[Passage]:
@@ -128,7 +128,7 @@ class Line:
         return np.inf
 
     def _exact(self, distance: float) -> float:
-        """Return the root of the least gap of all contacts, if it is next to the place where the solids meet."""
+        """Root of the least gap of all contacts, if it is next to the place where the solids meet."""
         from scipy.optimize import brentq
 
         def over(place: float) -> float:
@@ -148,7 +148,7 @@ class Line:
         return distance
 
     def _motion(self) -> tuple[Vector, Vector]:
-        """Return the coordinate rates of a unit velocity along the way, as far as the body can go there, and where."""
+        """Coordinate rates of a unit velocity along the way, as far as the body can go there, and where."""
         probe = self._probe
         probe.frame(0)
         u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]

@@ -41,7 +41,7 @@ class Probe:
 
     @classmethod
     def of(cls, system: System, body: Body) -> Probe:
-        """Return the probe of a body where it starts."""
+        """Probe of a body where it starts."""
         number = next(i for i, other in enumerate(system.bodies) if other is body)
         return cls(lay_out(system.about(body), EventDriven()), body, number)
 
@@ -75,17 +75,17 @@ class Probe:
         return self._state(self.model.n_q, "u", self.body.n_u)
 
     def frame(self, number: int) -> Vector:
-        """Return the motion of a frame (:mod:`nonsmooth.engine.memory.blocks`)."""
+        """Motion of a frame (:mod:`nonsmooth.engine.memory.blocks`)."""
         call_entry("evaluate_at", self.model.memory)
         return self._part("out", number * (FRAME + 6 * self.body.n_u), FRAME).copy()
 
     def jacobian(self, number: int) -> Vector:
-        """Return that of a frame that was evaluated, shape [6, n_u]."""
+        """Jacobian of a frame that was evaluated, shape [6, n_u]."""
         first = number * (FRAME + 6 * self.body.n_u) + FRAME
         return self._part("out", first, 6 * self.body.n_u).reshape(6, self.body.n_u).copy()
 
     def coordinate_rates(self, u: Vector) -> Vector:
-        """Return dq/dt for velocities, shape [n_q]."""
+        """Coordinate rates dq/dt for velocities, shape [n_q]."""
         kept = self.u.copy()
         self.u[:] = u
         call_entry("evaluate_at", self.model.memory)
@@ -93,7 +93,7 @@ class Probe:
         return self._part("tail", 0, self.body.n_q).copy()
 
     def gaps(self) -> Vector:
-        """Return the gaps of its contacts [m]; bounds from below where shapes are too far apart to be looked at."""
+        """Gaps of its contacts [m]; bounds from below where shapes are too far apart to be looked at."""
         self.model.list_contacts()
         gaps = np.asarray(self.model.gaps())
         margin = float(self.model.memory[owners.Island.list_margin])
@@ -104,7 +104,7 @@ class Probe:
         return gaps
 
     def rates(self, u: Vector) -> Vector:
-        """Return gap rate and slip velocity [m/s] of its contacts for velocities, shape [n, 3]."""
+        """Gap rate and slip velocity [m/s] of its contacts for velocities, shape [n, 3]."""
         self.u[:] = u
         call_entry("evaluate_at", self.model.memory)
         n = int(self.model.memory[owners.Island.n_contacts])

@@ -137,7 +137,7 @@ def _unit(system: System, direction: Sequence[float] | None) -> Vector:
 
 
 def turned_about(axis: Sequence[float], angle: float) -> tuple[float, float, float, float]:
-    """Return the orientation of a body that is turned about an axis, for ``System.place`` and wherever one is asked.
+    """Orientation of a body that is turned about an axis, for ``System.place`` and wherever one is asked.
 
     Parameters
     ----------

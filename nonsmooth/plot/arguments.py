@@ -32,7 +32,7 @@ _MOST_EVENTS = 2000
 
 
 def pyplot() -> ModuleType:
-    """Return matplotlib's pyplot.
+    """Matplotlib's pyplot.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def pyplot() -> ModuleType:
 
 
 def axes_of(ax: Axes | None, height: float = 3.6) -> Axes:
-    """Return the axes given, or those of a new figure [inches]."""
+    """Axes given, or those of a new figure [inches]."""
     if ax is not None:
         return ax
     made: Axes = pyplot().subplots(layout="constrained", figsize=(7.2, height))[1]
@@ -55,7 +55,7 @@ def axes_of(ax: Axes | None, height: float = 3.6) -> Axes:
 
 
 def times_of(where: str, solution: Solution, times: ArrayLike | None, *, before: bool = True) -> Floats:
-    """Return the times to draw [s]: those given, else of the samples and both sides of events, in order, shape [n].
+    """Times to draw [s]: those given, else of the samples and both sides of events, in order, shape [n].
 
     Without ``before`` the side after events only.
 
@@ -77,7 +77,7 @@ def times_of(where: str, solution: Solution, times: ArrayLike | None, *, before:
 
 
 def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most: int = MOST) -> list[int]:
-    """Return the numbers of the contacts to draw: those given, else the busiest, in the order of the system.
+    """Numbers of the contacts to draw: those given, else the busiest, in the order of the system.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most:
 
 
 def part_of(where: str, part: str, parts: Sequence[str]) -> int:
-    """Return which of the parts is asked for.
+    """The part of the name that was given.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def draw_lines(ax: Axes, solution: Solution, numbers: Sequence[int], times: Floa
 
 
 def over_time(ax: Axes, solution: Solution) -> None:
-    """Let the axes be those of the time of a run."""
+    """Make the time of a run the horizontal axis."""
     ax.set_xlabel("time [s]")
     ax.set_xlim(float(solution.track.time[0]), solution.t_end)
     ax.grid(color="0.9", linewidth=0.6)
@@ -133,6 +133,6 @@ def beside(ax: Axes, title: str = "", handles: Sequence[Artist] | None = None) -
 
 
 def title_of(numbers: Sequence[int], solution: Solution) -> str:
-    """Return what a legend says where it has not all contacts."""
+    """Entry of a legend that does not list all contacts."""
     total = len(solution.system.contacts)
     return f"{len(numbers)} of {total} contacts" if len(numbers) < total else ""

@@ -28,7 +28,7 @@ _LOOKS, _BODIES = 30, 40
 
 
 def overview(solution: Solution) -> Figure:
-    """Return the overview of a run (:meth:`nonsmooth.Solution.plot`)."""
+    """Overview of a run (:meth:`nonsmooth.Solution.plot`)."""
     drawn = _panels(solution)
     rows = (len(drawn) + 1) // 2
     figure: Figure = pyplot().figure(figsize=(_WIDTH, 0.6 + _HEIGHT * rows), layout="constrained")
@@ -64,7 +64,7 @@ def _path(solution: Solution, body: Body, plane: str, ax: Axes) -> Axes:
 
 
 def _farthest(solution: Solution) -> tuple[Body, str] | None:
-    """Return the body that goes farthest, and the plane in which it does; None if none goes anywhere."""
+    """Body that goes farthest, and the plane in which it does; None if none goes anywhere."""
     times = solution.t[:: max(1, len(solution.t) // _LOOKS)]
     if len(times) == 0:  # a run that was cut off at once
         return None

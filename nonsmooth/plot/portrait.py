@@ -63,7 +63,7 @@ def phase_portrait(
 
 
 def _ways(values: Floats, jumps: Integers) -> Floats:
-    """Return the values before and after jumps, apart by what is not a number."""
+    """Values before and after jumps, apart by what is not a number."""
     return np.column_stack([values[jumps], values[jumps + 1], np.full(len(jumps), np.nan)]).ravel()
 
 

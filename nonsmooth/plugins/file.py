@@ -22,12 +22,12 @@ _LOADING = threading.Lock()
 
 
 def is_file(word: str) -> bool:
-    """Tell whether a word means a class of a file, ``path/to/file.py:Class``, and not an installed name."""
+    """True if a word denotes a class of a file, ``path/to/file.py:Class``, and not an installed name."""
     return _FILE.fullmatch(word) is not None
 
 
 def find(thing: str, group: str, base: type, word: str, folder: Path | None = None) -> Any:
-    """Return the class that a word means.
+    """Class that a word means.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def find(thing: str, group: str, base: type, word: str, folder: Path | None = No
 
 
 def load(thing: str, bases: tuple[type, ...], word: str, folder: Path | None = None) -> Any:
-    """Return a class of a file; parameters and errors are those of :func:`find`."""
+    """Class of a file; parameters and errors are those of :func:`find`."""
     match = _FILE.fullmatch(word)
     if match is None:
         example = f"For example {word.partition(':')[0]}:My{bases[0].__name__}; a script is run by python itself."
@@ -89,7 +89,7 @@ def _fits(owner: type, bases: tuple[type, ...]) -> bool:
 
 
 def loaded() -> tuple[Path, ...]:
-    """Return the files that this process has loaded so."""
+    """Files that this process has loaded so."""
     files = {
         name: Path(str(vars(sys.modules[name]).get("__file__"))) for name in [*sys.modules] if _KEY.fullmatch(name)
     }
@@ -110,7 +110,7 @@ def again(path: Path) -> None:
 
 
 def _key(path: Path) -> str:
-    """Return the name of the module of a file, which no package has."""
+    """Name of the module of a file, which no package has."""
     return f"{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
 
 

@@ -1,4 +1,4 @@
-"""What a contact problem has for an answer, and how unique the answer is."""
+"""ContactResult: forces, accelerations and modes of a contact problem, and whether they are unique."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ _PROCESSES = "Laws that are maps, as NewtonImpact, need a run: build a System an
 
 @dataclass(frozen=True)
 class ImpactResult:
-    """What an impact did.
+    """Velocity, impulses and energies after an impact.
 
     Attributes
     ----------

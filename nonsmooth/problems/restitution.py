@@ -17,7 +17,7 @@ from nonsmooth.problems.impact import solve_impact
 
 
 def restitution(law: ImpactLaw, speed: float) -> float:
-    """Return the ratio of the speeds after and before an impact of one contact, without slip and friction.
+    """Ratio of the speeds after and before an impact of one contact, without slip and friction.
 
     Whatever an impact law is made of, this is what it says at velocity level: a law with energies or impulses has this
     coefficient as long as no other contact takes part.  It does not depend on the mass.
@@ -92,5 +92,5 @@ class _Smooth(FrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """Tell whether there is no tangential force."""
+        """True if there is no tangential force."""
         return math.hypot(*tangential_force) <= tolerance

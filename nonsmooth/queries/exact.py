@@ -28,7 +28,7 @@ class _Given:
         self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Yield geometry blocks, and up to which gap there is no other one [m]."""
+        """Geometry blocks, and up to which gap there is no other one [m]."""
         for call in self._calls:
             out = np.zeros(GEOMETRY)
             call(a, b, out)
@@ -46,7 +46,7 @@ class _Searched:
         self._most = len(contacts)
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Yield geometry blocks of features no farther than a reach [m], or a part of it if these are too many."""
+        """Geometry blocks of features no farther than a reach [m], or a part of it if these are too many."""
         found, n = np.zeros(1 + CANDIDATE * (self._most + 1)), 0
         for _ in range(_HALVINGS):
             found[0] = reach
@@ -93,7 +93,7 @@ class Contacts:
         self._extent = first.extent + second.extent
 
     def least(self, one: Place, two: Place) -> DistanceResult | None:
-        """Return the least gap that faces, None if none does; bounds are its own value, as nobody has proved it."""
+        """Least gap that faces, None if none does; bounds are its own value, as nobody has proved it."""
         a, b = np.zeros(FRAME), np.zeros(FRAME)
         for block, (position, axes) in zip((a, b), (one, two) if self._in_order else (two, one), strict=True):
             block[:3], block[3:12] = position, axes.ravel()

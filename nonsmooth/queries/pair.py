@@ -19,7 +19,7 @@ from nonsmooth.solids.placed import Placed
 @final
 @dataclass(frozen=True)
 class LibraryPair:
-    """Two shapes as a library has them.
+    """Two shapes as objects of a library.
 
     Attributes
     ----------
@@ -36,14 +36,14 @@ class LibraryPair:
     solids: tuple[Any, Any]
 
     def separation(self, one: Place, two: Place) -> Separation | None:
-        """Return what the library says, None if that is in doubt."""
+        """Separation by the library, None if it is in doubt."""
         try:
             return self.backend.separation(self.solids[0], one, self.solids[1], two)
         except DoubtfulDistance:
             return None
 
     def result(self, told: Separation) -> DistanceResult:
-        """Return what it says of shapes that do not overlap as an answer."""
+        """Distance of shapes that do not overlap, from their separation by the library."""
         gap, error = told.distance, told.error
         return DistanceResult(gap, gap - error, gap + error, told.first, told.second, told.normal, self.name)
 
@@ -55,7 +55,7 @@ def _backends() -> dict[str, DistanceBackend]:
 
 
 def library_pair(first: Shape, second: Shape) -> LibraryPair | None:
-    """Return two shapes as the first installed library that knows both has them; None if none does."""
+    """Two shapes as objects of the first installed library that knows both, None if no library does."""
     for name, backend in _backends().items():
         if backend.installed:
             solids = backend.solid(first), backend.solid(second)
@@ -65,7 +65,7 @@ def library_pair(first: Shape, second: Shape) -> LibraryPair | None:
 
 
 def named_pair(name: str, first: Shape, second: Shape) -> LibraryPair:
-    """Return two shapes as a library of that name has them.
+    """Two shapes as objects of the library of a name.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def named_pair(name: str, first: Shape, second: Shape) -> LibraryPair:
 
 
 def library_names() -> tuple[str, ...]:
-    """Return the names of all libraries, the first to be asked first."""
+    """Names of all libraries, the first to be asked first."""
     return tuple(_backends())
 
 
@@ -103,7 +103,7 @@ _MOST_PIECES = 2000
 
 @final
 class ShapePair:
-    """Two shapes, ready to be asked.
+    """Two shapes, prepared once, whose distance can be computed at any places.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ class ShapePair:
             ) from None
 
     def at(self, one: Place, two: Place) -> DistanceResult:
-        """Return how far the shapes are from each other, their frames at two places.
+        """Distance of the shapes with their frames at two places.
 
         Raises
         ------
@@ -186,7 +186,7 @@ class ShapePair:
         return self._of_surfaces(found, one, two)
 
     def _of_surfaces(self, found: DistanceResult | None, one: Place, two: Place) -> DistanceResult:
-        """Return the answer for surfaces that are not convex: that of contacts, if it is within what else is known."""
+        """Answer for surfaces that are not convex: that of contacts, if it is within what else is known."""
         told = None if self._library is None else self._library.separation(one, two)
         if told is not None and not told.overlap:
             assert self._library is not None
@@ -197,7 +197,7 @@ class ShapePair:
         return self._within(found, self._by_planes(*self._placed(one, two)))
 
     def _within(self, found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
-        """Return what contacts say with the bounds of another answer, or that if they are outside of these."""
+        """Distance by contacts with the bounds of another method, or its distance if the contacts are outside of them."""
         if found is None:
             return bound
         # planes leave no more than round-off between their bounds; contacts see some bodies smaller than they are
@@ -237,7 +237,7 @@ class ShapePair:
 
 
 def shape_pair(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePair:
-    """Return two shapes, ready to be asked: equal ones of the last questions still are.
+    """Pair of two shapes; the last pairs of equal shapes are kept.
 
     Raises
     ------

@@ -18,7 +18,7 @@ from nonsmooth.system.system import System
 
 NEAR, TOUCHING, OVERLAPPING = "near", "touching", "overlapping"
 _PART = 0.1
-"""What is near by default, in units of the smaller body."""
+"""Default distance of bodies that are near, relative to the smaller body."""
 
 
 @final
@@ -50,7 +50,7 @@ class NearPair:
 
 
 def proximity(system: System, within: float | None = None) -> tuple[NearPair, ...]:
-    """Return the pairs of bodies that are near each other at the start, those without a declared contact included.
+    """Pairs of bodies that are near each other at the start, those without a declared contact included.
 
     Parameters
     ----------

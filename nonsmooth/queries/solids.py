@@ -14,7 +14,7 @@ from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.solids.separation import nearest
 
 _CLOSE, _ROUND_OFF = 1e-13, 1e-14
-"""What a search for the nearest points leaves, and what overlaps by less touches, relative to the size."""
+"""Error of a search for the nearest points, and overlap below which solids touch, relative to the size."""
 _SAME = 1e-9
 """A gap of contacts may be off planes and points that prove it by so much, relative to the size."""
 _MOST_PAIRS = 4_000_000
@@ -25,12 +25,12 @@ class TooManyPieces(Exception):
 
 
 def whole(solid: Placed) -> Piece:
-    """Return the convex hull of a solid."""
+    """Convex hull of a solid."""
     return Piece(solid.support, np.mean(solid.bounds, axis=0) if solid.solid.hollow else _only(solid).place)
 
 
 def by_planes(one: Placed, two: Placed) -> DistanceResult:
-    """Return how far two solids are from each other, or how deep they overlap.
+    """Distance of two solids, or minus the depth of their overlap.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def by_planes(one: Placed, two: Placed) -> DistanceResult:
 
 
 def deep(one: Placed, two: Placed) -> DistanceResult | None:
-    """Return how deep two solids overlap that need not be convex, None if they do not.
+    """Overlap of two solids that need not be convex, None without overlap.
 
     Their hulls, parted, part them; how deep at least two pieces overlap, or how deep a surface goes round the other
     solid, is the other bound.
@@ -64,7 +64,7 @@ def deep(one: Placed, two: Placed) -> DistanceResult | None:
 
 
 def proved(found: DistanceResult, one: Placed, two: Placed) -> DistanceResult | None:
-    """Return what contacts say of two convex solids with the bounds that planes prove; None if these contradict it.
+    """Distance of two convex solids by contacts, with bounds that planes prove; None if the bounds exclude it.
 
     Apart, planes across the normal leave the gap between them.  In one another, the gap is the way out along the
     normal, and no shorter one is known.
@@ -116,7 +116,7 @@ def _overlapping(out: Penetration) -> DistanceResult:
 
 
 def _of_pieces(one: Placed, two: Placed) -> DistanceResult:
-    """Return the distance of solids apart, by pieces whose boxes are nearer than the nearest points so far."""
+    """Distance of solids apart, by pieces whose boxes are nearer than the nearest points so far."""
     way = _middle(two) - _middle(one)
     reach = float(np.linalg.norm(two.support(-way) - one.support(way))) if np.any(way) else _size(one, two)
     (low, high), (below, above) = one.bounds, two.bounds

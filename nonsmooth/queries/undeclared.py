@@ -1,4 +1,4 @@
-"""What is said of bodies that overlap where a run starts or ends and have no contact."""
+"""Warnings of bodies without contact that overlap at the start or the end of a run."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Undeclared:
 
     @classmethod
     def of(cls, system: System) -> Undeclared:
-        """Return the pairs of a system."""
+        """Pairs of a system."""
         return cls(system, Ties.of(system))
 
     @functools.cached_property
@@ -95,7 +95,7 @@ class Undeclared:
         )
 
     def near(self, places: Places) -> list[tuple[int, int]]:
-        """Return those whose boxes meet where the frames have these places."""
+        """Pairs whose boxes meet, with the frames at these places."""
         bodies = self.system.bodies
         met = near_bodies(bodies, places, np.zeros(len(bodies))) if self.any else iter(())
         return [(i, j) for i, j in met if self._is_one(i, j)]
@@ -120,7 +120,7 @@ class Undeclared:
         self._warn(found, "overlap where the run ended, having passed into each other", 5)
 
     def _gap(self, i: int, j: int, places: Places) -> float:
-        """Return the gap of two bodies [m], 0 where they touch."""
+        """Gap of two bodies [m], 0 where they touch."""
         bodies = self.system.bodies
         sizes = [size for size in (size_of(bodies[i]), size_of(bodies[j])) if math.isfinite(size)]
         try:
@@ -146,7 +146,7 @@ class Undeclared:
 
 
 def _overlap(one: Body, places: Sequence[Place], two: Body, others: Sequence[Place]) -> float:
-    """Return how deep at least solids of two bodies reach into each other [m], 0 if they may touch."""
+    """Lower bound of the overlap of solids of two bodies [m], 0 if they may touch."""
     for a, b in itertools.product(_solids(one, places), _solids(two, others)):
         (low, high), (below, above) = a[0].bounds, b[0].bounds
         if np.any(low > above) or np.any(below > high):
@@ -161,7 +161,7 @@ def _overlap(one: Body, places: Sequence[Place], two: Body, others: Sequence[Pla
 
 
 def _solids(body: Body, places: Sequence[Place]) -> list[tuple[Placed, float]]:
-    """Return the solids of a body where they stand, with the extents of their shapes [m]."""
+    """Solids of a body where they stand, with the extents of their shapes [m]."""
     return [
         (Placed(solid, *place), shape.extent)
         for place, shapes in zip(places, body.frames, strict=True)

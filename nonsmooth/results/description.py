@@ -29,7 +29,7 @@ _ARRAYS = tuple(field.name for field in dataclasses.fields(State) if field.name 
 
 
 def state_bytes(state: State) -> bytes:
-    """Return a state, with what it needs to go on, as the content of a file."""
+    """State, with what it needs to go on, as the content of a file."""
     arrays: dict[str, Any] = {name: np.asarray(getattr(state, name)) for name in _ARRAYS}
     arrays["energy"] = np.array(dataclasses.astuple(state.energy))
     if state.continuation is not None:
@@ -42,7 +42,7 @@ def state_bytes(state: State) -> bytes:
 
 
 def state_from(content: bytes, thing: str) -> State:
-    """Return the state out of the content of a file, which messages call ``thing``.
+    """State out of the content of a file, which messages call ``thing``.
 
     Raises
     ------
@@ -66,11 +66,11 @@ def state_from(content: bytes, thing: str) -> State:
 UNFINISHED = "unfinished"
 """Status of a run that goes on, or was cut off."""
 MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on with it"
-"""What is said of it."""
+"""Message of an unfinished run."""
 
 
 def attributes_of(output: Output, engine: Engine, request: RunRequest) -> dict[str, Any]:
-    """Return the attributes of the folder of a run that begins."""
+    """Attributes of the folder of a run that begins."""
     known = versions()
     return {
         "Conventions": "CF-1.11",
@@ -92,7 +92,7 @@ def attributes_of(output: Output, engine: Engine, request: RunRequest) -> dict[s
 
 
 def _table(engine: Engine) -> TomlTable:
-    """Return an engine as a table; one that no file can name by its class in Python, and its options as words."""
+    """Engine as a table; one that no file can name by its class in Python, and its options as words."""
     try:
         return table_of(engine, "engine")
     except InvalidInput:
@@ -101,14 +101,14 @@ def _table(engine: Engine) -> TomlTable:
 
 
 def named_elsewhere(table: TomlTable) -> bool:
-    """Tell whether the table of an engine names a class in Python, which is none that is installed."""
+    """True if the table of an engine names a class in Python, which is not an installed one."""
     return ":" in str(table.get(TYPE))
 
 
 def system_variable(
     system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]
 ) -> LabelledArray:
-    """Return the system as a scenario file; where it cannot be one, an attribute says why.
+    """System as a scenario file; where it cannot be one, an attribute says why.
 
     An engine that no file can name costs its own table only: an attribute has what it was.
     """
@@ -121,6 +121,6 @@ def system_variable(
 
 
 def energies(state: State) -> dict[str, float]:
-    """Return the account of energy [J], as far as JSON has its numbers."""
+    """Account of energy [J], as far as JSON has its numbers."""
     account = {**vars(state.energy), "energy_residual": state.energy.residual}
     return {name: value for name, value in account.items() if math.isfinite(value)}

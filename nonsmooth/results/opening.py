@@ -72,7 +72,7 @@ def open_solution(
     engine: Engine | None = None,
     trust: bool = False,
 ) -> Solution:
-    """Return the solution in a folder of results, also one that is unfinished.
+    """Solution in a folder of results, also one that is unfinished.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def open_solution(
 
 
 def stored_setup(output: Output, folder: SolutionFolder, trust: bool) -> Setup:
-    """Return the system of a folder of results, built from what it says of it.
+    """System of a folder of results, built from what it says of it.
 
     Raises
     ------
@@ -146,7 +146,7 @@ def _engine_or_its_name(output: Output, folder: SolutionFolder, trust: bool) -> 
 
 
 def stored_engine(output: Output, folder: SolutionFolder, trust: bool) -> Engine:
-    """Return the engine that ran, as the folder says it.
+    """Engine that ran, as the folder says it.
 
     Raises
     ------

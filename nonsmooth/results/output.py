@@ -49,7 +49,7 @@ class Output:
 
     @classmethod
     def to(cls, where: Output | Path | str) -> Output:
-        """Return the output that is meant by it or by its folder.
+        """Output that is meant by it or by its folder.
 
         Raises
         ------
@@ -70,7 +70,7 @@ class OtherVersions(NonsmoothWarning):
 
 @functools.cache
 def versions() -> Mapping[str, str]:
-    """Return the versions on which the last bits of a run hang."""
+    """Versions on which the last bits of a run hang."""
     found = {
         "nonsmooth": version("nonsmooth"),
         "python": platform.python_version(),

@@ -270,7 +270,7 @@ class SolutionFolder:
             return float(self.said("checkpoint")["wall_seconds"])
 
     def check_cut_off(self) -> None:
-        """Raise InvalidInput unless it holds a run that was cut off."""
+        """Raise InvalidInput unless the folder holds a run that was cut off."""
         if "checkpoint" not in self.attributes:
             raise InvalidInput(
                 f"{self.place}",

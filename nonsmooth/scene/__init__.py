@@ -1,1 +1,1 @@
-"""What is seen of a system, and where it is at times of a run: for viewer, exports and pictures."""
+"""Scene: visible parts of a system and their places at times of a run, for viewer, exports and pictures."""

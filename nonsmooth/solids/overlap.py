@@ -31,7 +31,7 @@ _Face = tuple[float, Point, int, int, int]
 @final
 @dataclass(frozen=True)
 class Penetration:
-    """The shortest way that parts two convex sets.
+    """Shortest translation that separates two convex sets.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class Penetration:
 
 
 def depth(one: Piece, two: Piece, tolerance: float) -> float:
-    """Return how far two convex sets must be moved at least to part them [m], or 0 if that is within a tolerance [m].
+    """Least translation that separates two convex sets [m], or 0 if it is within a tolerance [m].
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def depth(one: Piece, two: Piece, tolerance: float) -> float:
 
 
 def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
-    """Return the shortest way that parts two convex sets to a thousandth, None if a tolerance covers their overlap.
+    """Shortest way that parts two convex sets to a thousandth, None if a tolerance covers their overlap.
 
     Round ones may be told less exactly: what is known lies between the bounds.
 
@@ -120,7 +120,7 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
 
 
 def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[Point]:
-    """Return four points that span a volume, counter-clockwise round the first; none if the sets part on the way."""
+    """Four points that span a volume, counter-clockwise round the first; none if the sets part on the way."""
     points: list[Vector] = []
     while len(points) < 4:
         best, most = np.zeros(3), 0.0
@@ -143,7 +143,7 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
 
 
 def _across(points: list[Vector]) -> Iterable[Vector]:
-    """Return unit vectors across the flat set through some points, with either sign."""
+    """Unit vectors across the flat set through some points, with either sign."""
     if len(points) == 3:
         normal = np.cross(points[1] - points[0], points[2] - points[0])
         ways = [normal / np.linalg.norm(normal)]
@@ -160,7 +160,7 @@ def _across(points: list[Vector]) -> Iterable[Vector]:
 def _expanded(
     corners: list[Point], farthest: Callable[[Vector], Vector], tolerance: float, exact: float
 ) -> tuple[float, list[Point], Point]:
-    """Return the depth, or 0, and corners and normal of the face that it is that of."""
+    """Depth, or 0, and corners and normal of the face that it is that of."""
     points = list(corners)
     faces = [_face(points, *trio) for trio in ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2))]
     size = max(math.hypot(*point) for point in points)
@@ -180,7 +180,7 @@ def _expanded(
 
 
 def _pushed_out(points: list[Point], faces: list[_Face], least: float) -> list[_Face]:
-    """Return the faces of the hull of a polytope and the last of the points, which lies over one of its faces."""
+    """Faces of the hull of a polytope and the last of the points, which lies over one of its faces."""
     top = points[-1]
     kept: list[_Face] = []
     rims: set[tuple[int, int]] = set()

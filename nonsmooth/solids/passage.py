@@ -62,12 +62,12 @@ class Passage:
         return not self._near and nested(self.one, self.two, self.tolerance) == 0.0
 
     def ahead(self) -> float:
-        """Return how far the first can go on along the way, being clear [m]; infinite if it meets nothing."""
+        """Distance that the first, now clear, can move along the way [m]; infinite if it meets nothing."""
         pairs = near_pairs(self.one, self.two, self.height, (self._size + self.height) * self.way)
         return self._first(list(pairs), 0.0)
 
     def back(self) -> float:
-        """Return how far the first must go back at least to be clear, not being so [m]; it need not suffice."""
+        """Least distance that the first, not clear now, must go back [m]; it need not suffice."""
         if near := self._near:
             return -self._first(near, self._far)
         met = (
@@ -89,7 +89,7 @@ class Passage:
         return [(a, b) for a, b in pairs if separation(a, b, still, self.height, 0.1 * least)[0] < -least]
 
     def _first(self, pairs: list[tuple[Piece, Piece]], start: float) -> float:
-        """Return where the first of some pairs of pieces meets, from where all are apart [m]."""
+        """Distance at which the first of some pairs of pieces meets, from a place where all are apart [m]."""
         least, best = _EXACT * (self._size + self.height), math.inf
         bounds = [
             (float(self.way @ (two.support(-self.way) - one.support(self.way))) - self.height, i)

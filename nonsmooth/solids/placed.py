@@ -33,7 +33,7 @@ class Placed:
     rotation: Vector
 
     def moved(self, way: Vector) -> Placed:
-        """Return the same solid elsewhere by ``way`` [m], shape [3]."""
+        """The same solid, moved by ``way`` [m], shape [3]."""
         return replace(self, position=self.position + way)
 
     @functools.cached_property
@@ -42,7 +42,7 @@ class Placed:
         return _box(*self.solid.bounds, self.rotation, self.position)
 
     def support(self, direction: Vector) -> Vector:
-        """Return a point that lies farthest along a direction [m], shape [3]."""
+        """Point that lies farthest along a direction [m], shape [3]."""
         return np.asarray(self.position + self.rotation @ self.solid.support(direction @ self.rotation))
 
     @property
@@ -51,11 +51,11 @@ class Placed:
         return self.position + self.solid.inner @ self.rotation.T
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell whether a hollow one goes round a point that lies deeper than a margin under its boundary [m]."""
+        """True if a hollow solid encloses a point deeper than a margin under its boundary [m]."""
         return self.solid.holds(self.rotation.T @ (point - self.position), margin)
 
     def pieces(self, low: Vector, high: Vector) -> list[Piece]:
-        """Return the pieces that may reach into a box [m], in the axes of the world."""
+        """Pieces that may reach into a box [m], in the axes of the world."""
         inverse = self.rotation.T
         box = _box(low, high, inverse, -inverse @ self.position)
         return [self._in_world(piece) for piece in self.solid.pieces(*box)]
@@ -70,7 +70,7 @@ class Placed:
 
 
 def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float:
-    """Return how deep at least two solids reach into each other [m]; 0 if a tolerance covers it.
+    """Lower bound of the overlap of two solids [m]; 0 if a tolerance covers it.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Return how deep at least a hollow solid holds points of the other one [m]; 0 if a tolerance covers it.
+    """Lower bound of the depth of points of one solid in the other, hollow one [m]; 0 if a tolerance covers it.
 
     No pieces of them may overlap by more than the tolerance.
     """
@@ -115,7 +115,7 @@ def nested(one: Placed, two: Placed, tolerance: float) -> float:
 def near_pairs(
     one: Placed, two: Placed, margin: float = 0.0, way: Vector | None = None
 ) -> Iterator[tuple[Piece, Piece]]:
-    """Yield the pieces of two solids whose boxes meet.
+    """Pieces of two solids whose boxes meet.
 
     Parameters
     ----------
@@ -141,6 +141,6 @@ def near_pairs(
 
 
 def _box(low: Vector, high: Vector, axes: Vector, place: Vector) -> tuple[Vector, Vector]:
-    """Return the box along the axes of one frame that holds a box along those of another."""
+    """Box along the axes of one frame that holds a box along those of another."""
     middle, half = place + axes @ (0.5 * (low + high)), np.abs(axes) @ (0.5 * (high - low))
     return middle - half, middle + half

@@ -43,7 +43,7 @@ class Nearest:
 
 
 def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float) -> tuple[float, Vector]:
-    """Return a lower bound of the distance of two convex sets less a margin [m], and a normal of planes that prove it.
+    """Lower bound of the distance of two convex sets less a margin [m], and a normal of planes that prove it.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float
 
 
 def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
-    """Return where two convex sets are nearest.
+    """Nearest points of two convex sets.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
 
 @dataclass(frozen=True)
 class _Found:
-    """What a search ended with: a bound and its normal, and the simplex that holds the nearest point."""
+    """Result of a search: a bound and its normal, and the simplex that holds the nearest point."""
 
     bound: float
     normal: Vector
@@ -170,7 +170,7 @@ def _of_triangle(a: Point, b: Point, c: Point) -> _Nearest:
 
 
 def _normal(a: Point, b: Point, c: Point) -> Point:
-    """Return the normal of a triangle, as long as twice its area, of its two shorter edges.
+    """Normal of a triangle, as long as twice its area, of its two shorter edges.
 
     Of two long edges that are nearly parallel it would be off by as much as moves the height of a sliver.
     """

@@ -1,1 +1,1 @@
-"""What a run computed."""
+"""Solutions of runs: samples, events, modes, energy, and the end."""

@@ -31,11 +31,11 @@ class Series(Protocol):
     """Anything over time that has a dataset: states, poses, energies, contact forces, one contact, and so on."""
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return it as a dataset with the time, in [s], as an axis, or as a number."""
+        """Dataset with the time [s] as an axis or as a number."""
 
 
 def table(series: Series) -> str:
-    """Return a table with a row for each time; over each column stand name, labels and unit.
+    """Table with a row for each time; over each column stand name, labels and unit.
 
     Raises
     ------

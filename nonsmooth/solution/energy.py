@@ -52,7 +52,7 @@ class EnergyAccount:
 
     @property
     def unexplained(self) -> float:
-        """What the account does not explain of the change [J]."""
+        """Part of the change that the account does not explain [J]."""
         return abs(self.change - self.driven_work - self.load_work + self.loss)
 
     @property
@@ -68,5 +68,5 @@ class EnergyAccount:
 
     @property
     def residual(self) -> float:
-        """What the account does not explain, relative to :attr:`scale`."""
+        """Part of the change that the account does not explain, relative to :attr:`scale`."""
         return self.unexplained / self.scale if self.scale > 0.0 else self.unexplained

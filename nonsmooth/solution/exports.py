@@ -40,7 +40,7 @@ FORMATS: Mapping[str, Callable[..., ExportFormat]] = {
 
 
 def exporter(path: Path | str, **options: Any) -> Callable[[Solution], Path]:
-    """Return what writes a run to a path (:meth:`nonsmooth.Solution.export`); what can be wrong is refused here."""
+    """Function that writes a run to a path (:meth:`nonsmooth.Solution.export`); the options are checked here."""
     found = path_of("export: path", path)
     suffix = found.suffix.lower()
     if suffix not in FORMATS:

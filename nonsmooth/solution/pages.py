@@ -36,12 +36,12 @@ def show(solution: Solution, title: str, most_knots: int) -> tuple[Path, bool]:
 
 
 def not_opened(path: Path) -> str:
-    """Return what is said of a page that no browser was found for, as on a machine without a display."""
+    """Message for a page without a browser, as on a machine without a display."""
     return f"no browser was found; open this file: {path}"
 
 
 def framed(solution: Solution) -> str:
-    """Return the page of a run within a frame, as notebooks show it."""
+    """Page of a run within a frame, as notebooks show it."""
     text = html.escape(page(solution, "", MOST_KNOTS))
     words = 'sandbox="allow-scripts" title="a run of nonsmooth" style="width:100%;height:600px;border:0"'
     return f'<iframe srcdoc="{text}" {words}></iframe>'

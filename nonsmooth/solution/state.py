@@ -1,4 +1,4 @@
-"""State: where a run stands, from which another one starts or the same one goes on."""
+"""State of a run at a time, from which another run starts or the same run continues."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _ARRAYS = ("q", "u", "modes", "slip_directions", "closing_rates", "features", "l
 @final
 @dataclass(frozen=True)
 class Continuation:
-    """What continues a run as if it had not stopped, in addition to its state.
+    """Data that continue a run as if it had not stopped, in addition to its state.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Continuation:
 @final
 @dataclass(frozen=True, eq=False)
 class State:
-    """Where a run stands.
+    """State of a run at a time.
 
     A state that a run left goes on as if that run had not stopped, on the same model.  One that was made otherwise,
     also by :func:`dataclasses.replace`, and any on a model with other numbers, is a start: what touches is found anew,
@@ -102,7 +102,7 @@ class State:
 
     @classmethod
     def at(cls, system: System, time: float = 0.0, q: ArrayLike | None = None, u: ArrayLike | None = None) -> State:
-        """Return a start with no contact closed yet: those that touch close in the first instant of the run.
+        """Start with no contact closed yet: those that touch close in the first instant of the run.
 
         Parameters
         ----------
@@ -139,13 +139,13 @@ class State:
         )
 
     def __repr__(self) -> str:
-        """Return when it is, and how much there is of it."""
+        """Time, and numbers of coordinates, velocities and closed contacts."""
         closed = int(np.count_nonzero(self.modes))
         size = f"{len(self.q)} coordinates, {len(self.u)} velocities, {closed} of {len(self.modes)} contacts closed"
         return f"State(t = {self.time:.9g} s: {size})"
 
     def with_continuation(self, continuation: Continuation) -> State:
-        """Return the same state, from which the run goes on; for the engine that left it."""
+        """Same state, from which the run goes on; for the engine that left it."""
         object.__setattr__(self, "continuation", continuation)
         return self
 

@@ -1,4 +1,4 @@
-"""What a run that reached its end may be suspected of: an energy account that is open, quaternions off unit length."""
+"""Checks of a run that reached its end: energy account and length of quaternions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
-"""What steps and impacts within their tolerances leave adds up to no more than so many of them, or one a step."""
+"""Largest sum of the residuals of steps and impacts, in tolerances; or one tolerance for each step."""
 _MOST = 1e-3
 """Part of the energy exchanged by which no account may be open, however many steps there were."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
@@ -37,7 +37,7 @@ def suspicions(
     floor: float,
     span: Callable[[], str],
 ) -> str:
-    """Return what is wrong with a run, "" for nothing.
+    """Sentence about the check that a run fails, "" if it passes all.
 
     ``engine`` is what integrated it; what it promises takes the place of what tolerances explain.
     ``worst_event`` has time [s], energy [J] and share of what is explained, ``jump`` time [s] of the last spring that
@@ -69,7 +69,7 @@ def _remedy_of(engine: Engine) -> str:
 
 
 def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: float = 0.0) -> str:
-    """Return what is wrong with the energy account of a run by an engine that promises a residual, or "".
+    """Sentence about the energy account of a run by an engine that promises a residual, "" if it is closed.
 
     The residual counts in parts of what is exchanged, or of ``floor`` [J] where that is more.
     """
@@ -83,7 +83,7 @@ def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: flo
 
 
 def open_event(time: float, energy: float, share: float) -> str:
-    """Return what is wrong with the event whose account is open most: ``share`` of what tolerances explain, or ""."""
+    """Sentence about the event with the largest residual: ``share`` of the residual that tolerances explain, or ""."""
     if share <= 1.0:
         return ""
     return (
@@ -93,7 +93,7 @@ def open_event(time: float, energy: float, share: float) -> str:
 
 
 def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
-    """Return what is wrong with springs that began inside of bodies and gained so much energy [J], or ""."""
+    """Sentence about springs that began inside of bodies and gained an energy [J], or ""."""
     if gained <= _MOST * max(energy.scale, floor):
         return ""
     return (
@@ -103,7 +103,7 @@ def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0
 
 
 def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
-    """Return what is wrong with friction that brought in so much energy [J], or ""."""
+    """Sentence about friction that added an energy [J], or ""."""
     if gained <= _MOST * max(energy.scale, floor):
         return ""
     return (
@@ -112,7 +112,7 @@ def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
 
 
 def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0, floor: float = 0.0) -> str:
-    """Return what is wrong with the energy account of a run of so many steps of a relative tolerance, or "".
+    """Sentence about the energy account of a run of a number of steps of a relative tolerance, or "".
 
     Of slow motion the tolerance is a part of the scale of velocities, which have the kinetic energy ``scale`` [J].  In
     all no more is explained than a thousandth of what is exchanged, or of ``floor`` [J] where that is more; an engine
@@ -134,7 +134,7 @@ def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float =
 def long_quaternion(
     bodies: Mapping[str, Body], t: NDArray[np.float64], q: NDArray[np.float64], explained: float
 ) -> str:
-    """Return which quaternion is off unit length most at the samples, by more than is explained, or ""."""
+    """Sentence about the quaternion whose length differs most from 1 at the samples, "" if round-off explains it."""
     most, found, first = explained, "", 0
     for name, body in bodies.items():
         if body.quaternion >= 0 and len(t) > 0:

@@ -110,7 +110,7 @@ def sync(path: Path) -> None:
 
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield a path to write a file or a folder to; it becomes ``path`` when all of it is on the disk.
+    """Path to write a file or a folder to; it becomes ``path`` when all of it is on the disk.
 
     Until then an older file or folder of that name stays as it was, however the process ends.
 

@@ -1,1 +1,1 @@
-"""What the user writes: bodies, contacts, laws, starts."""
+"""Systems: bodies, contacts, laws and starts that the user declares."""

@@ -1,4 +1,4 @@
-"""What is declared in a system: contacts, joints and loads, each between frames of two bodies, and guards."""
+"""Parts of a system: contacts, joints and loads, each between frames of two bodies, and guards."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Contact:
         frames: tuple[int, int] = (0, 0),
         name: str = "",
     ) -> Contact:
-        """Return the contact of two shapes; extents and levers are those of the shapes.
+        """Contact of two shapes; extents and levers are those of the shapes.
 
         Parameters
         ----------
@@ -81,11 +81,11 @@ class Contact:
         return cls(name, one, two, frames, shapes, kinematics, extents, levers, laws.normal, laws.friction, laws.impact)
 
     def __str__(self) -> str:
-        """Return what messages call it."""
+        """Name in messages."""
         return f"contact {self.name!r}"
 
     def __repr__(self) -> str:
-        """Return its name, geometry and laws, in words."""
+        """Its name, geometry and laws, in words."""
         laws = ", ".join(type(law).__name__ for law in (self.normal, self.friction, self.impact) if law is not None)
         return f"Contact({self.name!r}: {type(self.kinematics).__name__}; {laws})"
 
@@ -97,7 +97,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class ContactDeclaration:
-    """What one call of ``System.contact`` said.
+    """Arguments of a call of ``System.contact``.
 
     Attributes
     ----------
@@ -137,7 +137,7 @@ class Watched:
     guard: Guard
 
     def __str__(self) -> str:
-        """Return what messages call it."""
+        """Name in messages."""
         return f"guard {self.name!r}"
 
 
@@ -170,5 +170,5 @@ class Tie:
     component: Joint | Load
 
     def __str__(self) -> str:
-        """Return what messages call it."""
+        """Name in messages."""
         return f"{self.kind} {self.name!r}"

@@ -98,7 +98,7 @@ class Materials:
             raise UnknownName("material", name, self.names)
 
     def laws(self, one: str | None, other: str | None) -> ContactLaws:
-        """Return the laws of two materials; None stands for a body without one.
+        """Laws of two materials; None stands for a body without one.
 
         Raises
         ------

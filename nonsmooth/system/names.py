@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _BETWEEN = " - "
 _RESERVED = (_BETWEEN, "(", ")")
-"""What made names are put together with: chosen ones have none of it, so that no two are alike."""
+"""Parts that join made names. Chosen names have none of them, so that no two names are equal."""
 _HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
@@ -44,14 +44,14 @@ class Names:
 
 
 def kind_word(component: object) -> str:
-    """Return in words what a component is: its installed name, else that of its class."""
+    """Kind of a component in words: its installed name, else the name of its class."""
     owner = type(component)
     word = registry.name_of(owner) or _HUMP.sub(" ", owner.__name__).lower()
     return " ".join(word.replace("_", " ").split())
 
 
 def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ...]:
-    """Return the names of bodies: the chosen ones, and made ones in place of those that are empty."""
+    """Names of bodies: the chosen ones, and made ones in place of those that are empty."""
     words = {kind: kind_word(body) for kind, body in {type(body): body for body in bodies}.items()}
     kinds = ["" if name else words[type(body)] for body, name in zip(bodies, chosen, strict=True)]
     totals, taken = Counter(kinds), {*chosen}
@@ -68,7 +68,7 @@ def _numbered(kind: str) -> Iterator[str]:
 
 
 def between(first: str, second: str, what: str = "") -> str:
-    """Return the name of what is between two bodies of these names; ``what`` says what it is, a contact if empty."""
+    """Name of what is between two bodies of these names; ``what`` says what it is, a contact if empty."""
     return f"{what} {first}{_BETWEEN}{second}".strip()
 
 
@@ -119,7 +119,7 @@ class Naming:
         return self._made
 
     def give(self, kind: str, chosen: str, made: Sequence[str]) -> list[str]:
-        """Return names for new parts of a kind: the chosen one, if that is empty those made, numbered where alike.
+        """Names for new parts of a kind: the chosen one, if that is empty those made, numbered where alike.
 
         Raises
         ------
@@ -142,7 +142,7 @@ class Naming:
 
 
 def check_name(where: str, name: object, taken: Collection[str] = ()) -> None:
-    """Look at a name that a user chose.
+    """Check a name that a user chose.
 
     Raises
     ------

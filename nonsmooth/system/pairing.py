@@ -40,7 +40,7 @@ class Side:
 def select(
     where: str, bodies: tuple[Body, Body], shapes: Any, carried: Callable[[Body], Frames]
 ) -> tuple[list[Side], list[Side]]:
-    """Return the shapes chosen of either body, in the order of its frames; ``carried`` gives those of each frame.
+    """Shapes chosen of either body, in the order of its frames; ``carried`` gives those of each frame.
 
     Raises
     ------

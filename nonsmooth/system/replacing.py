@@ -20,7 +20,7 @@ def with_laws(
     friction: TangentialLaw | None = None,
     impact: ImpactLaw | None = None,
 ) -> System:
-    """Return a system of the same bodies, starts, joints, loads and guards, with other laws in all of its contacts.
+    """System of the same bodies, starts, joints, loads and guards, with other laws in all of its contacts.
 
     Parameters
     ----------
