@@ -65,7 +65,7 @@ def address(shim: Callable[..., Any], form: str) -> int:
 
 
 def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str:
-    """Words for the argument of a call by address: the function itself if it takes numbers, else an empty one."""
+    """Time of a call by address in words: of the function if it takes numbers only, else of an empty one."""
     kinds, prototype = tuple(FORMS[form].arguments.values()), FORMS[form].prototype(_Pointer)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
     given = tuple(heap if kind == "F" else 0 if kind == "i8" else 0.0 for kind in kinds)

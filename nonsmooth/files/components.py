@@ -237,7 +237,7 @@ def _own_class(hint: Any) -> Any:
 
 
 def group_of(hint: Any) -> str:
-    """Page or command that lists the classes of components that a hint or its elements allow, "" without any."""
+    """Group of the installed names of components that a hint or its elements allow, "" without any."""
     known = (*_options(hint), *(one for option in _options(hint) for one in typing.get_args(option)))
     base = next((one for one in known if isinstance(one, type) and issubclass(one, _BASES)), None)
     return "" if base is None else next(name for name, bases in registry.GROUPS.items() if issubclass(base, bases))

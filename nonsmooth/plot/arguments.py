@@ -96,7 +96,7 @@ def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most:
 
 
 def part_of(where: str, part: str, parts: Sequence[str]) -> int:
-    """The part of the name that was given.
+    """Number of the part of a picture with a name.
 
     Raises
     ------

@@ -16,12 +16,12 @@ from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.problems.contact_result import ContactMode, ContactResult
 from nonsmooth.problems.matrices import (
-    check_arrays,
     check_friction,
     check_mass,
     columns_of,
     law_without_value,
     memory_of,
+    read_arrays,
     write_delassus,
 )
 from nonsmooth.watch import Watch
@@ -78,21 +78,17 @@ def solve_contact(
     check_kind("solve_contact: solver", solver, str, 'For example "auto".')
     number = solver_of(solver)
     check_kind("solve_contact: friction", friction, Collection, "Give one friction law per contact.")
-    h = floats("solve_contact: force", force)
-    n_u, n = h.size, len(friction)
-    m, w = floats("solve_contact: mass", mass), floats("solve_contact: normal", normal)
-    t = floats("solve_contact: tangential", tangential)
-    v = np.zeros((n, 2)) if slip is None else floats("solve_contact: slip", slip)
-    s = np.zeros((n, 3)) if bias is None else floats("solve_contact: bias", bias)
-    arrays = {
-        "force": (h, (n_u,)),
-        "mass": (m, (n_u, n_u)),
-        "normal": (w, (n_u, n)),
-        "tangential": (t, (n_u, n, 2)),
-        "slip": (v, (n, 2)),
-        "bias": (s, (n, 3)),
-    }
-    check_arrays("solve_contact", arrays, "Give one friction law per contact.")
+    n_u, n = floats("solve_contact: force", force).size, len(friction)
+    h, m, w, t, v, s = read_arrays(
+        "solve_contact",
+        "Give one friction law per contact.",
+        force=(force, (n_u,)),
+        mass=(mass, (n_u, n_u)),
+        normal=(normal, (n_u, n)),
+        tangential=(tangential, (n_u, n, 2)),
+        slip=(slip, (n, 2)),
+        bias=(bias, (n, 3)),
+    )
     if n == 0:
         raise InvalidInput(
             "solve_contact: friction", "must have a law for at least one contact", n, "Give one per contact."

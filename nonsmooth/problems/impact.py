@@ -15,12 +15,12 @@ from nonsmooth.engine.memory.modes import ImpactOutcome
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.problems.matrices import (
-    check_arrays,
     check_friction,
     check_mass,
     columns_of,
     law_without_value,
     memory_of,
+    read_arrays,
     write_delassus,
 )
 from nonsmooth.watch import Watch
@@ -120,18 +120,16 @@ def solve_impact(
         check_kind("solve_impact: impact", law, ImpactProcess, _PROCESSES)
     if not (is_finite(tolerance) and tolerance > 0.0):
         raise InvalidInput("solve_impact: tolerance", "must be positive and finite", tolerance, "For example 1e-10.")
-    m, w = floats("solve_impact: mass", mass), floats("solve_impact: normal", normal)
-    t, u = floats("solve_impact: tangential", tangential), floats("solve_impact: velocity", velocity)
-    n_u, n = u.size, len(impact)
-    z_driven = np.zeros((n, 3)) if prescribed is None else floats("solve_impact: prescribed", prescribed)
-    arrays = {
-        "mass": (m, (n_u, n_u)),
-        "normal": (w, (n_u, n)),
-        "tangential": (t, (n_u, n, 2)),
-        "prescribed": (z_driven, (n, 3)),
-        "velocity": (u, (n_u,)),
-    }
-    check_arrays("solve_impact", arrays, "Give one impact law per contact.")
+    n_u, n = floats("solve_impact: velocity", velocity).size, len(impact)
+    m, w, t, z_driven, u = read_arrays(
+        "solve_impact",
+        "Give one impact law per contact.",
+        mass=(mass, (n_u, n_u)),
+        normal=(normal, (n_u, n)),
+        tangential=(tangential, (n_u, n, 2)),
+        prescribed=(prescribed, (n, 3)),
+        velocity=(velocity, (n_u,)),
+    )
     if len(friction) != n or n == 0:
         rule = f"must have one law for each of {n} contacts"
         raise InvalidInput("solve_impact: friction", rule, len(friction), "Give one per contact.")

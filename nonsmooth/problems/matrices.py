@@ -6,11 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, without_value
 from nonsmooth.binding.law_functions import law_functions
+from nonsmooth.checks import floats
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
@@ -22,17 +23,19 @@ from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFr
 Floats = NDArray[np.float64]
 
 
-def check_arrays(call: str, arrays: Mapping[str, tuple[Floats, tuple[int, ...]]], remedy: str) -> None:
-    """Check that arrays are finite and have the shapes given with them.
+def read_arrays(call: str, remedy: str, **given: tuple[ArrayLike | None, tuple[int, ...]]) -> list[Floats]:
+    """Arrays of floats with the shapes given with them; zeros in place of None.
 
     Raises
     ------
     InvalidInput
         If a shape is wrong or a number is not finite. The message begins with the function ``call``.
     """
-    for name, (array, shape) in arrays.items():
+    found = [np.zeros(shape) if one is None else floats(f"{call}: {name}", one) for name, (one, shape) in given.items()]
+    for array, (name, (_, shape)) in zip(found, given.items(), strict=True):
         if array.shape != shape or not np.all(np.isfinite(array)):
             raise InvalidInput(f"{call}: {name}", f"must be finite with shape {shape}", array.shape, remedy)
+    return found
 
 
 def check_mass(call: str, mass: Floats) -> None:

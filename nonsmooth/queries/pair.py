@@ -197,7 +197,7 @@ class ShapePair:
         return self._within(found, self._by_planes(*self._placed(one, two)))
 
     def _within(self, found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
-        """Distance by contacts with the bounds of another method, or its distance if the contacts are outside of them."""
+        """Distance by contacts with the bounds of another method; the result of that method if it excludes it."""
         if found is None:
             return bound
         # planes leave no more than round-off between their bounds; contacts see some bodies smaller than they are

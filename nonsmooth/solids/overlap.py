@@ -16,7 +16,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.interfaces.solid import Piece, Vector
-from nonsmooth.solids.separation import Point, as_point, cross, dot, minus
+from nonsmooth.solids.separation import Point, as_point, combined, cross, dot, minus
 
 _EXACT, _CLOSE = 0.1, 1e-3
 """A depth is told as exactly as this, relative to it: a bound, and where the shortest way out is asked for."""
@@ -109,13 +109,7 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
         return None
     upper, normal = min(best)
     # the points under the face that is nearest to the origin
-    trio = np.array(corner)
-    shares = np.linalg.lstsq(
-        np.vstack([trio.T, np.full(3, np.max(np.abs(trio)))]),
-        np.append(lower * np.array(unit), np.max(np.abs(trio))),
-        rcond=None,
-    )[0]
-    first, second = (shares @ np.array(rows) for rows in zip(*(points[point] for point in corner), strict=True))
+    first, second = combined(lower * np.array(unit), corner, (points[point] for point in corner))
     return Penetration(min(lower, upper), upper, np.array(normal), first, second)
 
 

@@ -7,6 +7,7 @@ the origin of the set of all differences.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -79,12 +80,27 @@ def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
     found = _search(one, two, np.zeros(3), 0.0, enough, 0.0)
     if not found.corners:
         return Nearest(found.bound, found.normal, one.place, two.place)
-    # the parts with which the corners make up the nearest point
-    corners = np.array(found.corners)
-    rows = np.vstack([corners.T, np.full(len(corners), np.max(np.abs(corners), initial=1e-300))])
-    shares = np.linalg.lstsq(rows, np.append(np.array(found.point), rows[3, 0]), rcond=None)[0]
-    first, second = (shares @ np.array(points) for points in zip(*found.points, strict=True))
+    first, second = combined(np.array(found.point), found.corners, found.points)
     return Nearest(found.bound, found.normal, first, second)
+
+
+def combined(point: Vector, corners: Sequence[Point], pairs: Iterable[tuple[Vector, Vector]]) -> Iterator[Vector]:
+    """Points of two sets [m], shape [3] each, in the parts with which corners make up a point of the differences.
+
+    Parameters
+    ----------
+    point : Vector
+        The point, shape [3], in the convex hull of the corners.
+    corners : sequence of Point
+        Differences of points of the two sets.
+    pairs : iterable of tuple of Vector
+        The points of the two sets at each corner.
+    """
+    known = np.array(corners)
+    # the last row makes the sum of the parts 1, in the scale of the others
+    rows = np.vstack([known.T, np.full(len(known), np.max(np.abs(known), initial=1e-300))])
+    shares = np.linalg.lstsq(rows, np.append(point, rows[3, 0]), rcond=None)[0]
+    return (shares @ np.array(points) for points in zip(*pairs, strict=True))
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from nonsmooth.checks import check_kind
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING, Mode
 from nonsmooth.errors import InvalidInput, MissingPackagesError, UnknownName
 from nonsmooth.histories.variables import VARIABLES
+from nonsmooth.solution.events import ENERGIES
 from nonsmooth.storage.files import replacing
 
 if TYPE_CHECKING:
@@ -80,8 +81,7 @@ _FORCES = (
 """Variables of the series "forces"."""
 _ENERGIES = [name for name, row in VARIABLES.items() if row.unit == "J"]
 """Variables of the series "energies"."""
-_EVENT_ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
-_HEAD = ("time [s]", "cause", "contact or guard", "phases", *(f"{name} [J]" for name in _EVENT_ENERGIES), "modes")
+_HEAD = ("time [s]", "cause", "contact or guard", "phases", *(f"{name} [J]" for name in ENERGIES), "modes")
 _UNCHANGED = {bits << BEFORE | bits << DURING | bits << AFTER for bits in range(CODE + 1)}
 """Codes of contacts whose mode an event does not change."""
 
@@ -109,7 +109,7 @@ def _write_events(solution: Solution, file: TextIO) -> None:
     rows.writerow(_HEAD)
     for events in solution.events.blocks():
         first, listed, codes = events.first.tolist(), events.listed.tolist(), events.codes.tolist()
-        causes, energies = events.causes(), [getattr(events, name).tolist() for name in _EVENT_ENERGIES]
+        causes, energies = events.causes(), [getattr(events, name).tolist() for name in ENERGIES]
         for i, (time, trigger) in enumerate(zip(events.time.tolist(), events.triggers(names, guards), strict=True)):
             modes = [
                 f"{names[listed[j]]} {' '.join(_bits(codes[j] >> shift) for shift in (BEFORE, DURING, AFTER))}"

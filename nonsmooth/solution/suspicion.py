@@ -13,7 +13,7 @@ from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
-"""Largest sum of the residuals of steps and impacts, in tolerances; or one tolerance for each step."""
+"""Largest sum of residuals of steps and impacts that tolerances explain, in tolerances; or one for each step."""
 _MOST = 1e-3
 """Part of the energy exchanged by which no account may be open, however many steps there were."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
