@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from nonsmooth.interfaces import AnisotropicFrictionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, claim, rows
+from nonsmooth.testing.claims import FEWEST, Claims, claim, rows
 from nonsmooth.testing.coefficient import (
     COEFFICIENT,
     DRAWS,
@@ -47,6 +47,7 @@ _ELSEWHERE = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 """Axes of the body that does not have the law's axis."""
 _AXIS_HEADING = number("axis_heading", -3.1, 3.1)
 _LEAN = number("axis_lean", -0.5, 0.5)
+_ANISOTROPIC = Claims()
 
 
 def anisotropic_rows(law: AnisotropicFrictionLaw, vanishing: tuple[str, ...]) -> list[Row]:
@@ -80,7 +81,7 @@ def _axis_and_body(law: AnisotropicFrictionLaw) -> str:
     return "" if sound else f"the axis is {tuple(axis)}"
 
 
-@claim(SPEED, HEADING)
+@_ANISOTROPIC.claim(SPEED, HEADING)
 def _maximum_dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float) -> str:
     """Of all forces in the bound it accepts that under slip which takes out most energy."""
     slip = along(speed, heading)
@@ -148,7 +149,7 @@ def _after(
     return after, solution.energy.friction_loss
 
 
-@claim(SPEED, HEADING, FORCE, SHARE, _AXIS_HEADING, _LEAN, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, FORCE, SHARE, _AXIS_HEADING, _LEAN, fewest=FEWEST)
 def _sustained_contact(
     law: AnisotropicFrictionLaw, speed: float, heading: float, load: float, share: float, axis: float, lean: float
 ) -> str:
@@ -169,14 +170,14 @@ def _sustained_contact(
     return ""
 
 
-@claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
     """Friction takes energy out of impacts."""
     _, lost = _after(law, along(speed, heading), axis, approach=speed, t_end=1e-9)
     return f"friction gives {-lost:g} J to the impact" if lost < -1e-8 * speed**2 else ""
 
 
-@claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
     """An impact too slight to change the slip has the direction and ratio of impulses that the force has."""
     slip, approach = along(speed, heading), _SLIGHT * speed
@@ -190,7 +191,7 @@ def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: 
     return ""
 
 
-@claim(SPEED, HEADING, TURN, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, TURN, fewest=FEWEST)
 def _frame_invariance(law: AnisotropicFrictionLaw, speed: float, heading: float, turn: float) -> str:
     """If the bodies and the slip are turned together, an impact turns with them."""
     slip = along(speed, heading)
@@ -198,15 +199,6 @@ def _frame_invariance(law: AnisotropicFrictionLaw, speed: float, heading: float,
     if math.dist(a, b) > 1e-6 * speed:
         return f"the slip after is ({a[0]:g}, {a[1]:g}) m/s, turned by {turn:g} rad ({b[0]:g}, {b[1]:g}) m/s"
     return ""
-
-
-_ANISOTROPIC = [
-    _maximum_dissipation,
-    _sustained_contact,
-    _dissipation,
-    _force_and_impact_level,
-    _frame_invariance,
-]
 
 
 @claim(SPEED, HEADING)

@@ -52,7 +52,7 @@ def _function(body: Body, name: str) -> CheckedFunction:
 
 
 @claim()
-def _start(body: Body) -> str:
+def _start(body: Body) -> None:
     """The start has the sizes that the body names, each number a unit, and unknown words are refused."""
     q, u = body.state()
     for name, once, again in zip(("q", "u"), (q, u), body.state(), strict=True):
@@ -78,7 +78,7 @@ def _start(body: Body) -> str:
     try:
         body.state(**{_UNKNOWN: 0.0})
     except InvalidInput:
-        return ""
+        return
     raise Broken("`state` takes words that it does not know", _UNKNOWN, 0.0)
 
 
@@ -92,7 +92,7 @@ def _writes_its_block(body: Body, at: State) -> str:
 
 
 @claim()
-def _sketch(body: Body) -> str:
+def _sketch(body: Body) -> None:
     """What is seen of it besides its shapes can be drawn."""
     sketch = body.sketch
     if not isinstance(sketch, Sequence) or len(sketch) > len(body.frames):
@@ -105,4 +105,3 @@ def _sketch(body: Body) -> str:
         raise Broken("it must give the ends of the same number of lines at all q, shape [n, 2, 3]", "strokes", shape)
     if not np.all(np.isfinite(body.strokes(q))):
         raise Broken("ends of lines must be finite [m]", "strokes", body.strokes(q))
-    return ""

@@ -188,7 +188,7 @@ def _energy_in_free_flight(body: Body, at: State) -> str:
 
 
 @claim()
-def _free_flight(body: Body) -> str:
+def _free_flight(body: Body) -> None:
     """A short run of the body alone closes its energy account."""
     numbers = {one.name: _RUN * one.high for one in state_of(body).numbers}
     _, q, u = state_at(body, numbers | {"t": 0.0})
@@ -198,7 +198,6 @@ def _free_flight(body: Body) -> str:
     residual = simulate(system, duration, sample_interval=duration).energy.residual
     if not (math.isfinite(residual) and residual <= 1e-7):
         raise Broken(f"after {duration:g} s the account leaves {residual:g} of the energy unexplained")
-    return ""
 
 
 def _quaternion(body: Body) -> slice:

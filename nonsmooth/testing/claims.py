@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -33,7 +34,7 @@ class Claim:
     says : str
         The statement.
     trial : callable
-        Takes the component and its inputs. Returns the fault, or "" if there is none.
+        Takes the component and its inputs. Returns the fault, "" or None if there is none.
     inputs : tuple of Drawn
         What the trial gets besides the component.
     n_inputs : int or None
@@ -44,7 +45,7 @@ class Claim:
 
     name: str
     says: str
-    trial: Callable[..., str]
+    trial: Callable[..., str | None]
     inputs: tuple[Drawn, ...] = ()
     n_inputs: int | None = None
     fewest: int | None = None
@@ -60,7 +61,7 @@ class Claim:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", UnusualValue)
-                return self.trial(component, *(one.made(case) for one in self.inputs))
+                return self.trial(component, *(one.made(case) for one in self.inputs)) or ""
         except (NotChecked, Broken):
             raise
         except (NonsmoothError, ArithmeticError, LookupError, TypeError, ValueError) as error:
@@ -87,14 +88,38 @@ class Claim:
 
 def claim(
     *inputs: Drawn, name: str = "", n_inputs: int | None = None, fewest: int | None = None
-) -> Callable[[Callable[..., str]], Claim]:
+) -> Callable[[Callable[..., str | None]], Claim]:
     """Make a claim of a function: its name with blanks is the name, its docstring the statement."""
 
-    def made(trial: Callable[..., str]) -> Claim:
+    def made(trial: Callable[..., str | None]) -> Claim:
         says = " ".join(inspect.cleandoc(trial.__doc__ or "").split()).rstrip(".")
         return Claim(name or trial.__name__.strip("_").replace("_", " "), says, trial, inputs, n_inputs, fewest)
 
     return made
+
+
+@final
+class Claims(list[Claim]):
+    """The claims about a kind of component, in the order in which they are written.
+
+    Parameters
+    ----------
+    fewest : int, optional
+        Inputs that are tried in plain mode.
+    """
+
+    def __init__(self, *, fewest: int | None = None) -> None:
+        super().__init__()
+        self._fewest = fewest
+
+    def claim(self, *inputs: Drawn, **options: Any) -> Callable[[Callable[..., str | None]], Claim]:
+        """Make a claim of a function, as :func:`claim` does, and add it."""
+
+        def added(trial: Callable[..., str | None]) -> Claim:
+            self.append(claim(*inputs, **{"fewest": self._fewest, **options})(trial))
+            return self[-1]
+
+        return added
 
 
 def rows(
@@ -116,8 +141,8 @@ def rows(
     given : sequence of Drawn
         Inputs in the place of :data:`GIVEN`.
     """
-    return [_row(one.at(*given), components, count) for one in claims]
+    return [Row(one.name, one.says, functools.partial(_examine, one.at(*given), components, count)) for one in claims]
 
 
-def _row(one: Claim, components: Callable[[], Iterable[Any]], count: int) -> Row:
-    return Row(one.name, one.says, lambda: one.examine(components(), count))
+def _examine(one: Claim, components: Callable[[], Iterable[Any]], count: int) -> None:
+    one.examine(components(), count)

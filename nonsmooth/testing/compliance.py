@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, claim, rows
+from nonsmooth.testing.claims import FEWEST, Claims, rows
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
@@ -50,6 +50,7 @@ _SHORT, _FREE = 1e-6, 0.5
 _LONGEST = 30.0
 """How long an impact is followed, in units of the time in which its depth is reached."""
 _MOST_CALLS = 200_000
+_COMPLIANT = Claims()
 
 
 def compliant_rows(law: CompliantNormalLaw) -> list[Row]:
@@ -95,20 +96,20 @@ def _depth(law: CompliantNormalLaw, depth: float) -> float:
     return unit * depth
 
 
-@claim()
+@_COMPLIANT.claim()
 def _reach(law: CompliantNormalLaw) -> str:
     """The gap at which it lets go is finite and not negative."""
     return "" if 0.0 <= law.reach < math.inf else f"it is {law.reach:g} m"
 
 
-@claim(_SPEED)
+@_COMPLIANT.claim(_SPEED)
 def _nothing_at_zero(law: CompliantNormalLaw, speed: float) -> str:
     """Without indentation and at rest there is no force."""
     force = _plain(law)(0.0, 0.0, speed)
     return f"the force is {force:g} N" if abs(force) > _NOTHING else ""
 
 
-@claim(_DEPTH, _FACTOR, _SPEED, n_inputs=24)
+@_COMPLIANT.claim(_DEPTH, _FACTOR, _SPEED, n_inputs=24)
 def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -> str:
     """At rest the force does not fall with the indentation, and comes to 1 N."""
     unit, force = _unit(law), _plain(law)
@@ -131,7 +132,7 @@ def _pulling(law: CompliantNormalLaw, speed: float) -> str:
     return f"it is {force:g} N at an indentation of {_FARTHEST:g} m, and a negative force pulls: it has the wrong sign"
 
 
-@claim(_DEPTH, _SHARE, _SPEED)
+@_COMPLIANT.claim(_DEPTH, _SHARE, _SPEED)
 def _pulls_within_its_reach(law: CompliantNormalLaw, depth: float, share: float, speed: float) -> str:
     """At rest it does not push across a gap, and does not pull without a gap."""
     if not math.isfinite(_unit(law)) and (found := _pulling(law, speed)):
@@ -151,7 +152,7 @@ def _wave(second: float, phase: float) -> Array:
     return np.asarray((wave - np.min(wave)) / np.ptp(wave))
 
 
-@claim(_DEPTH, _SPEED, _RATE_BACK, _WAVE)
+@_COMPLIANT.claim(_DEPTH, _SPEED, _RATE_BACK, _WAVE)
 def _dissipation(law: CompliantNormalLaw, drawn: float, speed: float, rate_back: float, wave: Array) -> str:
     """Round closed cycles, and from the closing of the contact to its end, it takes energy out or none."""
     depth = _depth(law, drawn)
@@ -178,7 +179,7 @@ def _energies(law: CompliantNormalLaw, x: Array, fastest: float, closing_rate: f
     return np.asarray(forces * steps)
 
 
-@claim(_DEPTH, _SPEED, _RATE)
+@_COMPLIANT.claim(_DEPTH, _SPEED, _RATE)
 def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: float) -> str:
     """It accepts the force of the law, and none that differs by a hundredth."""
     x, rate = _depth(law, depth), share * speed
@@ -191,7 +192,7 @@ def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: flo
     return ""
 
 
-@claim(_DEPTH, _SPEED, fewest=FEWEST)
+@_COMPLIANT.claim(_DEPTH, _SPEED, fewest=FEWEST)
 def _impact(law: CompliantNormalLaw, drawn: float, speed: float) -> str:
     """A mass that strikes in the engine leaves, or stays, as an independent integration of m x'' = -F has it."""
     depth, force = _depth(law, drawn), _plain(law)
@@ -247,12 +248,3 @@ def _integrated(law: CompliantNormalLaw, load: float, depth: float, speed: float
     return duration, x, rate
 
 
-_COMPLIANT = [
-    _reach,
-    _nothing_at_zero,
-    _rises,
-    _pulls_within_its_reach,
-    _dissipation,
-    _certificate,
-    _impact,
-]

@@ -88,18 +88,17 @@ def _place(rng: np.random.Generator, size: float) -> Place:
 
 
 @claim()
-def _points(backend: DistanceBackend) -> str:
+def _points(backend: DistanceBackend) -> None:
     """Nearest points are the distance apart, along the normal."""
     for one in _answers(backend):
         found = one.found
         off = found.second - found.first - found.distance * found.normal
         if not (np.max(np.abs(off)) <= _SAME * one.size and abs(float(found.normal @ found.normal) - 1.0) <= _SAME):
             raise one.broken("they are not", "separation", found)
-    return ""
 
 
 @claim()
-def _order(backend: DistanceBackend) -> str:
+def _order(backend: DistanceBackend) -> None:
     """In the other order of two solids the answer is the same."""
     for one in _answers(backend):
         try:
@@ -109,11 +108,10 @@ def _order(backend: DistanceBackend) -> str:
         allowed = one.found.error + back.error + _SAME * one.size
         if back.overlap or not abs(back.distance - one.found.distance) <= allowed:
             raise one.broken("it is not", "separation", (one.found, back))
-    return ""
 
 
 @claim()
-def _planes(backend: DistanceBackend) -> str:
+def _planes(backend: DistanceBackend) -> None:
     """No plane across the normal leaves more between convex solids."""
     for one in _answers(backend):
         first, second = one.shapes[0].solid, one.shapes[1].solid
@@ -124,4 +122,3 @@ def _planes(backend: DistanceBackend) -> str:
         between = float(n @ (low - place - axes @ first.support(axes.T @ n)))
         if not abs(between - one.found.distance) <= one.found.error + 1e-3 * one.size:
             raise one.broken(f"they leave {between:.9g} m", "distance", one.found.distance)
-    return ""

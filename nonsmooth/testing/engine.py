@@ -19,7 +19,7 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.system.materials import ContactLaws
 from nonsmooth.system.system import System
 from nonsmooth.testing import engine_scenes as scenes
-from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
@@ -37,6 +37,7 @@ _THROUGH = 0.1
 _HEAP_SAMPLES = 60
 _HEIGHT = 0.5 * scenes.GRAVITY * (0.5 * _END) ** 2
 """Height of a fall that ends in the middle of the run [m]."""
+_ENGINE = Claims()
 
 
 def check_engine(engine: Engine) -> list[Property]:
@@ -120,22 +121,20 @@ class _Trial:
         return ""
 
 
-@claim()
-def _names(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _names(trial: _Trial) -> None:
     """`own`, `counts` and `settings` name what the workspace has, or is to have."""
     assemble(trial.system, trial.engine)
-    return ""
 
 
-@claim()
-def _free_fall(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _free_fall(trial: _Trial) -> None:
     """A free body moves as gravity has it."""
     t, solution = trial.solution.t, trial.solution
     path = np.outer(t, _START[:3])
     path[:, 2] -= 0.5 * scenes.GRAVITY * t**2
     assert_allclose(solution.q[:, :3], path, rtol=0.0, atol=_EXACT)
     assert_allclose(solution.u[:, 3:], np.broadcast_to(_START[3:], (len(t), 3)), rtol=0.0, atol=_EXACT)
-    return ""
 
 
 def _require_times(solution: Solution, n: int) -> None:
@@ -145,49 +144,46 @@ def _require_times(solution: Solution, n: int) -> None:
     assert_allclose(solution.t, np.linspace(0.0, _END, n + 1), rtol=0.0, atol=1e-12)
 
 
-@claim()
-def _samples(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _samples(trial: _Trial) -> None:
     """The samples are at the times asked for, from the start to the end."""
     _require_times(trial.solution, _SAMPLES)
     if trial.solution.t_end != _END:
         raise Broken("the run must end there", "t_end", trial.solution.t_end)
-    return ""
 
 
-@claim()
-def _many_samples(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _many_samples(trial: _Trial) -> None:
     """No sample is lost where they fill the buffers many times."""
     _require_times(trial.model.run(_END, sample_interval=_END / _MANY_SAMPLES), _MANY_SAMPLES)
-    return ""
 
 
-@claim()
+@_ENGINE.claim()
 def _energy(trial: _Trial) -> str:
     """The account of energy closes."""
     return trial.account_fault(trial.solution)
 
 
-@claim()
+@_ENGINE.claim()
 def _repeatable(trial: _Trial) -> str:
     """A second run of a model is the same to the last bit."""
     return trial.difference(trial.model.run(_END, sample_interval=_END / _SAMPLES))
 
 
-@claim()
-def _contact(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _contact(trial: _Trial) -> None:
     """A body does not fall through a slab, or `check` refuses it and names the engine."""
     system = _slab(_HEIGHT)
     if trial.refusal(system):
-        return ""
+        return
     _ = trial.model
     lowest = float(assemble(system, trial.engine).run(_END, sample_interval=_END / _SAMPLES).q[:, 2].min())
     if not lowest >= -_THROUGH * _HEIGHT:
         raise Broken(f"it must stay over the slab, but for {_THROUGH:g} of the way it fell", "gap", lowest)
-    return ""
 
 
-@claim()
-def _modes(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _modes(trial: _Trial) -> None:
     """A body that lies on a slab is closed, and a body that lands has impulses."""
     if not trial.engine.records_contacts:
         raise NotChecked("the engine records no contacts")
@@ -197,10 +193,9 @@ def _modes(trial: _Trial) -> str:
     landed = trial.run(_slab(_HEIGHT))
     if not np.any(landed.history("normal_impulse")["normal_impulse"] > 0.0):
         raise Broken("one must be positive after a landing", "impulses", landed.events.listed_impulse[:, 0])
-    return ""
 
 
-@claim()
+@_ENGINE.claim()
 def _quaternion(trial: _Trial) -> str:
     """A box that tumbles keeps its angular momentum and the length of its quaternion."""
     solution = trial.run(scenes.tumbling())
@@ -214,7 +209,7 @@ def _quaternion(trial: _Trial) -> str:
     )
 
 
-@claim()
+@_ENGINE.claim()
 def _driven_plate(trial: _Trial) -> str:
     """A plate that swings throws a ball to the height of the closed form."""
     solution = trial.run(scenes.thrown())
@@ -225,7 +220,7 @@ def _driven_plate(trial: _Trial) -> str:
     return trial.account_fault(solution)
 
 
-@claim()
+@_ENGINE.claim()
 def _heap(trial: _Trial) -> str:
     """Of ten balls on a plate the energy never rises, and none passes into another."""
     if PLAIN:
@@ -238,27 +233,11 @@ def _heap(trial: _Trial) -> str:
     return _above("rise of the energy", rises, trial.promised) or trial.account_fault(solution)
 
 
-@claim()
+@_ENGINE.claim()
 def _continues(trial: _Trial) -> str:
     """A run that is stopped and resumed is the run that is not, to the last bit."""
     half = trial.model.run(0.55 * _END)
     return trial.difference(trial.model.run(_END, start=half.state))
-
-
-_ENGINE = [
-    _names,
-    _free_fall,
-    _samples,
-    _many_samples,
-    _energy,
-    _repeatable,
-    _contact,
-    _modes,
-    _quaternion,
-    _driven_plate,
-    _heap,
-    _continues,
-]
 
 
 def _slab(height: float) -> System:

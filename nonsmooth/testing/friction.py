@@ -12,7 +12,7 @@ from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFr
 from nonsmooth.problems.contact import solve_contact
 from nonsmooth.problems.impact import solve_impact
 from nonsmooth.testing.anisotropic import anisotropic_rows
-from nonsmooth.testing.claims import FEWEST, claim, rows
+from nonsmooth.testing.claims import FEWEST, Claims, claim, rows
 from nonsmooth.testing.coefficient import (
     COEFFICIENT,
     DRAWS,
@@ -38,6 +38,7 @@ from nonsmooth.testing.stateful import START, STATES, rates_function
 _PUSH = number("push", 0.0, 3.0)
 _SLIGHT = 1e-6
 """Approach in units of the slip speed that leaves the slip as it is."""
+_FRICTION = Claims(fewest=FEWEST)
 
 
 def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None = None) -> list[Property]:
@@ -83,7 +84,7 @@ def _impact(law: FrictionLaw, p: ImpactProblem) -> Any:
     return solve_impact(p.mass, p.normal, p.tangential, p.velocity, *laws)
 
 
-@claim(SPEED, HEADING, FORCE, _PUSH, fewest=FEWEST)
+@_FRICTION.claim(SPEED, HEADING, FORCE, _PUSH)
 def _sustained_contact(law: FrictionLaw, speed: float, heading: float, weight: float, push: float) -> str:
     """Forces that the engine finds for contacts that stick, start to slide or slide obey it."""
     pushed = along(push * weight * (mu(law, 0.0) + 1e-3), heading)
@@ -94,7 +95,7 @@ def _sustained_contact(law: FrictionLaw, speed: float, heading: float, weight: f
     return ""
 
 
-@claim(problem_of(2), fewest=FEWEST)
+@_FRICTION.claim(problem_of(2))
 def _dissipation(law: FrictionLaw, p: ImpactProblem) -> str:
     """Friction takes energy out of impacts."""
     if not np.any(p.normal.T @ p.velocity < 0.0):
@@ -103,7 +104,7 @@ def _dissipation(law: FrictionLaw, p: ImpactProblem) -> str:
     return f"friction gives {-least:g} J to the impact" if least < -1e-8 else ""
 
 
-@claim(SPEED, HEADING, fewest=FEWEST)
+@_FRICTION.claim(SPEED, HEADING)
 def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> str:
     """An impact too slight to change the slip has the direction and ratio of impulses that the force has."""
     slip = along(speed, heading)
@@ -116,7 +117,7 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
     return "" if law.is_fulfilled(slip, 1.0, (t1, t2), 1e-4) else "is_fulfilled refuses the impulses of an impact"
 
 
-@claim(SPEED, HEADING, TURN, fewest=FEWEST)
+@_FRICTION.claim(SPEED, HEADING, TURN)
 def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: float) -> str:
     """Turning the tangents changes neither its verdicts nor an impact."""
     bound = mu(law, speed)
@@ -130,9 +131,6 @@ def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: floa
     p = point((*along(speed, heading), -1.0))
     a, b = _impact(law, p).velocity, _impact(law, p.turned(turn)).velocity
     return "" if np.allclose(a, b, rtol=0.0, atol=1e-6 * speed) else f"the velocities after are {a} and {b}"
-
-
-_FRICTION = [_sustained_contact, _dissipation, _force_and_impact_level, _frame_invariance]
 
 
 @claim(SPEED, HEADING)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
-from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, claim, rows
+from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, Claims, claim, rows
 from nonsmooth.testing.component import accepted, component_rows, numbers_of, variants
 from nonsmooth.testing.functions import Functions, plain_caller, scalar_function
 from nonsmooth.testing.impact_map import MAP, is_alone, map_function
@@ -33,6 +33,7 @@ _NEAR = 1e-6
 """Agreement of velocities after impacts that should be the same, relative to the largest."""
 _INDENTATIONS = (0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
 _RATES = (*(-np.geomspace(1e-9, 1e2, 6)).tolist(), 0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
+_SHARED = Claims()
 
 
 def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> list[Property]:
@@ -87,7 +88,7 @@ def _respond(law: ImpactLaw, p: ImpactProblem, mu: float) -> ImpactResponse:
     return respond([law] * p.n, [mu] * p.n, p)
 
 
-@claim(GIVEN, _MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, fewest=FEWEST)
 def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """After the impact no contact approaches."""
     r = _respond(law, p, mu)
@@ -95,7 +96,7 @@ def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     return f"a gap closes at {-least:g} m/s afterwards" if least < -1e-7 * r.size else ""
 
 
-@claim(GIVEN, _MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, fewest=FEWEST)
 def _cone(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """Normal impulses push, tangential ones lie in the cone of the friction coefficient."""
     r = _respond(law, p, mu)
@@ -116,13 +117,13 @@ def _gain(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     return f"the kinetic energy rises by {gain:g} J" if gain > 1e-7 * r.size**2 else ""
 
 
-@claim(GIVEN, fewest=FEWEST)
+@_SHARED.claim(GIVEN, fewest=FEWEST)
 def _dissipation(law: ImpactLaw, p: ImpactProblem) -> str:
     """Without friction no impact of approaching contacts gains energy."""
     return _gain(law, p, 0.0)
 
 
-@claim(GIVEN, _ROUGH, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _ROUGH, fewest=FEWEST)
 def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """Nor does an impact with friction gain energy."""
     # one contact alone too, with slip in and against the lean of the body
@@ -131,7 +132,7 @@ def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> s
     return _gain(law, one, mu) or _gain(law, back, mu) or _gain(law, p, mu)
 
 
-@claim(_ONE, _MU, _FACTOR, fewest=FEWEST)
+@_SHARED.claim(_ONE, _MU, _FACTOR, fewest=FEWEST)
 def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
     """Masses times c: the same velocities, impulses times c."""
     one, other = (_respond(law, q, mu) for q in (p, ImpactProblem(c * p.mass, p.normal, p.tangential, p.velocity)))
@@ -140,7 +141,7 @@ def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) ->
     return "impulses are not proportional" if _apart(c * one.impulse, other.impulse, c * one.size) else ""
 
 
-@claim(GIVEN, _MU, _FACTOR, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _FACTOR, fewest=FEWEST)
 def _scaling_of_velocities(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
     """Velocities times c before: times c after."""
     if isinstance(law, ImpactProcess) and not _is_homogeneous(law):
@@ -158,7 +159,7 @@ def _is_homogeneous(law: ImpactProcess) -> bool:
     return max(powers) - min(powers) < 1e-9 and max(shares) - min(shares) < 1e-12
 
 
-@claim(GIVEN, _MU, _TURN, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _TURN, fewest=FEWEST)
 def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) -> str:
     """Turning the tangents of the contacts changes no velocity."""
     one, other = _respond(law, p, mu), _respond(law, p.turned(turn), mu)
@@ -167,7 +168,7 @@ def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) 
     return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} in tangents turned by {turn:g} rad"
 
 
-@claim(GIVEN, _MU, _OTHER_MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _OTHER_MU, fewest=FEWEST)
 def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -> str:
     """The order of the contacts does not matter."""
     if is_alone(law):
@@ -179,7 +180,7 @@ def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -
     return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} in the other order"
 
 
-@claim(GIVEN, name="limit mu -> 0", fewest=FEWEST)
+@_SHARED.claim(GIVEN, name="limit mu -> 0", fewest=FEWEST)
 def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
     """Without friction no tangential impulse; with next to none, next to none."""
     for mu in (0.0, 1e-8):
@@ -190,7 +191,7 @@ def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
     return ""
 
 
-@claim(_MU, _HEADING, fewest=FEWEST)
+@_SHARED.claim(_MU, _HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
     """An impact too slight to end the slip rubs as sustained contact does."""
     slip = np.array([math.cos(heading), math.sin(heading)])
@@ -201,26 +202,11 @@ def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
     return ""
 
 
-@claim()
+@_SHARED.claim()
 def _contact_time(law: ImpactLaw) -> str:
     """The contact time is a finite number >= 0."""
     time = law.contact_time
     return "" if math.isfinite(time) and time >= 0.0 else f"it is {time} s, and not a finite number >= 0"
-
-
-_SHARED = [
-    _no_approach_after,
-    _cone,
-    _dissipation,
-    _dissipation_with_friction,
-    _scaling_of_masses,
-    _scaling_of_velocities,
-    _frame_invariance,
-    _permutation,
-    _smooth,
-    _force_and_impact_level,
-    _contact_time,
-]
 
 
 @claim(_SPEED, _MU)

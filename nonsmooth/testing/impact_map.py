@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import ImpactLaw, ImpactMap
-from nonsmooth.testing.claims import GIVEN, claim
+from nonsmooth.testing.claims import GIVEN, Claims
 from nonsmooth.testing.functions import OLD, compiled_map, written
 from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.reference import ImpactProblem, problem_of, vectors_of
@@ -22,6 +22,7 @@ _OF_FUNCTION = 0.3
 """Friction coefficient with which the function is tried."""
 _OBEYS = 1e-6
 """Deviation of velocities that counts as zero, relative to the largest."""
+MAP = Claims()
 
 
 def is_alone(law: ImpactLaw) -> bool:
@@ -85,14 +86,14 @@ def _impulses(law: ImpactMap, p: ImpactProblem, mu: float, old: float = 0.0) -> 
     return _written(p, lambda *given: law.impulses(*given, **own), old)
 
 
-@claim(GIVEN, _MU)
+@MAP.claim(GIVEN, _MU)
 def _writes_its_block(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
     """It writes every impulse, whatever stood there, and nothing beyond."""
     clean, used = (_impulses(law, p, mu, old)[: 3 * p.n] for old in (0.0, OLD))
     return "" if np.allclose(clean, used, rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"
 
 
-@claim(GIVEN, _MU)
+@MAP.claim(GIVEN, _MU)
 def _certificate(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
     """The impulses of the law obey it; larger ones, other friction and none where a contact approaches do not."""
     obeying, delassus, before = _impulses(law, p, mu)[: 3 * p.n], p.delassus, p.rates
@@ -113,4 +114,3 @@ def _certificate(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
     return ""
 
 
-MAP = [_writes_its_block, _certificate]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.interfaces import ImpactProcess
-from nonsmooth.testing.claims import FEWEST, claim
+from nonsmooth.testing.claims import FEWEST, Claims
 from nonsmooth.testing.functions import plain_caller
 from nonsmooth.testing.inputs import number
 from nonsmooth.testing.reference import ImpactProblem, problem_of, respond
@@ -15,9 +15,10 @@ _RATE = number("rate", 1e-6, 1e2, 1.0, is_log=True)
 _STORED = number("stored", 1e-3, 1e3, 1.0, is_log=True)
 _MU = number("friction", 0.0, 0.6)
 _GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
+PROCESS = Claims(fewest=FEWEST)
 
 
-@claim(_INDENTATION, fewest=FEWEST)
+@PROCESS.claim(_INDENTATION)
 def _force(law: ImpactProcess, indentation: float) -> str:
     """Zero at zero, and it rises with the indentation."""
     force = plain_caller(law.force, "scalar", law.parameters())
@@ -30,7 +31,7 @@ def _force(law: ImpactProcess, indentation: float) -> str:
     return ""
 
 
-@claim(_RATE, fewest=FEWEST)
+@PROCESS.claim(_RATE)
 def _efficiency(law: ImpactProcess, drawn: float) -> str:
     """1 for rates below zero, between 0 and 1 from there."""
     efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
@@ -42,7 +43,7 @@ def _efficiency(law: ImpactProcess, drawn: float) -> str:
     return ""
 
 
-@claim(problem_of(2), _MU, fewest=FEWEST)
+@PROCESS.claim(problem_of(2), _MU)
 def _certificate(law: ImpactProcess, p: ImpactProblem, mu: float) -> str:
     """Energies that the engine stores and gives back obey it."""
     r = respond([law] * 2, [mu] * 2, p)
@@ -53,7 +54,7 @@ def _certificate(law: ImpactProcess, p: ImpactProblem, mu: float) -> str:
     return ""
 
 
-@claim(_STORED, fewest=FEWEST)
+@PROCESS.claim(_STORED)
 def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
     """More energy back than was stored does not obey it."""
     if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
@@ -61,4 +62,3 @@ def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
     return ""
 
 
-PROCESS = [_force, _efficiency, _certificate, _no_gain_accepted]

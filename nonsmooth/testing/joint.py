@@ -9,7 +9,7 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_A, POINT_B, RESIDUAL, ROW_BIAS
 from nonsmooth.interfaces import Joint
 from nonsmooth.rotations import rotation, turned
-from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.claims import Claims, claim, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import slope
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
@@ -34,6 +34,7 @@ _MOST_ROWS = 6
 _TRIES, _STEPS = 12, 40
 _CLOSED = 1e-12
 _INDEPENDENT = 1e-9
+_JOINT = Claims()
 
 
 def check_joint(joint: Joint) -> list[Property]:
@@ -84,14 +85,13 @@ def _rates(joint: Joint, at: Frames) -> Array:
 
 
 @claim()
-def _number_of_rows(joint: Joint) -> str:
+def _number_of_rows(joint: Joint) -> None:
     """It takes one to six degrees of freedom."""
     if joint.n_rows not in range(1, _MOST_ROWS + 1):
         raise Broken(f"it must be a whole number from 1 to {_MOST_ROWS}", "n_rows", joint.n_rows)
-    return ""
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _writes_its_block(joint: Joint, move: Movement) -> str:
     """It writes every number that can be non-zero, and nothing beyond its rows."""
     call, here, there = plain_caller(joint.evaluator, "pair", joint.parameters()), move.at(), move.mirrored.at()
@@ -107,13 +107,13 @@ def _unlike(name: str, given: Array, found: Array, known: float) -> str:
     return f"the {name} of row {worst} is {given[worst]:.9g}, the differences give {found[worst]:.9g}"
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _rate(joint: Joint, move: Movement) -> str:
     """Axis and moment give the derivative of the residual, by differences."""
     return _unlike("rate", _rates(joint, move.at()), *slope(lambda dt: _look(joint, move.at(dt))[:, RESIDUAL], STEP))
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _bias(joint: Joint, move: Movement) -> str:
     """It is the derivative of the rate while u' = 0, by differences."""
     # the frames' accelerations are those that their bodies have while u' = 0
@@ -121,7 +121,7 @@ def _bias(joint: Joint, move: Movement) -> str:
     return _unlike("bias", bias, *slope(lambda dt: _rates(joint, move.at(dt)), STEP))
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _frame_invariance(joint: Joint, move: Movement) -> str:
     """If both bodies are moved together, residuals stay and axes turn with them."""
     here, there = _look(joint, move.at()), _look(joint, moved(move.at()))
@@ -159,21 +159,20 @@ def _closed(joint: Joint) -> list[Frames]:
     return found
 
 
-@claim()
+@_JOINT.claim()
 def _can_be_closed(joint: Joint) -> str:
     """There are poses at which all residuals vanish."""
     return "" if _closed(joint) else f"Newton's method finds none from {_TRIES} places"
 
 
-@claim()
-def _ends(joint: Joint) -> str:
+@_JOINT.claim()
+def _ends(joint: Joint) -> None:
     """It can be drawn where it holds."""
     require_ends(joint.ends)
-    return ""
 
 
-@claim()
-def _independent_rows(joint: Joint) -> str:
+@_JOINT.claim()
+def _independent_rows(joint: Joint) -> None:
     """If it is closed, no row follows from the others."""
     ranks = []
     for at in _closed(joint):
@@ -185,7 +184,5 @@ def _independent_rows(joint: Joint) -> str:
     # a single pose may be singular
     if ranks and max(ranks) < joint.n_rows:
         raise Broken(f"only {max(ranks)} of its rows are independent", "n_rows", joint.n_rows)
-    return ""
 
 
-_JOINT = [_writes_its_block, _rate, _bias, _frame_invariance, _can_be_closed, _ends, _independent_rows]

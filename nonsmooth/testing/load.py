@@ -7,7 +7,7 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import FORCE, LOAD, LOAD_MOMENT, LOAD_POINT
 from nonsmooth.interfaces import Load
 from nonsmooth.rotations import cross
-from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.claims import Claims, claim, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import jump
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
@@ -29,6 +29,7 @@ _PARTS = {
     "point": slice(LOAD_POINT, LOAD_MOMENT),
     "moment": slice(LOAD_MOMENT, LOAD),
 }
+_LOAD = Claims()
 
 
 def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
@@ -61,14 +62,14 @@ def _look(load: Load, t: float, at: Frames) -> Array:
     return written(lambda out: call(t, *at, out), LOAD)[:LOAD]
 
 
-@claim(_TIME, MOVEMENT)
+@_LOAD.claim(_TIME, MOVEMENT)
 def _writes_its_block(load: Load, t: float, move: Movement) -> str:
     """It writes every number that can be non-zero, and nothing beyond the block."""
     call, here, there = plain_caller(load.evaluator, "load", load.parameters()), move.at(), move.mirrored.at()
     return left_over(lambda out: call(t, *here, out), lambda out: call(1.0 - t, *there, out), LOAD)
 
 
-@claim(_TIME, MOVEMENT)
+@_LOAD.claim(_TIME, MOVEMENT)
 def _no_jumps(load: Load, t: float, move: Movement) -> str:
     """Force and moment are continuous where the bodies move."""
     found = jump(lambda dt: _about_origin(_look(load, t + dt, move.at(dt))), -_WHILE, _WHILE)
@@ -81,7 +82,7 @@ def _about_origin(block: Array) -> Array:
     return np.concatenate([force, moment + cross(point, force)])
 
 
-@claim(_TIME, MOVEMENT, name="time")
+@_LOAD.claim(_TIME, MOVEMENT, name="time")
 def _depends_on_time(load: Load, t: float, move: Movement) -> str:
     """A load that says so does not depend on time."""
     later = t + _LATER
@@ -90,14 +91,10 @@ def _depends_on_time(load: Load, t: float, move: Movement) -> str:
     return f"it differs at t = {later:.3g}: `depends_on_time` must be True"
 
 
-@claim()
-def _ends(load: Load) -> str:
+@_LOAD.claim()
+def _ends(load: Load) -> None:
     """It can be drawn where it acts."""
     require_ends(load.ends)
-    return ""
-
-
-_LOAD = [_writes_its_block, _no_jumps, _depends_on_time, _ends]
 
 
 def _unlike(given: Array, wanted: Array, words: str) -> str:

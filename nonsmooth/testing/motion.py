@@ -10,7 +10,7 @@ import numpy as np
 
 from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.interfaces import Motion
-from nonsmooth.testing.claims import GIVEN, claim, rows
+from nonsmooth.testing.claims import GIVEN, Claims, claim, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import Array, jump, rotation_fault, slope, spin_of
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
@@ -38,6 +38,7 @@ _PARTS = {
 }
 _NOTHING = np.zeros(1)
 """Coordinates and velocities of a driven body."""
+_MOTION = Claims()
 
 
 def check_motion(motion: Motion, *, duration: float | None = None) -> list[Property]:
@@ -86,21 +87,20 @@ def _unit(motion: Motion) -> float:
 
 
 @claim()
-def _positive_time_scale(motion: Motion) -> str:
+def _positive_time_scale(motion: Motion) -> None:
     """Its time scale is positive."""
     if not motion.time_scale > 0.0:
         raise Broken("it must be positive [s], or infinite", "time_scale", motion.time_scale)
-    return ""
 
 
-@claim(GIVEN)
+@_MOTION.claim(GIVEN)
 def _writes_its_block(motion: Motion, t: float) -> str:
     """It writes every number that can be non-zero, and nothing beyond the block."""
     before = abs(t - _ELSEWHEN * _unit(motion))
     return left_over(functools.partial(_call, motion, t), functools.partial(_call, motion, before), FRAME)
 
 
-@claim(GIVEN)
+@_MOTION.claim(GIVEN)
 def _rotation(motion: Motion, t: float) -> str:
     """The axes are a rotation matrix."""
     return rotation_fault(_look(motion, t)[_PARTS["rotation"]])
@@ -118,7 +118,7 @@ def _unlike(motion: Motion, t: float, part: str, found: Array, known: float) -> 
     return f"the {part} is {given.tolist()}, the differences give {found.tolist()}"
 
 
-@claim(GIVEN)
+@_MOTION.claim(GIVEN)
 def _velocity(motion: Motion, t: float) -> str:
     """Velocity and angular velocity are the derivatives of the pose, by differences."""
     rates, known = _slope(motion, t, "rotation")
@@ -127,14 +127,11 @@ def _velocity(motion: Motion, t: float) -> str:
     return moves or _unlike(motion, t, "angular velocity", spin, known)
 
 
-@claim(GIVEN)
+@_MOTION.claim(GIVEN)
 def _acceleration(motion: Motion, t: float) -> str:
     """The accelerations are the derivatives of the velocities, by differences."""
     moves = _unlike(motion, t, "acceleration", *_slope(motion, t, "velocity"))
     return moves or _unlike(motion, t, "angular acceleration", *_slope(motion, t, "angular velocity"))
-
-
-_MOTION = [_writes_its_block, _rotation, _velocity, _acceleration]
 
 
 def _check_jumps(motion: Motion, span: float) -> None:

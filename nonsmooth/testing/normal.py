@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.interfaces import CompliantNormalLaw, NormalLaw, RigidNormalLaw
 from nonsmooth.problems.contact import solve_contact
-from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.compliance import compliant_rows
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.inputs import number
@@ -16,6 +16,7 @@ _SIZE = number("size", 1e-3, 1e3, 1.0, is_log=True)
 _LOAD = number("load", -1e3, 1e3, -1.0)
 _TOLERANCE = 1e-9
 _DRAWS = 12
+_RIGID = Claims()
 
 
 def check_normal_law(law: NormalLaw) -> list[Property]:
@@ -36,7 +37,7 @@ def _rows(law: RigidNormalLaw) -> list[Row]:
     return [*component_rows(law), *rows(_RIGID, lambda: variants(law), _DRAWS)]
 
 
-@claim(_LOAD)
+@_RIGID.claim(_LOAD)
 def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
     """Accelerations and forces that the engine finds for closed contacts, pressed or pulled, obey it."""
     p = point((0.0, 0.0, 0.0))
@@ -55,25 +56,25 @@ def _accepted(law: RigidNormalLaw, acceleration: float, force: float, size: floa
     return f"is_fulfilled accepts acceleration {g:g} m/s^2 with force {f:g} N"
 
 
-@claim(_SIZE)
+@_RIGID.claim(_SIZE)
 def _no_penetration(law: RigidNormalLaw, size: float) -> str:
     """A closed contact whose bodies accelerate into one another does not obey it."""
     return _accepted(law, -1.0, 0.0, size)
 
 
-@claim(_SIZE)
+@_RIGID.claim(_SIZE)
 def _no_tension(law: RigidNormalLaw, size: float) -> str:
     """A normal force that pulls does not obey it."""
     return _accepted(law, 0.0, -1.0, size)
 
 
-@claim(_SIZE)
+@_RIGID.claim(_SIZE)
 def _complementarity(law: RigidNormalLaw, size: float) -> str:
     """A force on a contact that opens does not obey it."""
     return _accepted(law, 1.0, 1.0, size)
 
 
-@claim(_SIZE, _LOAD)
+@_RIGID.claim(_SIZE, _LOAD)
 def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
     """Other units, and tolerances with them, do not change its verdict."""
     for g, f in ((max(load, 0.0), max(-load, 0.0)), (load, 1.0)):
@@ -83,4 +84,3 @@ def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
     return ""
 
 
-_RIGID = [_accepts_sustained_contact, _no_penetration, _no_tension, _complementarity, _scaling]

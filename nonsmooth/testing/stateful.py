@@ -9,7 +9,7 @@ import numpy as np
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import StatefulFrictionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, claim
+from nonsmooth.testing.claims import FEWEST, Claims, claim
 from nonsmooth.testing.coefficient import FORCE, HEADING, SPEED, along, mu
 from nonsmooth.testing.functions import CheckedFunction, plain_caller, written
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
@@ -35,6 +35,10 @@ _PERIODS = 20.0
 _SLOWED = 0.3
 """Part of the slip velocity that friction takes in this time, if the load can be so large."""
 _LARGEST_LOAD = 1e3
+START = Claims()
+"""The claim without which nothing else is checked."""
+STATES = Claims()
+"""The claims about laws with inner states."""
 
 
 def _stages(
@@ -63,7 +67,7 @@ def _mu(law: StatefulFrictionLaw, speed: float, state: Array) -> float:
     return float(plain_caller(law.coefficient, "scalar", values)(speed))
 
 
-@claim()
+@START.claim()
 def _initial_state(law: StatefulFrictionLaw) -> str:
     """Initial states and scales are as many, finite, the scales positive, and the coefficient takes `state`."""
     names = parameter_names(law.coefficient, "scalar")
@@ -72,14 +76,14 @@ def _initial_state(law: StatefulFrictionLaw) -> str:
     return start_fault(law)
 
 
-@claim(SPEED)
+@STATES.claim(SPEED)
 def _writes_its_block(law: StatefulFrictionLaw, speed: float) -> str:
     """It writes the rate of every state and nothing else."""
     call, (state, _) = plain_caller(law.rates, "rates", law.parameters()), start_of(law)
     return writing_fault(lambda state, out: call(speed, state, out), [state], len(state))
 
 
-@claim(_STAGES)
+@STATES.claim(_STAGES)
 def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float, float]]) -> str:
     """Through two speeds and a rest the states stay finite, and the coefficient with them not negative."""
     state, scale = start_of(law)
@@ -96,7 +100,7 @@ def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float,
     return ""
 
 
-@claim(SPEED, HEADING, FORCE, _MOVED)
+@STATES.claim(SPEED, HEADING, FORCE, _MOVED)
 def _certificate_with_states(law: StatefulFrictionLaw, speed: float, heading: float, load: float, moved: float) -> str:
     """It takes the states: a force on the edge of the disc that they give obeys it, one off it does not."""
     start, scale = start_of(law)
@@ -110,7 +114,7 @@ def _certificate_with_states(law: StatefulFrictionLaw, speed: float, heading: fl
     return ""
 
 
-@claim(SPEED, fewest=FEWEST)
+@STATES.claim(SPEED, fewest=FEWEST)
 def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
     """A mass that slides in the engine is slowed as an independent integration of motion and states has it."""
     state, state_scale = start_of(law)
@@ -137,6 +141,3 @@ def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
     )
 
 
-START = [_initial_state]
-"""The claim without which nothing else is checked."""
-STATES = [_writes_its_block, _states_that_are_reached, _certificate_with_states, _sustained_motion]

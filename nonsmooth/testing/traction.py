@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT
 from nonsmooth.interfaces import TractionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, claim, rows
+from nonsmooth.testing.claims import FEWEST, Claims, claim, rows
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.differences import jump
 from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller, written
@@ -46,6 +46,7 @@ _LONG, _SHORT = 40.0, 0.5
 _SAMPLES = 20
 _TIMES, _TURNS = 5.0, 60.0
 """How long a mass is followed: in the time that fills the states, and in the fastest time of the motion at most."""
+_TRACTION = Claims()
 
 
 def check_traction_law(law: TractionLaw) -> list[Property]:
@@ -113,7 +114,7 @@ def _initial_state(law: TractionLaw) -> str:
     return start_fault(law)
 
 
-@claim(_LOAD, _MOTION)
+@_TRACTION.claim(_LOAD, _MOTION)
 def _writes_its_block(law: TractionLaw, load: float, motion: Array) -> str:
     """It writes force, moment and the rate of every state, and nothing else."""
     call, (state, _) = plain_caller(law.traction, "traction", law.parameters()), start_of(law)
@@ -123,7 +124,7 @@ def _writes_its_block(law: TractionLaw, load: float, motion: Array) -> str:
     return ""
 
 
-@claim(_LOAD, _MOTION, _BENT)
+@_TRACTION.claim(_LOAD, _MOTION, _BENT)
 def _no_jumps(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
     """Force, moment and rates are continuous in load, motion and states."""
     state, (_, scale) = _bent(law, bent), start_of(law)
@@ -141,7 +142,7 @@ def _no_jumps(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
     return ""
 
 
-@claim(_MOTION, _BENT)
+@_TRACTION.claim(_MOTION, _BENT)
 def _nothing_without_load(law: TractionLaw, motion: Array, bent: float) -> str:
     """Without normal force there is no traction."""
     wrench, _ = _look(law, 0.0, motion, _bent(law, bent))
@@ -164,7 +165,7 @@ def _through(law: TractionLaw, load: float, motion: Array, times: list[float]) -
     return [_look(law, load, motion, state)[0] for state in states]
 
 
-@claim(_LOAD, _MOTION)
+@_TRACTION.claim(_LOAD, _MOTION)
 def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
     """In a steady motion it takes energy out, or none."""
     times = _filling(law, load, motion) * np.linspace(0.5 * _LONG, _LONG, _SAMPLES)
@@ -174,7 +175,7 @@ def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
     return f"in the long run it gives {mean:g} W" if mean > 1e-9 * gross else ""
 
 
-@claim(_LOAD, _MOTION, _TURN)
+@_TRACTION.claim(_LOAD, _MOTION, _TURN)
 def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float) -> str:
     """Force and moment turn with the motion, from the closing of the contact on."""
     unit, turn = _filling(law, load, motion), _turn_of(angle)
@@ -186,7 +187,7 @@ def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float
     return ""
 
 
-@claim(_LOAD, _MOTION, _BENT)
+@_TRACTION.claim(_LOAD, _MOTION, _BENT)
 def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
     """It accepts force and moment of the law, and none that differ by a hundredth."""
     state = _bent(law, bent)
@@ -202,7 +203,7 @@ def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> s
     return ""
 
 
-@claim(_LOAD, _MOTION, fewest=FEWEST)
+@_TRACTION.claim(_LOAD, _MOTION, fewest=FEWEST)
 def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
     """A body that slides, rolls and drills in the engine goes as an independent integration has it."""
     state, state_scale = start_of(law)
@@ -225,12 +226,3 @@ def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
     return f"after {duration:g} s it moves at {given.tolist()}, by an independent integration {wanted.tolist()}"
 
 
-_TRACTION = [
-    _writes_its_block,
-    _no_jumps,
-    _nothing_without_load,
-    _dissipation,
-    _frame_invariance,
-    _certificate,
-    _sustained_motion,
-]
