@@ -28,8 +28,8 @@ from nonsmooth.testing.coefficient import (
     mu,
     times,
 )
-from nonsmooth.testing.component import component_rows, variants
-from nonsmooth.testing.functions import CheckedFunction, Functions
+from nonsmooth.testing.component import variants
+from nonsmooth.testing.functions import CheckedFunction, all_rows
 from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.puck import Puck, run
@@ -52,10 +52,9 @@ _ANISOTROPIC = Claims()
 
 def anisotropic_rows(law: AnisotropicFrictionLaw, vanishing: tuple[str, ...]) -> list[Row]:
     """Return the properties of an anisotropic friction law, of which ``vanishing`` are the coefficients."""
-    functions = Functions(lambda: [_coefficient(one) for one in variants(law)])
     first = rows([_ratios, _axis_and_body], lambda: variants(law), 1)
     found = [*rows([*COEFFICIENT, *_ANISOTROPIC], lambda: variants(law), DRAWS), limit_row(law, vanishing, _vanishes)]
-    return [*component_rows(law), *first, *functions.rows(), *functions.guarded(found)]
+    return all_rows(law, lambda: [_coefficient(one) for one in variants(law)], found, first)
 
 
 def _coefficient(law: AnisotropicFrictionLaw) -> CheckedFunction:

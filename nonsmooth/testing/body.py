@@ -12,8 +12,7 @@ from nonsmooth.interfaces.body import UNITS_OF_Q, UNITS_OF_U
 from nonsmooth.testing.body_block import State, offered, places_of, plain, state_at, state_of
 from nonsmooth.testing.body_motion import DRIVEN, FLIGHT, free_claims
 from nonsmooth.testing.claims import GIVEN, claim, rows
-from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, place_of_function
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, place_of_function
 from nonsmooth.testing.inputs import draws
 from nonsmooth.testing.outcome import Broken, Row
 from nonsmooth.testing.property import Property, properties
@@ -35,14 +34,14 @@ def check_body(body: Body) -> list[Property]:
 
 
 def _rows(body: Body) -> list[Row]:
-    functions = Functions(lambda: [_function(body, name) for name in ("evaluator", "flight") if getattr(body, name)])
     claims = [_start, _writes_its_block, _sketch, *DRIVEN]
     if body.n_u > 0:
         claims += free_claims(body)
     if body.flight is not None:
         claims.append(FLIGHT)
-    table = rows(claims, lambda: [body], _DRAWS, [state_of(body)])
-    return [*component_rows(body), *functions.rows(), *functions.guarded(table)]
+    functions = [name for name in ("evaluator", "flight") if getattr(body, name)]
+    found = rows(claims, lambda: [body], _DRAWS, [state_of(body)])
+    return all_rows(body, lambda: [_function(body, name) for name in functions], found)
 
 
 def _function(body: Body, name: str) -> CheckedFunction:

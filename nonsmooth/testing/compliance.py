@@ -14,8 +14,8 @@ from scipy.integrate import solve_ivp
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.system.materials import ContactLaws
 from nonsmooth.testing.claims import FEWEST, Claims, rows
-from nonsmooth.testing.component import component_rows, variants
-from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller
+from nonsmooth.testing.component import variants
+from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
 from nonsmooth.testing.outcome import NotChecked, Row
 from nonsmooth.testing.puck import Array, Puck, run
@@ -55,12 +55,8 @@ _COMPLIANT = Claims()
 
 def compliant_rows(law: CompliantNormalLaw) -> list[Row]:
     """Return the properties of a compliant normal law: its force, its certificate, and impacts of a mass."""
-    functions = Functions(lambda: [_force(one) for one in variants(law)])
-    return [
-        *component_rows(law),
-        *functions.rows(),
-        *functions.guarded(rows(_COMPLIANT, lambda: variants(law), _DRAWS)),
-    ]
+    found = rows(_COMPLIANT, lambda: variants(law), _DRAWS)
+    return all_rows(law, lambda: [_force(one) for one in variants(law)], found)
 
 
 def _force(law: CompliantNormalLaw) -> CheckedFunction:
@@ -246,5 +242,3 @@ def _integrated(law: CompliantNormalLaw, load: float, depth: float, speed: float
     if found.status == 1:
         x, duration = x + rate * _FREE, duration + _FREE
     return duration, x, rate
-
-

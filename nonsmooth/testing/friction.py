@@ -27,13 +27,13 @@ from nonsmooth.testing.coefficient import (
     mu,
     vanishing_names,
 )
-from nonsmooth.testing.component import component_rows, variants
-from nonsmooth.testing.functions import CheckedFunction, Functions
+from nonsmooth.testing.component import variants
+from nonsmooth.testing.functions import all_rows
 from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.reference import ImpactProblem, ReferenceImpact, point, problem_of
-from nonsmooth.testing.stateful import START, STATES, rates_function
+from nonsmooth.testing.stateful import STATES, initial_state, rates_function
 
 _PUSH = number("push", 0.0, 3.0)
 _SLIGHT = 1e-6
@@ -61,16 +61,18 @@ def _rows(law: FrictionLaw, coefficients: Sequence[str] | None) -> list[Row]:
     vanishing = vanishing_names(law) if coefficients is None else tuple(coefficients)
     if isinstance(law, AnisotropicFrictionLaw):
         return anisotropic_rows(law, vanishing)
-    functions = Functions(lambda: [made for one in variants(law) for made in _functions(one)])
     table = functools.partial(rows, components=lambda: variants(law), count=DRAWS)
-    has_states = isinstance(law, StatefulFrictionLaw)
-    found = [*table([*COEFFICIENT, *_FRICTION]), limit_row(law, vanishing, _vanishes), *table(STATES * has_states)]
-    return [*component_rows(law), *table(START * has_states), *functions.rows(), *functions.guarded(found)]
-
-
-def _functions(law: FrictionLaw) -> list[CheckedFunction]:
+    found = [*table([*COEFFICIENT, *_FRICTION]), limit_row(law, vanishing, _vanishes)]
+    if not isinstance(law, StatefulFrictionLaw):
+        return all_rows(law, lambda: [coefficient_function(one) for one in variants(law)], found)
     # the rates first, which refuse states that are not in order
-    return [*([rates_function(law)] if isinstance(law, StatefulFrictionLaw) else []), coefficient_function(law)]
+    functions = rates_function, coefficient_function
+    return all_rows(
+        law,
+        lambda: [function(one) for one in variants(law) for function in functions],
+        [*found, *table(STATES)],
+        table([initial_state]),
+    )
 
 
 def _contact(law: FrictionLaw, force: Sequence[float], slip: Sequence[float]) -> tuple[float, Any]:

@@ -6,7 +6,7 @@ import functools
 import inspect
 import types
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, final
 
@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from nonsmooth.binding.compile import bind, caller, parameter_names
 from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.kernel import PLAIN, at, entry_addresses, unshared
-from nonsmooth.parameters import Value, not_offered
+from nonsmooth.parameters import not_offered
 from nonsmooth.testing.child import CALL, about_to
+from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.outcome import Broken, NotChecked, Row, described
 
 Array = NDArray[np.float64]
@@ -57,8 +58,8 @@ def _slice(heap: Array, offset: int) -> Array:
     return heap[offset:]
 
 
-def compiled_caller(function: Caller, form: str, values: Mapping[str, Value], owner: str) -> Caller:
-    """Return the same, compiled; arguments are numbers and contiguous arrays, as the engine has them.
+def compiled_caller(function: Caller, form: str, values: Mapping[str, Any], owner: str) -> Caller:
+    """Return the same, compiled; arguments are numbers and contiguous arrays, as the engine passes them.
 
     Raises
     ------
@@ -67,19 +68,12 @@ def compiled_caller(function: Caller, form: str, values: Mapping[str, Value], ow
     PluginError
         If the function cannot be compiled.
     """
-    address, heap = bind(function, form, values, owner)
+    names = parameter_names(function, form)
+    address, heap = bind(function, form, dict.fromkeys(values, 0.0) if form == "map" else values, owner)
     if PLAIN:
         return plain_caller(function, form, values)
-    return caller(form, address, np.array([*heap, 0.0]))
-
-
-def compiled_map(function: Caller, vectors: Mapping[str, Array], owner: str) -> Caller:
-    """Return a compiled function of the form "map", its parameters one number per contact."""
-    address, _ = bind(function, "map", dict.fromkeys(vectors, 0.0), owner)
-    if PLAIN:
-        return plain_caller(function, "map", vectors)
-    numbers = np.concatenate([vectors[name] for name in parameter_names(function, "map")] + [np.zeros(1)])
-    return caller("map", address, numbers)
+    numbers = [number for name in names for number in values[name]] if form == "map" else heap
+    return caller(form, address, np.array([*numbers, 0.0]))
 
 
 def place_of_function(function: Caller) -> str:
@@ -168,27 +162,28 @@ def scalar_function(owner: Any, name: str, values: Sequence[float], offered: Map
     return CheckedFunction(owner, name, "scalar", offered, [(f"{x:g}", (x,)) for x in values])
 
 
-class Functions:
+@final
+@dataclass(frozen=True, eq=False)
+class _Functions:
     """The functions of a component, checked once, before anything else runs them.
 
     Nothing else is checked if one of them is not fit to be run: the engine calls the compiled ones.
     """
 
-    def __init__(self, functions: Callable[[], Sequence[Any]]) -> None:
-        self._make = functions
-        self._found: dict[str, Broken | None] = {}
+    made: Callable[[], Sequence[CheckedFunction]]
+    found: dict[str, Broken | None] = field(default_factory=dict)
 
     @cached_property
-    def all(self) -> Sequence[Any]:
+    def all(self) -> Sequence[CheckedFunction]:
         """The functions."""
-        return self._make()
+        return self.made()
 
     def check(self, name: str) -> None:
         """Raise the fault of a stage, or NotChecked if an earlier one has a fault."""
         for stage in _STAGES:
-            if stage not in self._found:
-                self._found[stage] = self._first_fault(stage)
-            fault = self._found[stage]
+            if stage not in self.found:
+                self.found[stage] = self._first_fault(stage)
+            fault = self.found[stage]
             if fault is not None and stage == name:
                 raise fault
             if fault is not None:
@@ -204,21 +199,18 @@ class Functions:
                 return fault
         return None
 
-    def guarded(self, rows: list[Row]) -> list[Row]:
-        """Return properties that are checked only if the functions are fit to be run."""
-        return [row._replace(check=functools.partial(self._behind, row)) for row in rows]
+    def rows(self, found: Sequence[Row]) -> list[Row]:
+        """Return the properties of the functions, then others, which are checked only if the functions can be run."""
+        own = [Row(name, says, functools.partial(self.check, name)) for name, says in _SAYS.items()]
+        equal = Row("compiled equals plain", "Compiled, its functions return the same numbers", self._same_compiled)
+        again = Row("determinism", "Its functions return the same whenever they are called", self._repeatable)
+        behind = [row._replace(check=functools.partial(self._behind, row)) for row in (equal, again, *found)]
+        return [*own, *behind]
 
     def _behind(self, row: Row) -> None:
         self.check(row.name)
         entry_addresses()
         row.check()
-
-    def rows(self) -> list[Row]:
-        """Return the properties of the functions."""
-        own = [Row(name, says, functools.partial(self.check, name)) for name, says in _SAYS.items()]
-        equal = Row("compiled equals plain", "Compiled, its functions return the same numbers", self._same_compiled)
-        again = Row("determinism", "Its functions return the same whenever they are called", self._repeatable)
-        return [*own, *self.guarded([equal, again])]
 
     def _same_compiled(self) -> None:
         for function in self.all:
@@ -246,6 +238,25 @@ class Functions:
                 if not np.array_equal(again, once):
                     reason = f"{function.title}({words}) is {_short(once)} first and {_short(again)} later"
                     raise Broken(reason, *described(function.owner))
+
+
+def all_rows(
+    component: Any, functions: Callable[[], Sequence[CheckedFunction]], found: Sequence[Row], first: Sequence[Row] = ()
+) -> list[Row]:
+    """Return all properties of a component whose functions the engine calls.
+
+    Parameters
+    ----------
+    component : object
+        The component.
+    functions : callable
+        Returns its functions, and those of its variants.
+    found : sequence of Row
+        Properties that are checked only if the functions can be run.
+    first : sequence of Row, optional
+        Properties that are checked without the functions.
+    """
+    return [*component_rows(component), *first, *_Functions(functions).rows(found)]
 
 
 def _short(value: Any) -> str:

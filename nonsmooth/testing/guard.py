@@ -6,9 +6,8 @@ import numpy as np
 
 from nonsmooth.interfaces import Guard
 from nonsmooth.testing.claims import GIVEN, claim, rows
-from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import Array, jump
-from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller
+from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
@@ -32,9 +31,8 @@ def check_guard(guard: Guard, *, numbers: int = _NUMBERS) -> list[Property]:
 
 
 def _rows(guard: Guard, numbers: int) -> list[Row]:
-    functions = Functions(lambda: [_value(guard, numbers)])
-    table = rows([_no_jumps], lambda: [guard], _DRAWS, [_state_of(numbers)])
-    return [*component_rows(guard), *functions.rows(), *functions.guarded(table)]
+    found = rows([_no_jumps], lambda: [guard], _DRAWS, [_state_of(numbers)])
+    return all_rows(guard, lambda: [_value(guard, numbers)], found)
 
 
 def _state_of(numbers: int) -> Drawn:

@@ -10,9 +10,9 @@ import numpy as np
 
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
 from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, Claims, claim, rows
-from nonsmooth.testing.component import accepted, component_rows, numbers_of, variants
-from nonsmooth.testing.functions import Functions, plain_caller, scalar_function
-from nonsmooth.testing.impact_map import MAP, is_alone, map_function
+from nonsmooth.testing.component import accepted, numbers_of, variants
+from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller, scalar_function
+from nonsmooth.testing.impact_map import MAP, is_alone, map_functions
 from nonsmooth.testing.impact_process import PROCESS
 from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
@@ -51,7 +51,6 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
 
 
 def _rows(law: ImpactLaw, restitution: str) -> list[Row]:
-    functions = Functions(lambda: [f for one in variants(law) for f in _functions(one)])
     most = _ONE if is_alone(law) else problem_of(2)
     table = functools.partial(rows, components=lambda: variants(law), given=[most])
     found = table(_SHARED, count=_DRAWS)
@@ -63,16 +62,16 @@ def _rows(law: ImpactLaw, restitution: str) -> list[Row]:
         Row("limit e -> 0", _plastic.says, lambda: _check_limit(law, restitution, 0.0, _plastic)),
         Row("limit e -> 1", _elastic.says, lambda: _check_limit(law, restitution, 1.0, _elastic)),
     ]
-    return [*component_rows(law), *functions.rows(), *functions.guarded(found)]
+    return all_rows(law, lambda: [f for one in variants(law) for f in _functions(one)], found)
 
 
-def _functions(law: ImpactLaw) -> list[Any]:
+def _functions(law: ImpactLaw) -> list[CheckedFunction]:
     if isinstance(law, ImpactProcess):
         return [
             scalar_function(law, "force", _INDENTATIONS, law.parameters()),
             scalar_function(law, "efficiency", _RATES, law.parameters()),
         ]
-    return [map_function(law)] if isinstance(law, ImpactMap) else []
+    return map_functions(law) if isinstance(law, ImpactMap) else []
 
 
 def _check_limit(law: ImpactLaw, restitution: str, value: float, limit: Claim) -> None:

@@ -60,5 +60,3 @@ def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
     if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
         return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
     return ""
-
-

@@ -10,9 +10,8 @@ from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_A, POI
 from nonsmooth.interfaces import Joint
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.claims import Claims, claim, rows
-from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import slope
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws
 from nonsmooth.testing.movement import MOVEMENT, SHIFT, STEP, TURN, Array, Frames, Movement, moved
 from nonsmooth.testing.outcome import Broken, Row
@@ -49,14 +48,8 @@ def check_joint(joint: Joint) -> list[Property]:
 
 
 def _rows(joint: Joint) -> list[Row]:
-    functions = Functions(lambda: [_evaluator(joint)])
     table = functools.partial(rows, components=lambda: [joint], count=_DRAWS)
-    return [
-        *component_rows(joint),
-        *table([_number_of_rows]),
-        *functions.rows(),
-        *functions.guarded(table(_JOINT)),
-    ]
+    return all_rows(joint, lambda: [_evaluator(joint)], table(_JOINT), table([_number_of_rows]))
 
 
 def _evaluator(joint: Joint) -> CheckedFunction:
@@ -184,5 +177,3 @@ def _independent_rows(joint: Joint) -> None:
     # a single pose may be singular
     if ranks and max(ranks) < joint.n_rows:
         raise Broken(f"only {max(ranks)} of its rows are independent", "n_rows", joint.n_rows)
-
-

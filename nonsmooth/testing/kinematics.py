@@ -30,8 +30,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.claims import GIVEN, Claim, claim, rows
-from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
 from nonsmooth.testing.outcome import Broken, Row
@@ -86,7 +85,6 @@ def _rows(kinematics: ContactKinematics, shapes: tuple[Shape, Shape], reach: flo
     rig = functools.cache(lambda: ContactRig(kinematics, shapes))
     bounded = all(math.isfinite(shape.extent) for shape in shapes)
     placed = Drawn(_numbers(reach), lambda case: _Placed(case, rig(), reach, bounded, smooth))
-    functions = Functions(lambda: [_evaluator(kinematics, reach)])
     table = functools.partial(rows, components=lambda: [kinematics], count=_DRAWS, given=[placed])
     pair = "`between` gives it, for shapes of the classes in `pair`"
     found = [
@@ -98,7 +96,7 @@ def _rows(kinematics: ContactKinematics, shapes: tuple[Shape, Shape], reach: flo
         ),
         *table([_tangent_follows_the_first_body, _frame_invariance]),
     ]
-    return [*component_rows(kinematics), *functions.rows(), *functions.guarded(found)]
+    return all_rows(kinematics, lambda: [_evaluator(kinematics, reach)], found)
 
 
 def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set[int]) -> None:

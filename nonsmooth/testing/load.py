@@ -7,10 +7,9 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import FORCE, LOAD, LOAD_MOMENT, LOAD_POINT
 from nonsmooth.interfaces import Load
 from nonsmooth.rotations import cross
-from nonsmooth.testing.claims import Claims, claim, rows
-from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.differences import jump
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.movement import MOVEMENT, SHIFT, TURN, Array, Frames, Movement, moved, shared
 from nonsmooth.testing.outcome import Row
@@ -29,7 +28,8 @@ _PARTS = {
     "point": slice(LOAD_POINT, LOAD_MOMENT),
     "moment": slice(LOAD_MOMENT, LOAD),
 }
-_LOAD = Claims()
+_LOAD, _FREE = Claims(), Claims()
+"""Claims about every load, and about loads that are not tied to space."""
 
 
 def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
@@ -47,9 +47,8 @@ def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
 
 
 def _rows(load: Load, tied_to_space: bool) -> list[Row]:
-    functions = Functions(lambda: [_evaluator(load)])
-    claims = _LOAD if tied_to_space else [*_LOAD, _frame_invariance, _relative_motion]
-    return [*component_rows(load), *functions.rows(), *functions.guarded(rows(claims, lambda: [load], _DRAWS))]
+    claims = _LOAD if tied_to_space else [*_LOAD, *_FREE]
+    return all_rows(load, lambda: [_evaluator(load)], rows(claims, lambda: [load], _DRAWS))
 
 
 def _evaluator(load: Load) -> CheckedFunction:
@@ -105,7 +104,7 @@ def _unlike(given: Array, wanted: Array, words: str) -> str:
     return ""
 
 
-@claim(_TIME, MOVEMENT)
+@_FREE.claim(_TIME, MOVEMENT)
 def _frame_invariance(load: Load, t: float, move: Movement) -> str:
     """If both bodies are moved together, force and moment turn with them."""
     wanted = (_look(load, t, move.at()).reshape(3, 3) @ TURN.T).ravel()
@@ -113,7 +112,7 @@ def _frame_invariance(load: Load, t: float, move: Movement) -> str:
     return _unlike(_look(load, t, moved(move.at())), wanted, "moved with the bodies")
 
 
-@claim(_TIME, MOVEMENT)
+@_FREE.claim(_TIME, MOVEMENT)
 def _relative_motion(load: Load, t: float, move: Movement) -> str:
     """It does not feel a motion that both bodies share."""
     there = shared(move.at(), np.array([0.7, -1.1, 0.4]), np.array([-0.5, 0.9, 1.3]))

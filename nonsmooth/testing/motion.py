@@ -11,9 +11,8 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.interfaces import Motion
 from nonsmooth.testing.claims import GIVEN, Claims, claim, rows
-from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import Array, jump, rotation_fault, slope, spin_of
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
@@ -56,14 +55,13 @@ def check_motion(motion: Motion, *, duration: float | None = None) -> list[Prope
 
 def _rows(motion: Motion, duration: float | None) -> list[Row]:
     span = duration or (_SPAN * _unit(motion) if math.isfinite(motion.time_scale) else 1.0)
-    functions = Functions(lambda: [_evaluator(motion, span)])
     table = functools.partial(rows, components=lambda: [motion], count=_DRAWS, given=[number("t", 0.0, span)])
     found = [
         *table(_MOTION),
         Row("no jumps", "Pose, velocities and accelerations are continuous", lambda: _check_jumps(motion, span)),
         Row("time scale", "It changes no faster than its time scale says", lambda: _check_scale(motion, span)),
     ]
-    return [*component_rows(motion), *table([_positive_time_scale]), *functions.rows(), *functions.guarded(found)]
+    return all_rows(motion, lambda: [_evaluator(motion, span)], found, table([_positive_time_scale]))
 
 
 def _evaluator(motion: Motion, span: float) -> CheckedFunction:

@@ -82,5 +82,3 @@ def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
         if one is not other:
             return f"is_fulfilled says {one} of ({g:g}, {f:g}) and {other} of {size:g} times that"
     return ""
-
-

@@ -10,12 +10,11 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess, RigidNormalLaw
 from nonsmooth.parameters import parameter
 from nonsmooth.problems.impact import solve_impact
 from nonsmooth.rotations import cross
-from nonsmooth.testing.functions import compiled_map
+from nonsmooth.testing.functions import compiled_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber
 
 Array = NDArray[np.float64]
@@ -201,11 +200,8 @@ def vectors_of(laws: Sequence[ImpactLaw], frictions: Sequence[float]) -> dict[st
 
 def map_impulses(laws: Sequence[ImpactLaw], frictions: Sequence[float], delassus: Array, rates: Array) -> Array:
     """Return the impulses of laws that are maps, shape [3 n]."""
-    law = laws[0]
+    law, out = laws[0], np.zeros(len(rates))
     assert isinstance(law, ImpactMap)
-    offered = vectors_of(laws, frictions)
-    vectors = {name: offered[name] for name in parameter_names(law.impulses, "map")}
-    out = np.zeros(len(rates))
-    call = compiled_map(law.impulses, vectors, type(law).__name__)
+    call = compiled_caller(law.impulses, "map", vectors_of(laws, frictions), type(law).__name__)
     call(len(laws), np.ascontiguousarray(delassus).ravel(), np.array(rates, dtype=float), out)
     return out

@@ -35,8 +35,6 @@ _PERIODS = 20.0
 _SLOWED = 0.3
 """Part of the slip velocity that friction takes in this time, if the load can be so large."""
 _LARGEST_LOAD = 1e3
-START = Claims()
-"""The claim without which nothing else is checked."""
 STATES = Claims()
 """The claims about laws with inner states."""
 
@@ -50,7 +48,7 @@ def _stages(
 
 def rates_function(law: StatefulFrictionLaw) -> CheckedFunction:
     """Return the rates with speeds and states to try."""
-    require(_initial_state.fault(law, {}))
+    require(initial_state.fault(law, {}))
     start, scale = start_of(law)
     states = [start + share * scale for share in (0.0, 0.3, 1.0, 30.0)]
     inputs = [(f"{speed:g}, {state.tolist()}", (speed, state)) for speed in _TRIED for state in states]
@@ -67,8 +65,8 @@ def _mu(law: StatefulFrictionLaw, speed: float, state: Array) -> float:
     return float(plain_caller(law.coefficient, "scalar", values)(speed))
 
 
-@START.claim()
-def _initial_state(law: StatefulFrictionLaw) -> str:
+@claim()
+def initial_state(law: StatefulFrictionLaw) -> str:
     """Initial states and scales are as many, finite, the scales positive, and the coefficient takes `state`."""
     names = parameter_names(law.coefficient, "scalar")
     if "state" not in names:
@@ -139,5 +137,3 @@ def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
         f"after {duration:g} s under {load:g} N a mass of 1 kg has {given:.9g} m/s, "
         f"by an independent integration {wanted:.9g} m/s"
     )
-
-

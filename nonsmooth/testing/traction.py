@@ -12,9 +12,9 @@ from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT
 from nonsmooth.interfaces import TractionLaw
 from nonsmooth.system.materials import ContactLaws
 from nonsmooth.testing.claims import FEWEST, Claims, claim, rows
-from nonsmooth.testing.component import component_rows, variants
+from nonsmooth.testing.component import variants
 from nonsmooth.testing.differences import jump
-from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller, written
+from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller, written
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws, number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
@@ -61,9 +61,8 @@ def check_traction_law(law: TractionLaw) -> list[Property]:
 
 
 def _rows(law: TractionLaw) -> list[Row]:
-    functions = Functions(lambda: [_traction(one) for one in variants(law)])
     table = functools.partial(rows, components=lambda: variants(law), count=_DRAWS)
-    return [*component_rows(law), *table([_initial_state]), *functions.rows(), *functions.guarded(table(_TRACTION))]
+    return all_rows(law, lambda: [_traction(one) for one in variants(law)], table(_TRACTION), table([_initial_state]))
 
 
 def _motion(case: Case) -> Array:
@@ -224,5 +223,3 @@ def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
     if is_same_motion(given, wanted, motion, size):
         return ""
     return f"after {duration:g} s it moves at {given.tolist()}, by an independent integration {wanted.tolist()}"
-
-
