@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nonsmooth.interfaces import AnisotropicFrictionLaw
@@ -33,10 +32,9 @@ from nonsmooth.testing.functions import CheckedFunction, all_rows
 from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.puck import Puck, run
-from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact
-from nonsmooth.testing.reference_motion import require
+from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact, require
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 _INSTANT = 1e-7
 """Part of the time to stop over which a force is taken as the change of momentum."""
 _SLIGHT = 1e-4

@@ -1,25 +1,67 @@
-"""Properties of bodies that have coordinates, and of driven bodies."""
+"""Properties of bodies: their start, frames, mass, energy, momentum, a short run, and flight in closed form."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import UNITS_OF_Q, UNITS_OF_U
-from nonsmooth.testing.body_block import State, offered, places_of, plain, state_at, state_of
-from nonsmooth.testing.body_motion import DRIVEN, FLIGHT, free_claims
-from nonsmooth.testing.claims import GIVEN, claim, rows
-from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, place_of_function
+from nonsmooth.runs.simulate import simulate
+from nonsmooth.system.system import System
+from nonsmooth.testing.body_block import (
+    OBLIQUE,
+    WEIGHTLESS,
+    BodyBlock,
+    State,
+    block_of,
+    offered,
+    places_of,
+    plain,
+    state_at,
+    state_of,
+    stepped,
+)
+from nonsmooth.testing.claims import GIVEN, Claim, claim, rows
+from nonsmooth.testing.differences import rotation_fault, smooth_slope, spin_of
+from nonsmooth.testing.functions import (
+    CheckedFunction,
+    all_rows,
+    compiled_caller,
+    left_over,
+    place_of_function,
+    written,
+)
 from nonsmooth.testing.inputs import draws
-from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_look
+from nonsmooth.types import Array
 
 _DRAWS = 12
 _UNKNOWN = "no_such_word"
+_SAME = 1e-6
+_NOISE = 1e-12
+_STEP = 1e-3
+"""Step of the differences, in units of the shortest time of the motion."""
+_SLOWEST = 1e-3
+"""Least rate from which a time is derived [1/s], so that a body at rest has one."""
+_FALLS = 20
+_RUN = 0.4
+"""Start of a short run, in units of the states that are drawn."""
+_TURNS = 3.0
+"""Duration of flights, in units of the time in which a number changes by its scale."""
+_AXES, _POSE = slice(ROTATION, VELOCITY), slice(POSITION, VELOCITY)
+_PARTS = {
+    "velocity": slice(VELOCITY, SPIN),
+    "angular velocity": slice(SPIN, ACCELERATION),
+    "acceleration bias": slice(ACCELERATION, SPIN_ACCELERATION),
+    "angular bias": slice(SPIN_ACCELERATION, FRAME),
+}
 
 
 def check_body(body: Body) -> list[Property]:
@@ -104,3 +146,242 @@ def _sketch(body: Body) -> None:
         raise Broken("it must give the ends of the same number of lines at all q, shape [n, 2, 3]", "strokes", shape)
     if not np.all(np.isfinite(body.strokes(q))):
         raise Broken("ends of lines must be finite [m]", "strokes", body.strokes(q))
+
+
+def _rate(body: Body, here: BodyBlock) -> float:
+    """Return the largest rate of the coordinates, in units of their scales [1/s]."""
+    return max(float(np.max(np.abs(here.rates) / body.scales[0], initial=0.0)), _SLOWEST)
+
+
+@claim(GIVEN)
+def _rotation(body: Body, at: State) -> str:
+    """The axes of every frame are a rotation matrix."""
+    here = block_of(body, at)
+    for i in range(len(body.frames)):
+        if fault := rotation_fault(here.frame(i)[_AXES]):
+            return f"{fault}, of frame {i}"
+    return ""
+
+
+def _frame_slope(body: Body, at: State, i: int, part: slice) -> tuple[Array, float]:
+    """Return the derivative in time of a part of a frame, while u' = 0, and the noise of the differences."""
+    t, q, u = at
+    dt = _STEP / max(1.0 / body.time_scale, _rate(body, block_of(body, (0.0, q, u))) if body.n_q else _SLOWEST)
+
+    def rates(time: float, place: Array) -> Array:
+        return block_of(body, (time, place, u)).rates
+
+    def after(step: float) -> Array:
+        """Return q after a step of Runge and Kutta: exact enough for differences of fourth order."""
+        first = rates(t, q)
+        second = rates(t + 0.5 * step, stepped(body, q, first, 0.5 * step))
+        third = rates(t + 0.5 * step, stepped(body, q, second, 0.5 * step))
+        fourth = rates(t + step, stepped(body, q, third, step))
+        return stepped(body, q, (first + 2.0 * second + 2.0 * third + fourth) / 6.0, step)
+
+    def value(step: float) -> Array:
+        return block_of(body, (t + step, after(step) if body.n_q else q, u)).frame(i)[part].copy()
+
+    near, far = (value(dt), value(-dt)), (value(2.0 * dt), value(-2.0 * dt))
+    noise = _NOISE * max(float(np.max(np.abs(values))) for values in near) / dt
+    return np.asarray((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (12.0 * dt)), noise
+
+
+def _unlike(frame: Array, found: Mapping[str, Array], i: int, noise: float) -> str:
+    for name, wanted in found.items():
+        given = frame[_PARTS[name]]
+        if np.max(np.abs(given - wanted)) > _SAME * float(np.max(np.abs(wanted))) + noise:
+            return f"{name} of frame {i} is {given.tolist()}, the differences give {wanted.tolist()}"
+    return ""
+
+
+@claim(GIVEN)
+def _velocity(body: Body, at: State) -> str:
+    """Velocity and angular velocity of every frame are derivatives of its pose."""
+    here = block_of(body, at)
+    for i in range(len(body.frames)):
+        slope, noise = _frame_slope(body, at, i, _POSE)
+        frame = here.frame(i)
+        found = {"velocity": slope[:ROTATION], "angular velocity": spin_of(slope[ROTATION:], frame[_AXES])}
+        if wrong := _unlike(frame, found, i, noise):
+            return wrong
+    return ""
+
+
+@claim(GIVEN)
+def _acceleration(body: Body, at: State) -> str:
+    """The biases are the derivatives of the velocities while u' = 0, by differences."""
+    here = block_of(body, at)
+    for i in range(len(body.frames)):
+        slope, noise = _frame_slope(body, at, i, slice(VELOCITY, ACCELERATION))
+        if wrong := _unlike(here.frame(i), {"acceleration bias": slope[:3], "angular bias": slope[3:]}, i, noise):
+            return wrong
+    return ""
+
+
+@claim(GIVEN)
+def _jacobian(body: Body, at: State) -> str:
+    """The Jacobian is the derivative of the velocities by u."""
+    t, q, u = at
+    here, still = block_of(body, at), block_of(body, (t, q, np.zeros(body.n_u)))
+    for i in range(len(body.frames)):
+        given, rest = (block.frame(i)[VELOCITY:ACCELERATION] for block in (here, still))
+        predicted = rest + here.jacobian(i) @ u
+        if np.max(np.abs(given - predicted)) > 1e-9 * float(np.max(np.abs(given)) + np.max(np.abs(predicted))):
+            return f"frame {i} moves at {given.tolist()}, Jacobian times u is {predicted.tolist()}"
+    return ""
+
+
+DRIVEN = [_rotation, _velocity, _acceleration]
+"""The claims about frames, of driven bodies too."""
+
+
+@claim(GIVEN)
+def _mass_matrix(body: Body, at: State) -> str:
+    """M is symmetric and positive definite."""
+    inverse = block_of(body, at).inverse
+    # entries may have different units: they are judged by their diagonals
+    size = np.sqrt(np.abs(np.diag(inverse)))
+    if not np.all(size > 0.0):
+        return f"the diagonal of M^-1 is {np.diag(inverse).tolist()}"
+    scaled = inverse / np.outer(size, size)
+    if np.max(np.abs(scaled - scaled.T)) > 1e-12:
+        return f"M^-1 is not symmetric: {inverse.tolist()}"
+    least = float(np.linalg.eigvalsh(scaled)[0])
+    return f"M^-1 is not positive definite: {inverse.tolist()}" if least <= 1e-14 else ""
+
+
+@claim(GIVEN)
+def _kinetic_energy(body: Body, at: State) -> str:
+    """It is u . M u / 2."""
+    here, u = block_of(body, at), at[2]
+    given, expected = float(here.energy[0]), 0.5 * float(u @ np.linalg.solve(here.inverse, u))
+    if abs(given - expected) > 1e-8 * expected + 1e-300:
+        return f"it is {given:g} J, u . M u / 2 is {expected:g} J"
+    return ""
+
+
+def _along(body: Body, at: State, gravity: Mapping[str, float], value: Callable[[BodyBlock, Array], Array]) -> Array:
+    """Return the derivative in time of a value of block and u along the free motion, prescribed motions at rest."""
+    t, q, u = at
+    here = block_of(body, at, gravity)
+    acceleration = here.inverse @ here.force
+    speed = max(_rate(body, here), float(np.max(np.abs(acceleration) / body.scales[1])))
+
+    def after(dt: float) -> Array:
+        # straight lines: only the first derivative is asked for
+        moved, faster = q + dt * here.rates, u + dt * acceleration
+        return np.array(value(block_of(body, (t, moved, faster), gravity), faster))
+
+    return smooth_slope(after, _STEP / speed)
+
+
+@claim(GIVEN)
+def _energy_in_free_flight(body: Body, at: State) -> str:
+    """Kinetic and potential energy change by nothing else than each other."""
+    rates, here, u = _along(body, at, OBLIQUE, lambda b, u: b.energy), block_of(body, at), at[2]
+    size = float(np.sum(np.abs(rates)) + np.abs(u) @ np.abs(here.force) + 1e-9 * np.sum(np.abs(here.energy)))
+    if abs(float(np.sum(rates))) > _SAME * size:
+        return f"the kinetic energy changes by {rates[0]:g} W, the potential by {rates[1]:g} W"
+    return ""
+
+
+@claim()
+def _free_flight(body: Body) -> None:
+    """A short run of the body alone closes its energy account."""
+    numbers = {one.name: _RUN * one.high for one in state_of(body).numbers}
+    _, q, u = state_at(body, numbers | {"t": 0.0})
+    system = System([body], gravity=9.81)
+    system.set_start(body, q, u)
+    duration = min(_FALLS / _rate(body, block_of(body, (0.0, q, u))), 1.0)
+    residual = simulate(system, duration, sample_interval=duration).energy.residual
+    if not (math.isfinite(residual) and residual <= 1e-7):
+        raise Broken(f"after {duration:g} s the account leaves {residual:g} of the energy unexplained")
+
+
+def _quaternion(body: Body) -> slice:
+    return slice(body.quaternion, body.quaternion + 4)
+
+
+@claim(GIVEN)
+def _unit_quaternion(body: Body, at: State) -> str:
+    """The rates of a unit quaternion keep its length."""
+    part = _quaternion(body)
+    rates = block_of(body, at).rates[part]
+    change = float(at[1][part] @ rates)
+    return f"its length changes at {change:g} 1/s" if abs(change) > 1e-9 * float(np.linalg.norm(rates)) else ""
+
+
+@claim(GIVEN)
+def _spin(body: Body, at: State) -> str:
+    """Its quaternion's rates are half the product with (0, spin)."""
+    (a, *axis), spin = at[1][_quaternion(body)], at[2][body.spin : body.spin + 3]
+    expected = 0.5 * np.append(-np.dot(axis, spin), a * spin + np.cross(axis, spin))
+    rates = block_of(body, at).rates[_quaternion(body)]
+    wrong = float(np.max(np.abs(rates - expected)))
+    return f"they are {rates.tolist()}" if wrong > 1e-9 * float(np.linalg.norm(spin)) else ""
+
+
+@claim(GIVEN)
+def _momentum(body: Body, at: State) -> str:
+    """Without gravity momentum and angular momentum stay, in free flight."""
+
+    def value(b: BodyBlock, u: Array) -> Array:
+        # M u = J^T (p, L), L about the origin of the frame
+        wrench = np.linalg.solve(b.jacobian(0).T, np.linalg.inv(b.inverse) @ u)
+        return np.append(wrench[:3], wrench[3:] + np.cross(b.frame(0)[:3], wrench[:3]))
+
+    here = block_of(body, at, WEIGHTLESS)
+    if abs(np.linalg.det(here.jacobian(0))) < 1e-12:
+        raise NotChecked(f"{type(body).__name__}: its frame does not move freely")
+    change, total = _along(body, at, WEIGHTLESS, value), value(here, at[2])
+    for name, part in (("momentum", slice(0, 3)), ("angular momentum", slice(3, 6))):
+        if np.max(np.abs(change[part])) > _SAME * _rate(body, here) * float(np.max(np.abs(total[part]))):
+            return f"the {name} {total[part].tolist()} changes by {change[part].tolist()} per second"
+    return ""
+
+
+def free_claims(body: Body) -> list[Claim]:
+    """Return the claims about a body with coordinates."""
+    optional = {
+        _unit_quaternion: body.quaternion >= 0,
+        _spin: body.spin >= 0,
+        _momentum: body.n_u == 6 and len(body.frames) == 1,
+    }
+    always = [_jacobian, _mass_matrix, _kinetic_energy, _energy_in_free_flight, _free_flight]
+    return [*always, *(one for one, is_asked in optional.items() if is_asked)]
+
+
+def _change(body: Body, t: float, y: Array) -> Array:
+    """Return the rates of coordinates and velocities in free motion."""
+    here = block_of(body, (t, y[: body.n_q], y[body.n_q :]))
+    return np.append(here.rates, here.inverse @ here.force)
+
+
+@claim(GIVEN)
+def _flight(body: Body, at: State) -> str:
+    """It begins at the start that is given and goes on as the equations of motion say."""
+    t, q, u = at
+    assert body.flight is not None
+    call = compiled_caller(body.flight, "body", offered(body), type(body).__name__)
+    scale, start, n = np.concatenate(body.scales), np.append(q, u), body.n_q + body.n_u
+    speed = max(float(np.max(np.abs(_change(body, t, start)) / (scale + np.abs(start)))), _SLOWEST)
+
+    def flown(elapsed: float) -> Array:
+        return written(lambda out: call(elapsed, q.copy(), u.copy(), out), n)[:n]
+
+    if np.max(np.abs(flown(0.0) - start) / (scale + np.abs(start))) > _SAME:
+        return f"after no time it is at {flown(0.0).tolist()}"
+    for part in (0.3, 1.0):
+        elapsed = part * _TURNS / speed
+        found = smooth_slope(lambda dt, since=elapsed: flown(since + dt), _STEP / speed)  # type: ignore[misc]
+        expected = _change(body, t + elapsed, flown(elapsed))
+        wrong = np.abs(found - expected) / (speed * (scale + np.abs(flown(elapsed))))
+        if not np.max(wrong) <= _SAME:
+            i = int(np.argmax(wrong))
+            return f"after {elapsed:g} s number {i} changes by {found[i]:g} per second, not by {expected[i]:g}"
+    return ""
+
+
+FLIGHT = _flight
+"""The claim about a body with a closed form of its free motion."""

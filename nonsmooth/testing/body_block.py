@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Body
 from nonsmooth.rotations import turned
 from nonsmooth.testing.functions import Caller, compiled_caller, plain_caller, written
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 State = tuple[float, Array, Array]
 """Time [s], coordinates and velocities."""
 WEIGHTLESS = {"gravity_x": 0.0, "gravity_y": 0.0, "gravity_z": 0.0}

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from nonsmooth.types import Array
+
 _PIECES = 64
 _SUSPECTS = 3
 _HALVINGS = 30

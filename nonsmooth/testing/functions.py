@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.binding.compile import bind, caller, parameter_names
 from nonsmooth.engine.native.forms import FORMS
@@ -20,8 +19,8 @@ from nonsmooth.parameters import not_offered
 from nonsmooth.testing.child import CALL, about_to
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.outcome import Broken, NotChecked, Row, described
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 Caller = Callable[..., Any]
 ROOM = 4
 """Numbers behind the block that a function writes."""

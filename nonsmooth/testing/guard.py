@@ -6,11 +6,12 @@ import numpy as np
 
 from nonsmooth.interfaces import Guard
 from nonsmooth.testing.claims import GIVEN, claim, rows
-from nonsmooth.testing.differences import Array, jump
+from nonsmooth.testing.differences import jump
 from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
+from nonsmooth.types import Array
 
 _NUMBERS, _DRAWS = 24, 24
 _WHILE = 0.5

@@ -1,4 +1,4 @@
-"""Properties of impact laws, processes and maps alike."""
+"""Properties of impact laws, of processes that the engine integrates and of maps from rates to impulses."""
 
 from __future__ import annotations
 
@@ -11,13 +11,12 @@ import numpy as np
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
 from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, Claims, claim, rows
 from nonsmooth.testing.component import accepted, numbers_of, variants
-from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller, scalar_function
-from nonsmooth.testing.impact_map import MAP, is_alone, map_functions
-from nonsmooth.testing.impact_process import PROCESS
-from nonsmooth.testing.inputs import number
+from nonsmooth.testing.functions import OLD, CheckedFunction, all_rows, plain_caller, scalar_function, written
+from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
-from nonsmooth.testing.reference import ImpactProblem, ImpactResponse, point, problem_of, respond
+from nonsmooth.testing.reference import ImpactProblem, ImpactResponse, point, problem_of, respond, vectors_of
+from nonsmooth.types import Array
 
 _MU = number("friction", 0.02, 0.6, 0.2)
 _ROUGH = number("friction", 0.02, 1.2, 0.2)
@@ -34,6 +33,15 @@ _NEAR = 1e-6
 _INDENTATIONS = (0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
 _RATES = (*(-np.geomspace(1e-9, 1e2, 6)).tolist(), 0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
 _SHARED = Claims()
+_INDENTATION = number("indentation", 1e-6, 1e1, 1.0, is_log=True)
+_RATE = number("rate", 1e-6, 1e2, 1.0, is_log=True)
+_STORED = number("stored", 1e-3, 1e3, 1.0, is_log=True)
+_GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
+_PROCESS = Claims(fewest=FEWEST)
+_ANY_MU = number("friction", 0.0, 0.6)
+_OF_FUNCTION = 0.3
+"""Friction coefficient with which the function is tried."""
+_MAP = Claims()
 
 
 def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> list[Property]:
@@ -51,13 +59,13 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
 
 
 def _rows(law: ImpactLaw, restitution: str) -> list[Row]:
-    most = _ONE if is_alone(law) else problem_of(2)
+    most = _ONE if _is_alone(law) else problem_of(2)
     table = functools.partial(rows, components=lambda: variants(law), given=[most])
     found = table(_SHARED, count=_DRAWS)
     if isinstance(law, ImpactProcess):
-        found += table(PROCESS, count=_DRAWS_BY_KIND)
+        found += table(_PROCESS, count=_DRAWS_BY_KIND)
     if isinstance(law, ImpactMap):
-        found += table(MAP, count=4)
+        found += table(_MAP, count=4)
     found += [
         Row("limit e -> 0", _plastic.says, lambda: _check_limit(law, restitution, 0.0, _plastic)),
         Row("limit e -> 1", _elastic.says, lambda: _check_limit(law, restitution, 1.0, _elastic)),
@@ -71,7 +79,7 @@ def _functions(law: ImpactLaw) -> list[CheckedFunction]:
             scalar_function(law, "force", _INDENTATIONS, law.parameters()),
             scalar_function(law, "efficiency", _RATES, law.parameters()),
         ]
-    return map_functions(law) if isinstance(law, ImpactMap) else []
+    return _map_functions(law) if isinstance(law, ImpactMap) else []
 
 
 def _check_limit(law: ImpactLaw, restitution: str, value: float, limit: Claim) -> None:
@@ -170,7 +178,7 @@ def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) 
 @_SHARED.claim(GIVEN, _MU, _OTHER_MU, fewest=FEWEST)
 def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -> str:
     """The order of the contacts does not matter."""
-    if is_alone(law):
+    if _is_alone(law):
         raise NotChecked(f"{type(law).__name__}: it is a law of one contact")
     swapped = ImpactProblem(p.mass, p.normal[:, ::-1].copy(), p.tangential[:, ::-1].copy(), p.velocity)
     one, other = respond([law] * 2, (mu, other_mu), p), respond([law] * 2, (other_mu, mu), swapped)
@@ -229,3 +237,101 @@ def _apart(one: Any, other: Any, size: float) -> bool:
 
 def _list(values: Any) -> str:
     return np.array2string(np.asarray(values), precision=6, separator=", ", suppress_small=True).replace("\n", "")
+
+
+@_PROCESS.claim(_INDENTATION)
+def _force(law: ImpactProcess, indentation: float) -> str:
+    """Zero at zero, and it rises with the indentation."""
+    force = plain_caller(law.force, "scalar", law.parameters())
+    if force(0.0) != 0.0:
+        return f"force(0) is {force(0.0):g}"
+    for less in (indentation, *_GRID):
+        low, high = force(less), force(1.5 * less)
+        if not high > low > 0.0:
+            return f"force({less:g}) is {low:g} and force({1.5 * less:g}) {high:g}"
+    return ""
+
+
+@_PROCESS.claim(_RATE)
+def _efficiency(law: ImpactProcess, drawn: float) -> str:
+    """1 for rates below zero, between 0 and 1 from there."""
+    efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
+    for rate in (0.0, drawn, *_GRID):
+        if rate > 0.0 and efficiency(-rate) != 1.0:
+            return f"efficiency({-rate:g}) is {efficiency(-rate):g}"
+        if not 0.0 <= efficiency(rate) <= 1.0:
+            return f"efficiency({rate:g}) is {efficiency(rate):g}"
+    return ""
+
+
+@_PROCESS.claim(problem_of(2), _ANY_MU, name="certificate")
+def _certificate_of_energies(law: ImpactProcess, p: ImpactProblem, mu: float) -> str:
+    """Energies that the engine stores and gives back obey it."""
+    r = respond([law] * 2, [mu] * 2, p)
+    size = float(np.max(r.stored, initial=0.0))
+    for stored, returned in zip(r.stored.tolist(), r.returned.tolist(), strict=True):
+        if not law.is_fulfilled(stored, returned, 1e-7 * size + 1e-12):
+            return f"is_fulfilled refuses {returned:g} J back of {stored:g} J"
+    return ""
+
+
+@_PROCESS.claim(_STORED)
+def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
+    """More energy back than was stored does not obey it."""
+    if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
+        return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
+    return ""
+
+
+def _is_alone(law: ImpactLaw) -> bool:
+    """True for a law of a single contact."""
+    return isinstance(law, ImpactMap) and law.one_contact
+
+
+def _map_functions(law: ImpactMap) -> list[CheckedFunction]:
+    """Return the function of a map, with problems of one contact, and of two unless it is a law of a single one."""
+    return [_of_contacts(law, 1)] if _is_alone(law) else [_of_contacts(law, 1), _of_contacts(law, 2)]
+
+
+def _of_contacts(law: ImpactMap, n: int) -> CheckedFunction:
+    drawn, words = problem_of(n), f"{n} contact{'s' * (n > 1)}"
+    inputs = [(words, _given(drawn.made(case))) for case in draws([drawn], 3)]
+    return CheckedFunction(law, "impulses", "map", vectors_of([law] * n, [_OF_FUNCTION] * n), inputs, 3 * n)
+
+
+def _given(p: ImpactProblem) -> tuple[int, Array, Array]:
+    """Return the arguments of the function of a map."""
+    return p.n, np.ascontiguousarray(p.delassus).ravel(), p.rates
+
+
+def _impulses(law: ImpactMap, p: ImpactProblem, mu: float, old: float = 0.0) -> Array:
+    call = plain_caller(law.impulses, "map", vectors_of([law] * p.n, [mu] * p.n))
+    return written(lambda out: call(*_given(p), out), 3 * p.n, old)[: 3 * p.n]
+
+
+@_MAP.claim(GIVEN, _ANY_MU)
+def _writes_its_block(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
+    """It writes every impulse, whatever stood there, and nothing beyond."""
+    clean, used = (_impulses(law, p, mu, old) for old in (0.0, OLD))
+    return "" if np.allclose(clean, used, rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"
+
+
+@_MAP.claim(GIVEN, _ANY_MU, name="certificate")
+def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
+    """The impulses of the law obey it; larger ones, other friction and none where a contact approaches do not."""
+    obeying, delassus, before = _impulses(law, p, mu), p.delassus, p.rates
+    tolerance = _NEAR * float(np.max(np.abs(before)))
+    across = obeying * np.tile([0.0, 1.0, 1.0], p.n)
+    wrong = {
+        "1.1 times its impulses": 1.1 * obeying,
+        "1.2 times its friction": obeying + 0.2 * across,
+        "no impulses": 0.0 * obeying,
+    }
+    # impulses that change no velocity are the same solution
+    others = {k: v for k, v in wrong.items() if np.max(np.abs(delassus @ (v - obeying))) > 1e3 * tolerance}
+    friction = vectors_of([law] * p.n, [mu] * p.n)["friction"]
+    for words, impulses in {"its impulses": obeying, **others}.items():
+        expected = impulses is obeying
+        if bool(law.is_fulfilled(delassus, before, impulses, friction, tolerance)) is not expected:
+            return f"is_fulfilled {'refuses' if expected else 'accepts'} {words}"
+    return ""

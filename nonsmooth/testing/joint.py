@@ -13,10 +13,11 @@ from nonsmooth.testing.claims import Claims, claim, rows
 from nonsmooth.testing.differences import slope
 from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws
-from nonsmooth.testing.movement import MOVEMENT, SHIFT, STEP, TURN, Array, Frames, Movement, moved
+from nonsmooth.testing.movement import MOVEMENT, SHIFT, STEP, TURN, Frames, Movement, moved
 from nonsmooth.testing.outcome import Broken, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_ends
+from nonsmooth.types import Array
 
 _DRAWS = 24
 _SAME, _ROUND_OFF = 1e-7, 1e-9

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.blocks import (
     FEATURE,
@@ -36,8 +35,8 @@ from nonsmooth.testing.movement import SHIFT, three
 from nonsmooth.testing.outcome import Broken, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import ContactRig, Pose
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 _DRAWS, _MOST_DRAWS = 40, 400
 _STEP = 5e-4
 _PLACE = (0.31, -0.23, 0.37)

@@ -11,10 +11,11 @@ from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.differences import jump
 from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
-from nonsmooth.testing.movement import MOVEMENT, SHIFT, TURN, Array, Frames, Movement, moved, shared
+from nonsmooth.testing.movement import MOVEMENT, SHIFT, TURN, Frames, Movement, moved, shared
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_ends
+from nonsmooth.types import Array
 
 _DRAWS = 24
 _SAME = 1e-9

@@ -11,11 +11,12 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.interfaces import Motion
 from nonsmooth.testing.claims import GIVEN, Claims, claim, rows
-from nonsmooth.testing.differences import Array, jump, rotation_fault, slope, spin_of
+from nonsmooth.testing.differences import jump, rotation_fault, slope, spin_of
 from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
+from nonsmooth.types import Array
 
 _DRAWS = 40
 _SAME = 1e-6

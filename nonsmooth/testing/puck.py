@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory import owners
@@ -46,9 +45,8 @@ from nonsmooth.system.materials import ContactLaws
 from nonsmooth.system.system import System
 from nonsmooth.testing.body_block import BlockPlaces
 from nonsmooth.testing.reference import ReferenceContact, ReferenceFriction, ReferenceImpact
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
-Array = NDArray[np.float64]
 Numbers = tuple[float, ...]
 Pose = tuple[Array, Array]
 """Position [m] and unit quaternion, scalar first."""

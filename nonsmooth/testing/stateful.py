@@ -13,9 +13,10 @@ from nonsmooth.testing.claims import FEWEST, Claims, claim
 from nonsmooth.testing.coefficient import FORCE, HEADING, SPEED, along, mu
 from nonsmooth.testing.functions import CheckedFunction, plain_caller, written
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
-from nonsmooth.testing.puck import Array, Puck, run
-from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact
-from nonsmooth.testing.reference_motion import (
+from nonsmooth.testing.puck import Puck, run
+from nonsmooth.testing.reference import (
+    ReferenceContact,
+    ReferenceImpact,
     fastest,
     followed,
     is_same_motion,
@@ -24,6 +25,7 @@ from nonsmooth.testing.reference_motion import (
     start_of,
     writing_fault,
 )
+from nonsmooth.types import Array
 
 _TRIED = (0.0, 1e-9, 1e-3, 1.0, 1e2)
 _MOVED = number("moved", -1.0, 1.0, 1.0)

@@ -18,8 +18,8 @@ from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller,
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws, number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
-from nonsmooth.testing.puck import Array, ConstantLoad, Puck, run
-from nonsmooth.testing.reference_motion import (
+from nonsmooth.testing.puck import ConstantLoad, Puck, run
+from nonsmooth.testing.reference import (
     fastest,
     followed,
     is_same_motion,
@@ -28,6 +28,7 @@ from nonsmooth.testing.reference_motion import (
     start_of,
     writing_fault,
 )
+from nonsmooth.types import Array
 
 _DRAWS = 8
 _LOAD = number("normal_force", 1e-2, 1e2, 1.0, is_log=True)
