@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
+from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import UNITS_OF_Q, UNITS_OF_U
@@ -19,15 +19,15 @@ from nonsmooth.testing.body_block import (
     BodyBlock,
     State,
     block_of,
+    block_size,
     offered,
-    places_of,
     plain,
     state_at,
     state_of,
     stepped,
 )
-from nonsmooth.testing.claims import GIVEN, Claim, claim, rows
-from nonsmooth.testing.differences import rotation_fault, smooth_slope, spin_of
+from nonsmooth.testing.claims import GIVEN, Claims, claim, rows
+from nonsmooth.testing.differences import rotation_fault, slope, slope_fault, smooth_slope, spin_of
 from nonsmooth.testing.functions import (
     CheckedFunction,
     all_rows,
@@ -45,7 +45,6 @@ from nonsmooth.types import Array
 _DRAWS = 12
 _UNKNOWN = "no_such_word"
 _SAME = 1e-6
-_NOISE = 1e-12
 _STEP = 1e-3
 """Step of the differences, in units of the shortest time of the motion."""
 _SLOWEST = 1e-3
@@ -56,12 +55,8 @@ _RUN = 0.4
 _TURNS = 3.0
 """Duration of flights, in units of the time in which a number changes by its scale."""
 _AXES, _POSE = slice(ROTATION, VELOCITY), slice(POSITION, VELOCITY)
-_PARTS = {
-    "velocity": slice(VELOCITY, SPIN),
-    "angular velocity": slice(SPIN, ACCELERATION),
-    "acceleration bias": slice(ACCELERATION, SPIN_ACCELERATION),
-    "angular bias": slice(SPIN_ACCELERATION, FRAME),
-}
+_EVERY, _FREE = Claims(), Claims()
+"""Claims about every body, and about bodies with coordinates."""
 
 
 def check_body(body: Body) -> list[Property]:
@@ -76,23 +71,26 @@ def check_body(body: Body) -> list[Property]:
 
 
 def _rows(body: Body) -> list[Row]:
-    claims = [_start, _writes_its_block, _sketch, *DRIVEN]
-    if body.n_u > 0:
-        claims += free_claims(body)
-    if body.flight is not None:
-        claims.append(FLIGHT)
+    has_coordinates = body.n_u > 0
+    optional = {
+        _unit_quaternion: has_coordinates and body.quaternion >= 0,
+        _spin: has_coordinates and body.spin >= 0,
+        _momentum: body.n_u == 6 and len(body.frames) == 1,
+        _flight: body.flight is not None,
+    }
+    claims = [*_EVERY, *_FREE * has_coordinates, *(one for one, is_asked in optional.items() if is_asked)]
     functions = [name for name in ("evaluator", "flight") if getattr(body, name)]
     found = rows(claims, lambda: [body], _DRAWS, [state_of(body)])
     return all_rows(body, lambda: [_function(body, name) for name in functions], found)
 
 
 def _function(body: Body, name: str) -> CheckedFunction:
-    size = places_of(body).size if name == "evaluator" else body.n_q + body.n_u
+    size = block_size(body) if name == "evaluator" else body.n_q + body.n_u
     inputs = [(f"t = {case['t']:.3g}", state_at(body, case)) for case in draws([state_of(body)], 6)]
     return CheckedFunction(body, name, "body", offered(body), inputs, size)
 
 
-@claim()
+@_EVERY.claim()
 def _start(body: Body) -> None:
     """The start has the sizes that the body names, each number a unit, and unknown words are refused."""
     q, u = body.state()
@@ -123,16 +121,16 @@ def _start(body: Body) -> None:
     raise Broken("`state` takes words that it does not know", _UNKNOWN, 0.0)
 
 
-@claim(GIVEN)
+@_EVERY.claim(GIVEN)
 def _writes_its_block(body: Body, at: State) -> str:
     """It writes every number that can be non-zero, whatever stood there, and nothing beyond the block."""
     call, (t, q, u), (start, rest) = plain(body), at, body.state()
     # another state, on the other side of the start
     before = 1.0 - t, start - 0.9 * (q - start) + 0.1, rest - 0.9 * (u - rest) + 0.1
-    return left_over(lambda out: call(*at, out), lambda out: call(*before, out), places_of(body).size)
+    return left_over(lambda out: call(*at, out), lambda out: call(*before, out), block_size(body))
 
 
-@claim()
+@_EVERY.claim()
 def _sketch(body: Body) -> None:
     """What is seen of it besides its shapes can be drawn."""
     sketch = body.sketch
@@ -153,18 +151,18 @@ def _rate(body: Body, here: BodyBlock) -> float:
     return max(float(np.max(np.abs(here.rates) / body.scales[0], initial=0.0)), _SLOWEST)
 
 
-@claim(GIVEN)
+@_EVERY.claim(GIVEN)
 def _rotation(body: Body, at: State) -> str:
     """The axes of every frame are a rotation matrix."""
     here = block_of(body, at)
     for i in range(len(body.frames)):
-        if fault := rotation_fault(here.frame(i)[_AXES]):
+        if fault := rotation_fault(here.frames[i][_AXES]):
             return f"{fault}, of frame {i}"
     return ""
 
 
 def _frame_slope(body: Body, at: State, i: int, part: slice) -> tuple[Array, float]:
-    """Return the derivative in time of a part of a frame, while u' = 0, and the noise of the differences."""
+    """Return the derivative in time of a part of a frame while u' = 0, and a bound of its error."""
     t, q, u = at
     dt = _STEP / max(1.0 / body.time_scale, _rate(body, block_of(body, (0.0, q, u))) if body.n_q else _SLOWEST)
 
@@ -180,63 +178,47 @@ def _frame_slope(body: Body, at: State, i: int, part: slice) -> tuple[Array, flo
         return stepped(body, q, (first + 2.0 * second + 2.0 * third + fourth) / 6.0, step)
 
     def value(step: float) -> Array:
-        return block_of(body, (t + step, after(step) if body.n_q else q, u)).frame(i)[part].copy()
+        return np.array(block_of(body, (t + step, after(step) if body.n_q else q, u)).frames[i, part])
 
-    near, far = (value(dt), value(-dt)), (value(2.0 * dt), value(-2.0 * dt))
-    noise = _NOISE * max(float(np.max(np.abs(values))) for values in near) / dt
-    return np.asarray((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (12.0 * dt)), noise
+    return slope(value, dt)
 
 
-def _unlike(frame: Array, found: Mapping[str, Array], i: int, noise: float) -> str:
-    for name, wanted in found.items():
-        given = frame[_PARTS[name]]
-        if np.max(np.abs(given - wanted)) > _SAME * float(np.max(np.abs(wanted))) + noise:
-            return f"{name} of frame {i} is {given.tolist()}, the differences give {wanted.tolist()}"
-    return ""
-
-
-@claim(GIVEN)
+@_EVERY.claim(GIVEN)
 def _velocity(body: Body, at: State) -> str:
     """Velocity and angular velocity of every frame are derivatives of its pose."""
-    here = block_of(body, at)
-    for i in range(len(body.frames)):
-        slope, noise = _frame_slope(body, at, i, _POSE)
-        frame = here.frame(i)
-        found = {"velocity": slope[:ROTATION], "angular velocity": spin_of(slope[ROTATION:], frame[_AXES])}
-        if wrong := _unlike(frame, found, i, noise):
-            return wrong
+    for i, frame in enumerate(block_of(body, at).frames):
+        rates, known = _frame_slope(body, at, i, _POSE)
+        spin = spin_of(rates[ROTATION:], frame[_AXES])
+        fault = slope_fault(f"velocity of frame {i}", frame[VELOCITY:SPIN], rates[:ROTATION], known)
+        if fault := fault or slope_fault(f"angular velocity of frame {i}", frame[SPIN:ACCELERATION], spin, known):
+            return fault
     return ""
 
 
-@claim(GIVEN)
+@_EVERY.claim(GIVEN)
 def _acceleration(body: Body, at: State) -> str:
     """The biases are the derivatives of the velocities while u' = 0, by differences."""
-    here = block_of(body, at)
-    for i in range(len(body.frames)):
-        slope, noise = _frame_slope(body, at, i, slice(VELOCITY, ACCELERATION))
-        if wrong := _unlike(here.frame(i), {"acceleration bias": slope[:3], "angular bias": slope[3:]}, i, noise):
-            return wrong
+    for i, frame in enumerate(block_of(body, at).frames):
+        found, known = _frame_slope(body, at, i, slice(VELOCITY, ACCELERATION))
+        if fault := slope_fault(f"acceleration biases of frame {i}", frame[ACCELERATION:], found, known):
+            return fault
     return ""
 
 
-@claim(GIVEN)
+@_FREE.claim(GIVEN)
 def _jacobian(body: Body, at: State) -> str:
     """The Jacobian is the derivative of the velocities by u."""
     t, q, u = at
     here, still = block_of(body, at), block_of(body, (t, q, np.zeros(body.n_u)))
     for i in range(len(body.frames)):
-        given, rest = (block.frame(i)[VELOCITY:ACCELERATION] for block in (here, still))
-        predicted = rest + here.jacobian(i) @ u
+        given, rest = (block.frames[i][VELOCITY:ACCELERATION] for block in (here, still))
+        predicted = rest + here.jacobians[i] @ u
         if np.max(np.abs(given - predicted)) > 1e-9 * float(np.max(np.abs(given)) + np.max(np.abs(predicted))):
             return f"frame {i} moves at {given.tolist()}, Jacobian times u is {predicted.tolist()}"
     return ""
 
 
-DRIVEN = [_rotation, _velocity, _acceleration]
-"""The claims about frames, of driven bodies too."""
-
-
-@claim(GIVEN)
+@_FREE.claim(GIVEN)
 def _mass_matrix(body: Body, at: State) -> str:
     """M is symmetric and positive definite."""
     inverse = block_of(body, at).inverse
@@ -251,7 +233,7 @@ def _mass_matrix(body: Body, at: State) -> str:
     return f"M^-1 is not positive definite: {inverse.tolist()}" if least <= 1e-14 else ""
 
 
-@claim(GIVEN)
+@_FREE.claim(GIVEN)
 def _kinetic_energy(body: Body, at: State) -> str:
     """It is u . M u / 2."""
     here, u = block_of(body, at), at[2]
@@ -276,7 +258,7 @@ def _along(body: Body, at: State, gravity: Mapping[str, float], value: Callable[
     return smooth_slope(after, _STEP / speed)
 
 
-@claim(GIVEN)
+@_FREE.claim(GIVEN)
 def _energy_in_free_flight(body: Body, at: State) -> str:
     """Kinetic and potential energy change by nothing else than each other."""
     rates, here, u = _along(body, at, OBLIQUE, lambda b, u: b.energy), block_of(body, at), at[2]
@@ -286,7 +268,7 @@ def _energy_in_free_flight(body: Body, at: State) -> str:
     return ""
 
 
-@claim()
+@_FREE.claim()
 def _free_flight(body: Body) -> None:
     """A short run of the body alone closes its energy account."""
     numbers = {one.name: _RUN * one.high for one in state_of(body).numbers}
@@ -328,28 +310,17 @@ def _momentum(body: Body, at: State) -> str:
 
     def value(b: BodyBlock, u: Array) -> Array:
         # M u = J^T (p, L), L about the origin of the frame
-        wrench = np.linalg.solve(b.jacobian(0).T, np.linalg.inv(b.inverse) @ u)
-        return np.append(wrench[:3], wrench[3:] + np.cross(b.frame(0)[:3], wrench[:3]))
+        wrench = np.linalg.solve(b.jacobians[0].T, np.linalg.inv(b.inverse) @ u)
+        return np.append(wrench[:3], wrench[3:] + np.cross(b.frames[0][:3], wrench[:3]))
 
     here = block_of(body, at, WEIGHTLESS)
-    if abs(np.linalg.det(here.jacobian(0))) < 1e-12:
+    if abs(np.linalg.det(here.jacobians[0])) < 1e-12:
         raise NotChecked(f"{type(body).__name__}: its frame does not move freely")
     change, total = _along(body, at, WEIGHTLESS, value), value(here, at[2])
     for name, part in (("momentum", slice(0, 3)), ("angular momentum", slice(3, 6))):
         if np.max(np.abs(change[part])) > _SAME * _rate(body, here) * float(np.max(np.abs(total[part]))):
             return f"the {name} {total[part].tolist()} changes by {change[part].tolist()} per second"
     return ""
-
-
-def free_claims(body: Body) -> list[Claim]:
-    """Return the claims about a body with coordinates."""
-    optional = {
-        _unit_quaternion: body.quaternion >= 0,
-        _spin: body.spin >= 0,
-        _momentum: body.n_u == 6 and len(body.frames) == 1,
-    }
-    always = [_jacobian, _mass_matrix, _kinetic_energy, _energy_in_free_flight, _free_flight]
-    return [*always, *(one for one, is_asked in optional.items() if is_asked)]
 
 
 def _change(body: Body, t: float, y: Array) -> Array:
@@ -381,7 +352,3 @@ def _flight(body: Body, at: State) -> str:
             i = int(np.argmax(wrong))
             return f"after {elapsed:g} s number {i} changes by {found[i]:g} per second, not by {expected[i]:g}"
     return ""
-
-
-FLIGHT = _flight
-"""The claim about a body with a closed form of its free motion."""

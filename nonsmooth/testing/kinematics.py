@@ -29,6 +29,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.claims import GIVEN, Claim, claim, rows
+from nonsmooth.testing.differences import slope
 from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
@@ -181,18 +182,18 @@ class _Placed:
         feature = self.put().geometry[FEATURE]
         if self.rig.geometry[PAST_END] > 0.0:
             return None
-        at: dict[int, Array] = {}
-        for i in (-4, -2, -1, 1, 2, 4):
-            rig = self.put(i * _STEP)
-            if rig.geometry[FEATURE] != feature or rig.geometry[PAST_END] > 0.0:
-                return None
-            at[i] = np.array(value(rig))
-        fine = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * _STEP)
-        coarse = (8.0 * (at[2] - at[-2]) - (at[4] - at[-4])) / (24.0 * _STEP)
-        if np.max(np.abs(fine - coarse)) > 0.1 * _RATE * (1.0 + float(np.max(np.abs(fine)))):
+
+        def smooth_value(dt: float) -> Array:
+            rig = self.put(dt)
+            block, found = rig.geometry, np.array(value(rig))
+            is_smooth = block[FEATURE] == feature and block[PAST_END] <= 0.0
+            return found if is_smooth else np.full_like(found, math.nan)
+
+        found, error = slope(smooth_value, _STEP)
+        if not error <= 0.1 * _RATE * (1.0 + float(np.max(np.abs(found)))):
             return None
         self.smooth.add(1)
-        return np.asarray(fine)
+        return found
 
     def moved_together(self, turn: Array, part: slice, name: str) -> str:
         """Return the fault of a vector of the geometry that does not turn with both bodies; they stay moved."""

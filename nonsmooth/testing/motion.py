@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.interfaces import Motion
 from nonsmooth.testing.claims import GIVEN, Claims, claim, rows
-from nonsmooth.testing.differences import jump, rotation_fault, slope, spin_of
+from nonsmooth.testing.differences import jump, rotation_fault, slope, slope_fault, spin_of
 from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
@@ -19,7 +19,6 @@ from nonsmooth.testing.property import Property, properties
 from nonsmooth.types import Array
 
 _DRAWS = 40
-_SAME = 1e-6
 _SPAN = 3.0
 """How long a motion is checked by default, in units of its time scale."""
 _STEP = 1e-3
@@ -109,12 +108,8 @@ def _slope(motion: Motion, t: float, part: str) -> tuple[Array, float]:
     return slope(lambda dt: _look(motion, t + dt)[_PARTS[part]], _STEP * _unit(motion))
 
 
-def _unlike(motion: Motion, t: float, part: str, found: Array, known: float) -> str:
-    given, size = _look(motion, t)[_PARTS[part]], float(np.max(np.abs(found)))
-    # at a knot of a table the differences know little, and nothing is asked
-    if np.max(np.abs(given - found)) <= _SAME * size + 10.0 * known:
-        return ""
-    return f"the {part} is {given.tolist()}, the differences give {found.tolist()}"
+def _slope_fault(motion: Motion, t: float, part: str, found: Array, known: float) -> str:
+    return slope_fault(part, _look(motion, t)[_PARTS[part]], found, known)
 
 
 @_MOTION.claim(GIVEN)
@@ -122,15 +117,15 @@ def _velocity(motion: Motion, t: float) -> str:
     """Velocity and angular velocity are the derivatives of the pose, by differences."""
     rates, known = _slope(motion, t, "rotation")
     spin = spin_of(rates, _look(motion, t)[_PARTS["rotation"]])
-    moves = _unlike(motion, t, "velocity", *_slope(motion, t, "position"))
-    return moves or _unlike(motion, t, "angular velocity", spin, known)
+    moves = _slope_fault(motion, t, "velocity", *_slope(motion, t, "position"))
+    return moves or _slope_fault(motion, t, "angular velocity", spin, known)
 
 
 @_MOTION.claim(GIVEN)
 def _acceleration(motion: Motion, t: float) -> str:
     """The accelerations are the derivatives of the velocities, by differences."""
-    moves = _unlike(motion, t, "acceleration", *_slope(motion, t, "velocity"))
-    return moves or _unlike(motion, t, "angular acceleration", *_slope(motion, t, "angular velocity"))
+    moves = _slope_fault(motion, t, "acceleration", *_slope(motion, t, "velocity"))
+    return moves or _slope_fault(motion, t, "angular acceleration", *_slope(motion, t, "angular velocity"))
 
 
 def _check_jumps(motion: Motion, span: float) -> None:

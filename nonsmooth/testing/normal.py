@@ -27,9 +27,8 @@ from nonsmooth.types import Array
 _SIZE = number("size", 1e-3, 1e3, 1.0, is_log=True)
 _LOAD = number("load", -1e3, 1e3, -1.0)
 _TOLERANCE = 1e-9
-_DRAWS = 12
+_DRAWS, _DRAWS_COMPLIANT = 12, 8
 _RIGID = Claims()
-_DRAWS = 8
 _DEPTH = number("depth", 1e-2, 1e2, 1.0, is_log=True)
 """Indentation, in units of that under 1 N at rest."""
 _SPEED = number("closing_rate", 1e-3, 10.0, 1.0, is_log=True)
@@ -50,8 +49,8 @@ _NOTHING = 1e-9
 _POINTS = 2048
 _GAIN = 1e-4
 """Part of the energy exchanged in a cycle that may be the error of its sum."""
-_SAME = 3e-6
-"""Deviation of two impacts that counts as none, by the engine's 1e-9 per step, in units of depth and speed."""
+_SAME = 1e-6
+"""Deviation of two impacts that counts as none, in units of depth and speed, ten times the error of the engine."""
 _EXACT = 1e-11
 _SHORT, _FREE = 1e-6, 0.5
 """How long it is followed before its end is looked for, and after its end, in the unit below."""
@@ -72,7 +71,7 @@ def check_normal_law(law: NormalLaw) -> list[Property]:
     law : NormalLaw
         The law, with parameters.
     """
-    return properties(law, compliant_rows if isinstance(law, CompliantNormalLaw) else _rows)
+    return properties(law, _compliant_rows if isinstance(law, CompliantNormalLaw) else _rows)
 
 
 def _rows(law: RigidNormalLaw) -> list[Row]:
@@ -126,9 +125,9 @@ def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
     return ""
 
 
-def compliant_rows(law: CompliantNormalLaw) -> list[Row]:
+def _compliant_rows(law: CompliantNormalLaw) -> list[Row]:
     """Return the properties of a compliant normal law: its force, its certificate, and impacts of a mass."""
-    found = rows(_COMPLIANT, lambda: variants(law), _DRAWS)
+    found = rows(_COMPLIANT, lambda: variants(law), _DRAWS_COMPLIANT)
     return all_rows(law, lambda: [_force(one) for one in variants(law)], found)
 
 

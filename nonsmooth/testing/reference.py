@@ -37,7 +37,7 @@ _MOST_CALLS = 50_000
 _STEP = 1e-6
 """Step of the differences by which rates of change are bounded, in units of the sizes of the states."""
 _SAME, _STEPS = 1e-5, 1e-7
-"""Deviation of two motions that counts as none: of the change, and of the whole, by the engine's 1e-9 per step."""
+"""Deviation of two motions that counts as none: of the change, and of the whole, by the steps of the engine."""
 
 
 def _force(indentation: float) -> float:
