@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import inspect
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -14,7 +13,7 @@ from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import UnusualValue
 from nonsmooth.testing.child import about_to
 from nonsmooth.testing.inputs import Drawn, draws, simplified
-from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, words_of
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, name_of, says_of, words_of
 
 FEWEST = 3
 """Inputs of claims that use the engine in plain mode, in which it is some 400 times slower."""
@@ -92,8 +91,7 @@ def claim(
     """Make a claim of a function: its name with blanks is the name, its docstring the statement."""
 
     def made(trial: Callable[..., str | None]) -> Claim:
-        says = " ".join(inspect.cleandoc(trial.__doc__ or "").split()).rstrip(".")
-        return Claim(name or trial.__name__.strip("_").replace("_", " "), says, trial, inputs, n_inputs, fewest)
+        return Claim(name or name_of(trial), says_of(trial), trial, inputs, n_inputs, fewest)
 
     return made
 

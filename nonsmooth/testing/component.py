@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import json
 import math
 import tomllib
@@ -16,7 +17,7 @@ from nonsmooth.files.formats import text_of as toml_text
 from nonsmooth.files.gate import TRUSTED
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.testing.inputs import inside, outside
-from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, name_of, says_of
 
 
 def remade(component: Any, **values: Any) -> Any:
@@ -59,19 +60,15 @@ def variants(component: Any) -> list[Any]:
 
 def component_rows(component: Any) -> list[Row]:
     """Return the properties that every component has."""
-    bounds = (
-        "A parameter outside of its declared range, or not a finite number, raises InvalidInput; "
-        "one inside is accepted, if need be with other values of the others"
-    )
-    trip = "Made anew from words, from JSON and from a scenario file, it is equal and offers the same parameters"
-    return [
-        Row("declared bounds", bounds, lambda: _check_bounds(component)),
-        Row("round trip", trip, lambda: _check_round_trip(component)),
-        Row("immutable", "No parameter can be set after it is made", lambda: _check_immutable(component)),
-    ]
+    checks = _declared_bounds, _round_trip, _immutable
+    return [Row(name_of(check), says_of(check), functools.partial(check, component)) for check in checks]
 
 
-def _check_bounds(component: Any) -> None:
+def _declared_bounds(component: Any) -> None:
+    """A parameter outside of its declared range, or not a finite number, raises InvalidInput.
+
+    A parameter inside is accepted, if need be with other values of the others.
+    """
     owner = type(component)
     for name, (field, rule) in rules(owner).items():
         wrong: tuple[Any, ...] = outside(rule) if rule.unit != "" else ()
@@ -125,7 +122,8 @@ def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
         yield zero | {other: max(ranges[other])}
 
 
-def _check_round_trip(component: Any) -> None:
+def _round_trip(component: Any) -> None:
+    """Made anew from words, from JSON and from a scenario file, it is equal and offers the same parameters."""
     owner = type(component)
     declared = {name: getattr(component, name) for name, (field, _) in rules(owner).items() if field.init}
     fields = [field.name for field in dataclasses.fields(component) if field.init]
@@ -164,7 +162,8 @@ def _through_file(component: Any) -> Any:
     return files.component(owner.__name__, tomllib.loads(toml_text({"it": table}))["it"], owner, TRUSTED)
 
 
-def _check_immutable(component: Any) -> None:
+def _immutable(component: Any) -> None:
+    """No parameter can be set after it is made."""
     fields = dataclasses.fields(component)
     if not fields:
         raise NotChecked(f"{type(component).__name__}: it has no parameters")
