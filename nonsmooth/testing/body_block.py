@@ -67,11 +67,11 @@ def block_of(body: Body, at: State, gravity: Mapping[str, float] = OBLIQUE) -> B
     call = compiled_caller(body.evaluator, "body", offered(body, gravity), type(body).__name__)
     (t, q, u), n_q, n_u = at, body.n_q, body.n_u
     numbers = written(lambda out: call(t, np.array(q), np.array(u), out), block_size(body))[: block_size(body)]
-    row = FRAME + 6 * n_u
-    frames, rest = np.split(numbers, [len(body.frames) * row])
-    frames = frames.reshape(-1, row)
+    n, row = len(body.frames), FRAME + 6 * n_u
+    frames, rest = np.split(numbers, [n * row])
+    frames = frames.reshape(n, row)
     rates, force, inverse, energy = np.split(rest, np.cumsum([n_q, n_u, n_u * n_u]))
-    jacobians = frames[:, FRAME:].reshape(-1, 6, n_u)
+    jacobians = frames[:, FRAME:].reshape(n, 6, n_u)
     return BodyBlock(frames[:, :FRAME], jacobians, rates, force, inverse.reshape(n_u, n_u), energy)
 
 

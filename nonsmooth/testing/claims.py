@@ -96,6 +96,13 @@ def claim(
     return made
 
 
+def wrong_verdict(is_accepted: bool, expected: bool) -> str:
+    """Return "is_fulfilled refuses" or "is_fulfilled accepts" if a certificate is wrong; "" if it is right."""
+    if bool(is_accepted) is expected:
+        return ""
+    return "is_fulfilled refuses" if expected else "is_fulfilled accepts"
+
+
 @final
 class Claims(list[Claim]):
     """The claims about a kind of component, in the order in which they are written.

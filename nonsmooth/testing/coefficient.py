@@ -14,7 +14,7 @@ from typing import Any, final
 import numpy as np
 
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
-from nonsmooth.testing.claims import Claim, Claims
+from nonsmooth.testing.claims import Claim, Claims, wrong_verdict
 from nonsmooth.testing.component import numbers_of, remade
 from nonsmooth.testing.functions import CheckedFunction, plain_caller, scalar_function
 from nonsmooth.testing.inputs import number
@@ -113,10 +113,8 @@ def vanishing_names(law: FrictionLaw) -> tuple[str, ...]:
 
 
 def verdict(law: FrictionLaw, slip: Pair, load: float, force: Pair, expected: bool) -> str:
-    """Return "refuses" or "accepts" if the certificate of a law is wrong about a force, else ""."""
-    if bool(law.is_fulfilled(slip, load, force, 1e-9 * load)) is expected:
-        return ""
-    return "refuses" if expected else "accepts"
+    """Return the fault of the certificate of a law about a force; "" if it has none."""
+    return wrong_verdict(law.is_fulfilled(slip, load, force, 1e-9 * load), expected)
 
 
 @COEFFICIENT.claim(_ANY_SPEED, n_inputs=60)
@@ -144,7 +142,7 @@ def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load
     wrong = (-1.0, 0.5, 1.5, 0.0) if math.hypot(*force) > 1e-6 * load else ()
     for share in (1.0, *wrong):
         if word := verdict(law, slip, load, times(share, force), share == 1.0):
-            return f"is_fulfilled {word} {share:g} of the force ({force[0]:g}, {force[1]:g}) N of the law"
+            return f"{word} {share:g} of the force ({force[0]:g}, {force[1]:g}) N of the law"
     return ""
 
 
@@ -156,7 +154,7 @@ def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: f
     outside = along(1.01 * size + 1e-3 * load, heading)
     for force, expected in ((times(share, bound), True), (outside, False)):
         if word := verdict(law, (0.0, 0.0), load, force, expected):
-            return f"is_fulfilled {word} {math.hypot(*force):g} N at rest, where {size:g} N is the bound"
+            return f"{word} {math.hypot(*force):g} N at rest, where {size:g} N is the bound"
     return ""
 
 

@@ -17,10 +17,9 @@ from nonsmooth.parameters import UnusualValue
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation
 from nonsmooth.testing.claims import claim, rows
-from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.component import component_rows, make
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
-from nonsmooth.testing.registered import make
 
 _POSES = 6
 _SAME = 1e-5

@@ -222,7 +222,7 @@ class _Functions:
 
     def rows(self, found: Sequence[Row]) -> list[Row]:
         """Return the properties of the functions, then others, which are checked only if the functions can be run."""
-        # a component has a claim of its own that it writes its block, after which nothing follows
+        # "writes its block" is stated by a claim of the component
         own = [
             Row(name, says_of(look), functools.partial(self.check, name))
             for name, look in _STAGES.items()

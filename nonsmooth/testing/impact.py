@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import functools
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
-from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, Claims, claim, rows
+from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, Claims, claim, rows, wrong_verdict
 from nonsmooth.testing.component import accepted, numbers_of, variants
 from nonsmooth.testing.functions import OLD, CheckedFunction, all_rows, plain_caller, scalar_function, written
 from nonsmooth.testing.inputs import draws, number
@@ -27,7 +28,6 @@ _TURN = number("turn", -3.1, 3.1, 1.0)
 _SPEED = number("speed", 1e-2, 1e2, 1.0, is_log=True)
 _ONE = problem_of(1)
 _DRAWS, _DRAWS_BY_KIND = 10, 6
-_AFTER = "the velocities after are"
 _NEAR = 1e-6
 """Agreement of velocities after impacts that should be the same, relative to the largest."""
 _INDENTATIONS = (0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
@@ -134,17 +134,17 @@ def _dissipation(law: ImpactLaw, p: ImpactProblem) -> str:
 def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """Nor does an impact with friction gain energy."""
     # one contact alone too, with slip in and against the lean of the body
-    one = ImpactProblem(p.mass, p.normal[:, :1], p.tangential[:, :1], p.velocity)
-    back = ImpactProblem(p.mass, one.normal, one.tangential, p.velocity * np.array([-1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
+    one = replace(p, normal=p.normal[:, :1], tangential=p.tangential[:, :1])
+    back = replace(one, velocity=p.velocity * np.array([-1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
     return _gain(law, one, mu) or _gain(law, back, mu) or _gain(law, p, mu)
 
 
 @_SHARED.claim(_ONE, _MU, _FACTOR, fewest=FEWEST)
 def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
     """Masses times c: the same velocities, impulses times c."""
-    one, other = (_respond(law, q, mu) for q in (p, ImpactProblem(c * p.mass, p.normal, p.tangential, p.velocity)))
-    if _apart(one.velocity, other.velocity, one.size):
-        return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} with {c:g} times the mass"
+    one, other = _respond(law, p, mu), _respond(law, replace(p, mass=c * p.mass), mu)
+    if fault := _difference(one, other.velocity, f"with {c:g} times the mass"):
+        return fault
     return "impulses are not proportional" if _apart(c * one.impulse, other.impulse, c * one.size) else ""
 
 
@@ -153,10 +153,8 @@ def _scaling_of_velocities(law: ImpactLaw, p: ImpactProblem, mu: float, c: float
     """Velocities times c before: times c after."""
     if isinstance(law, ImpactProcess) and not _is_homogeneous(law):
         raise NotChecked(f"{type(law).__name__}: its force is no power or its efficiency depends on the rate")
-    one, other = (_respond(law, q, mu) for q in (p, ImpactProblem(p.mass, p.normal, p.tangential, c * p.velocity)))
-    if not _apart(c * one.velocity, other.velocity, c * one.size):
-        return ""
-    return f"{_AFTER} {_list(one.velocity)}, and of {c:g} times those before {_list(other.velocity / c)} times {c:g}"
+    one, other = _respond(law, p, mu), _respond(law, replace(p, velocity=c * p.velocity), mu)
+    return _difference(one, other.velocity / c, f"times {c:g} with {c:g} times those before")
 
 
 def _is_homogeneous(law: ImpactProcess) -> bool:
@@ -170,9 +168,7 @@ def _is_homogeneous(law: ImpactProcess) -> bool:
 def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) -> str:
     """Turning the tangents of the contacts changes no velocity."""
     one, other = _respond(law, p, mu), _respond(law, p.turned(turn), mu)
-    if not _apart(one.velocity, other.velocity, one.size):
-        return ""
-    return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} in tangents turned by {turn:g} rad"
+    return _difference(one, other.velocity, f"in tangents turned by {turn:g} rad")
 
 
 @_SHARED.claim(GIVEN, _MU, _OTHER_MU, fewest=FEWEST)
@@ -180,11 +176,9 @@ def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -
     """The order of the contacts does not matter."""
     if _is_alone(law):
         raise NotChecked(f"{type(law).__name__}: it is a law of one contact")
-    swapped = ImpactProblem(p.mass, p.normal[:, ::-1].copy(), p.tangential[:, ::-1].copy(), p.velocity)
+    swapped = replace(p, normal=p.normal[:, ::-1].copy(), tangential=p.tangential[:, ::-1].copy())
     one, other = respond([law] * 2, (mu, other_mu), p), respond([law] * 2, (other_mu, mu), swapped)
-    if not _apart(one.velocity, other.velocity, one.size):
-        return ""
-    return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} in the other order"
+    return _difference(one, other.velocity, "in the other order")
 
 
 @_SHARED.claim(GIVEN, name="limit mu -> 0", fewest=FEWEST)
@@ -229,6 +223,13 @@ def _elastic(law: ImpactLaw, speed: float, mu: float) -> str:
     slow = 1e-9 * speed
     after = float(_respond(law, point((0.0, 0.0, -slow)), mu).after[0, 0])
     return f"of {slow:g} m/s it leaves {after:g} m/s" if abs(after - slow) > 1e-4 * slow else ""
+
+
+def _difference(one: ImpactResponse, other: Array, words: str) -> str:
+    """Return that the velocities after two impacts differ; "" if they are the same."""
+    if not _apart(one.velocity, other, one.size):
+        return ""
+    return f"the velocities after are {_list(one.velocity)}, and {_list(other)} {words}"
 
 
 def _apart(one: Any, other: Any, size: float) -> bool:
@@ -331,7 +332,7 @@ def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str
     others = {k: v for k, v in wrong.items() if np.max(np.abs(delassus @ (v - obeying))) > 1e3 * tolerance}
     friction = vectors_of([law] * p.n, [mu] * p.n)["friction"]
     for words, impulses in {"its impulses": obeying, **others}.items():
-        expected = impulses is obeying
-        if bool(law.is_fulfilled(delassus, before, impulses, friction, tolerance)) is not expected:
-            return f"is_fulfilled {'refuses' if expected else 'accepts'} {words}"
+        is_accepted = law.is_fulfilled(delassus, before, impulses, friction, tolerance)
+        if verdict := wrong_verdict(is_accepted, impulses is obeying):
+            return f"{verdict} {words}"
     return ""

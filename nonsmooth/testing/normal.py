@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from nonsmooth.interfaces import CompliantNormalLaw, NormalLaw, RigidNormalLaw
 from nonsmooth.problems.contact import solve_contact
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, Claims, rows
+from nonsmooth.testing.claims import FEWEST, Claims, rows, wrong_verdict
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
@@ -254,9 +254,8 @@ def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: flo
     force = _plain(law)(x, rate, speed)
     off = 0.01 * abs(force) + _NOTHING
     for given, expected in ((force, True), (force + off, False), (force - off, False)):
-        if bool(law.is_fulfilled(x, rate, speed, given, 0.1 * off)) is not expected:
-            word = "refuses" if expected else "accepts"
-            return f"is_fulfilled {word} {given:g} N at {x:g} m and {rate:g} m/s, where the law has {force:g} N"
+        if verdict := wrong_verdict(law.is_fulfilled(x, rate, speed, given, 0.1 * off), expected):
+            return f"{verdict} {given:g} N at {x:g} m and {rate:g} m/s, where the law has {force:g} N"
     return ""
 
 

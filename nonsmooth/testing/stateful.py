@@ -9,7 +9,7 @@ import numpy as np
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import StatefulFrictionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, Claims, claim
+from nonsmooth.testing.claims import FEWEST, Claims, claim, wrong_verdict
 from nonsmooth.testing.coefficient import FORCE, HEADING, SPEED, along, mu
 from nonsmooth.testing.functions import CheckedFunction, plain_caller, written
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
@@ -108,9 +108,8 @@ def _certificate_with_states(law: StatefulFrictionLaw, speed: float, heading: fl
     slip, bound = along(speed, heading), _mu(law, speed, state) * load
     for share in (-1.0, *((1.0, -1.001, -0.999) if bound > 1e-5 * load else ())):
         force, known = along(share * bound, heading), tuple(state.tolist())
-        if bool(law.is_fulfilled(slip, load, force, 1e-9 * load, known)) is not (share == -1.0):
-            word = "refuses" if share == -1.0 else "accepts"
-            return f"is_fulfilled {word} {share:g} of the bound {bound:g} N along the slip, states {state.tolist()}"
+        if verdict := wrong_verdict(law.is_fulfilled(slip, load, force, 1e-9 * load, known), share == -1.0):
+            return f"{verdict} {share:g} of the bound {bound:g} N along the slip, states {state.tolist()}"
     return ""
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT
 from nonsmooth.interfaces import TractionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, Claims, claim, rows
+from nonsmooth.testing.claims import FEWEST, Claims, claim, rows, wrong_verdict
 from nonsmooth.testing.component import variants
 from nonsmooth.testing.differences import jump
 from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller, written
@@ -197,9 +197,8 @@ def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> s
     tried = [(wrench, True)] + [(wrench + off * axis, False) for axis in (*axes, *-axes)]
     for given, expected in tried:
         arguments: Any = tuple(motion.tolist()), tuple(state.tolist()), load, tuple(given.tolist()), 0.1 * off
-        if bool(law.is_fulfilled(*arguments)) is not expected:
-            word = "refuses" if expected else "accepts"
-            return f"is_fulfilled {word} {given.tolist()}, where the law has {wrench.tolist()}"
+        if verdict := wrong_verdict(law.is_fulfilled(*arguments), expected):
+            return f"{verdict} {given.tolist()}, where the law has {wrench.tolist()}"
     return ""
 
 
