@@ -6,56 +6,28 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from nonsmooth import interfaces, testing
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import (
-    Body,
-    ContactKinematics,
-    DistanceBackend,
-    Engine,
-    FrictionLaw,
-    Guard,
-    ImpactLaw,
-    Joint,
-    Load,
-    Motion,
-    NormalLaw,
-    Scenario,
-    Shape,
-    TractionLaw,
-)
+from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.plugins import registry
-from nonsmooth.testing.body import check_body
 from nonsmooth.testing.component import make
-from nonsmooth.testing.distances import check_distance_backend
-from nonsmooth.testing.engine import check_engine
-from nonsmooth.testing.friction import check_friction_law
-from nonsmooth.testing.guard import check_guard
-from nonsmooth.testing.impact import check_impact_law
-from nonsmooth.testing.joint import check_joint
-from nonsmooth.testing.kinematics import check_contact_kinematics
-from nonsmooth.testing.load import check_load
-from nonsmooth.testing.motion import check_motion
-from nonsmooth.testing.normal import check_normal_law
 from nonsmooth.testing.outcome import place_of
 from nonsmooth.testing.property import Property
-from nonsmooth.testing.scenario import check_scenario
-from nonsmooth.testing.shape import check_shape
-from nonsmooth.testing.traction import check_traction_law
 
 _CHECKS: Mapping[Any, Callable[..., list[Property]]] = {
-    NormalLaw: check_normal_law,
-    FrictionLaw: check_friction_law,
-    TractionLaw: check_traction_law,
-    ImpactLaw: check_impact_law,
-    Body: check_body,
-    Joint: check_joint,
-    Load: check_load,
-    Motion: check_motion,
-    Shape: check_shape,
-    Guard: check_guard,
-    DistanceBackend: check_distance_backend,
-    Engine: check_engine,
-    Scenario: check_scenario,
+    interfaces.NormalLaw: testing.check_normal_law,
+    interfaces.FrictionLaw: testing.check_friction_law,
+    interfaces.TractionLaw: testing.check_traction_law,
+    interfaces.ImpactLaw: testing.check_impact_law,
+    interfaces.Body: testing.check_body,
+    interfaces.Joint: testing.check_joint,
+    interfaces.Load: testing.check_load,
+    interfaces.Motion: testing.check_motion,
+    interfaces.Shape: testing.check_shape,
+    interfaces.Guard: testing.check_guard,
+    interfaces.DistanceBackend: testing.check_distance_backend,
+    interfaces.Engine: testing.check_engine,
+    interfaces.Scenario: testing.check_scenario,
 }
 """The function of the kit for each interface that a class may have."""
 
@@ -104,7 +76,7 @@ def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]
     )
     # a pair may hold by contacts of several classes
     own = next(contact for contact in owner.between(first, second) if type(contact) is owner)
-    return check_contact_kinematics(own, first, second)
+    return testing.check_contact_kinematics(own, first, second)
 
 
 def _installed(kind: type[Shape]) -> type[Shape]:

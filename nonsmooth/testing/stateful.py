@@ -31,7 +31,11 @@ _TRIED = (0.0, 1e-9, 1e-3, 1.0, 1e2)
 _MOVED = number("moved", -1.0, 1.0, 1.0)
 _SPEEDS = [DrawnNumber(f"speed_{i}", 1e-9, 1.0, 0.1, is_log=True) for i in (1, 2)]
 _DURATIONS = [DrawnNumber(f"duration_{i}", 1e-3, 1e2, 1.0, is_log=True) for i in (1, 2, 3)]
-_STAGES = Drawn((*_SPEEDS, *_DURATIONS), lambda case: _stages(**case))
+_STAGES = Drawn(
+    (*_SPEEDS, *_DURATIONS),
+    lambda c: [(c["speed_1"], c["duration_1"]), (0.0, c["duration_2"]), (c["speed_2"], c["duration_3"])],
+)
+"""Speeds and how long they last: a speed, a rest, and another speed."""
 _PERIODS = 20.0
 """How long motions are compared, in units of the fastest time of the states."""
 _SLOWED = 0.3
@@ -39,13 +43,6 @@ _SLOWED = 0.3
 _LARGEST_LOAD = 1e3
 STATES = Claims()
 """The claims about laws with inner states."""
-
-
-def _stages(
-    speed_1: float, speed_2: float, duration_1: float, duration_2: float, duration_3: float
-) -> list[tuple[float, float]]:
-    """Return speeds and how long they last: a speed, a rest, and another speed."""
-    return [(speed_1, duration_1), (0.0, duration_2), (speed_2, duration_3)]
 
 
 def rates_function(law: StatefulFrictionLaw) -> CheckedFunction:
