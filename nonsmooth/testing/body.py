@@ -94,22 +94,20 @@ def _function(body: Body, name: str) -> CheckedFunction:
 def _start(body: Body) -> None:
     """The start has the sizes that the body names, each number a unit, and unknown words are refused."""
     q, u = body.state()
-    for name, once, again in zip(("q", "u"), (q, u), body.state(), strict=True):
-        if not np.array_equal(once, again):
-            both = f"{np.asarray(once).tolist()} and {np.asarray(again).tolist()}"
-            place = place_of_function(type(body).state)
-            raise Broken(f"`state` gives another start each time: {place}", name, both)
-    sizes, scales, labels = (body.n_q, body.n_u), body.scales, (body.q_labels, body.u_labels)
-    for name, given, size in zip(("q", "u"), (q, u), sizes, strict=True):
+    sizes, labels, known = (body.n_q, body.n_u), (body.q_labels, body.u_labels), (UNITS_OF_Q, UNITS_OF_U)
+    columns = zip("qu", sizes, (q, u), body.state(), body.scales, labels, known, strict=True)
+    for name, size, given, again, scale, named, units in columns:
+        if not np.array_equal(given, again):
+            both = f"{np.asarray(given).tolist()} and {np.asarray(again).tolist()}"
+            raise Broken(f"`state` gives another start each time: {place_of_function(type(body).state)}", name, both)
         if np.shape(given) != (size,) or not np.all(np.isfinite(given)):
             raise Broken(f"`state` must give {size} finite numbers", name, given)
-    for name, scale, size in zip(("q", "u"), scales, sizes, strict=True):
         if np.shape(scale) != (size,) or not np.all(np.isfinite(scale)) or not np.all(np.asarray(scale) > 0.0):
             raise Broken(f"`scales` must give {size} positive numbers", name, scale)
-    for name, named, units in zip(("q_labels", "u_labels"), labels, (UNITS_OF_Q, UNITS_OF_U), strict=True):
         wrong = [label for label in named if not label[0] or label[1] not in units]
         if wrong or len(dict(named)) < len(named):
-            raise Broken(f"`{name}` must give each number a name of its own and a unit of {units}", name, named)
+            reason = f"`{name}_labels` must give each number a name of its own and a unit of {units}"
+            raise Broken(reason, f"{name}_labels", named)
     if body.quaternion >= 0 and abs(float(np.linalg.norm(q[body.quaternion : body.quaternion + 4])) - 1.0) > 1e-12:
         raise Broken("the quaternion has no unit length", "quaternion", q.tolist())
     if not body.time_scale > 0.0:
