@@ -62,7 +62,7 @@ def _coefficient(law: AnisotropicFrictionLaw) -> CheckedFunction:
 
 @claim()
 def _ratios(law: AnisotropicFrictionLaw) -> str:
-    """They are three, positive, and the largest is 1."""
+    """The ratios of the bound are three positive numbers, and the largest is 1."""
     ratios = law.ratios
     sound = len(ratios) == 3 and all(0.0 < r <= 1.0 for r in ratios) and max(ratios) == 1.0
     return "" if sound else f"they are {tuple(ratios)}"
@@ -80,7 +80,7 @@ def _axis_and_body(law: AnisotropicFrictionLaw) -> str:
 
 @_ANISOTROPIC.claim(SPEED, HEADING)
 def _maximum_dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float) -> str:
-    """Of all forces in the bound it accepts that under slip which takes out most energy."""
+    """Under slip, of all forces on the bound, only the force that takes out most energy obeys the law."""
     slip = along(speed, heading)
     own = force_under_slip(law, slip)
     most = -own[0] * slip[0] - own[1] * slip[1]
@@ -150,7 +150,7 @@ def _after(
 def _sustained_contact(
     law: AnisotropicFrictionLaw, speed: float, heading: float, load: float, share: float, axis: float, lean: float
 ) -> str:
-    """Forces that the engine finds for contacts that stick or slide obey it."""
+    """Forces that the engine finds for contacts that stick or slide obey the law."""
     held = times(share * load, force_on_bound(law, mu(law, 0.0), heading + math.pi))
     after, _ = _after(law, (0.0, 0.0), axis, lean, push=times(-1.0, held), weight=load, t_end=1.0)
     if math.hypot(*after) > 1e-9:
@@ -176,7 +176,7 @@ def _dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float, axis
 
 @_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
-    """An impact too slight to change the slip has the direction and ratio of impulses that the force has."""
+    """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
     slip, approach = along(speed, heading), _SLIGHT * speed
     after, _ = _after(law, slip, axis, approach=approach, t_end=1e-12)
     # the spring of the reference gives back half of the energy

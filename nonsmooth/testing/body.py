@@ -130,7 +130,7 @@ def _writes_its_block(body: Body, at: State) -> str:
 
 @_EVERY.claim()
 def _sketch(body: Body) -> None:
-    """What is seen of it besides its shapes can be drawn."""
+    """The sketch of the body can be drawn."""
     sketch = body.sketch
     if not isinstance(sketch, Sequence) or len(sketch) > len(body.frames):
         raise Broken(f"it must be a look for each of {len(body.frames)} frames at most", "sketch", sketch)
@@ -183,7 +183,7 @@ def _frame_slope(body: Body, at: State, i: int, part: slice) -> tuple[Array, flo
 
 @_EVERY.claim(GIVEN)
 def _velocity(body: Body, at: State) -> str:
-    """Velocity and angular velocity of every frame are derivatives of its pose."""
+    """Velocity and angular velocity of every frame are the derivatives of its pose."""
     for i, frame in enumerate(block_of(body, at).frames):
         rates, known = _frame_slope(body, at, i, _POSE)
         spin = spin_of(rates[ROTATION:], frame[_AXES])
@@ -195,7 +195,7 @@ def _velocity(body: Body, at: State) -> str:
 
 @_EVERY.claim(GIVEN)
 def _acceleration(body: Body, at: State) -> str:
-    """The biases are the derivatives of the velocities while u' = 0, by differences."""
+    """The biases are the derivatives of the velocities while u' = 0."""
     for i, frame in enumerate(block_of(body, at).frames):
         found, known = _frame_slope(body, at, i, slice(VELOCITY, ACCELERATION))
         if fault := slope_fault(f"acceleration biases of frame {i}", frame[ACCELERATION:], found, known):
@@ -233,7 +233,7 @@ def _mass_matrix(body: Body, at: State) -> str:
 
 @_FREE.claim(GIVEN)
 def _kinetic_energy(body: Body, at: State) -> str:
-    """It is u . M u / 2."""
+    """The kinetic energy is u . M u / 2."""
     here, u = block_of(body, at), at[2]
     given, expected = float(here.energy[0]), 0.5 * float(u @ np.linalg.solve(here.inverse, u))
     if abs(given - expected) > 1e-8 * expected + 1e-300:
@@ -258,7 +258,7 @@ def _along(body: Body, at: State, gravity: Mapping[str, float], value: Callable[
 
 @_FREE.claim(GIVEN)
 def _energy_in_free_flight(body: Body, at: State) -> str:
-    """Kinetic and potential energy change by nothing else than each other."""
+    """In free flight the sum of kinetic and potential energy stays."""
     rates, here, u = _along(body, at, OBLIQUE, lambda b, u: b.energy), block_of(body, at), at[2]
     size = float(np.sum(np.abs(rates)) + np.abs(u) @ np.abs(here.force) + 1e-9 * np.sum(np.abs(here.energy)))
     if abs(float(np.sum(rates))) > _SAME * size:
@@ -294,7 +294,7 @@ def _unit_quaternion(body: Body, at: State) -> str:
 
 @claim(GIVEN)
 def _spin(body: Body, at: State) -> str:
-    """Its quaternion's rates are half the product with (0, spin)."""
+    """The rates of the quaternion are half its product with (0, spin)."""
     (a, *axis), spin = at[1][_quaternion(body)], at[2][body.spin : body.spin + 3]
     expected = 0.5 * np.append(-np.dot(axis, spin), a * spin + np.cross(axis, spin))
     rates = block_of(body, at).rates[_quaternion(body)]
@@ -304,7 +304,7 @@ def _spin(body: Body, at: State) -> str:
 
 @claim(GIVEN)
 def _momentum(body: Body, at: State) -> str:
-    """Without gravity momentum and angular momentum stay, in free flight."""
+    """Without gravity, momentum and angular momentum stay in free flight."""
 
     def value(b: BodyBlock, u: Array) -> Array:
         # M u = J^T (p, L), L about the origin of the frame
@@ -329,7 +329,7 @@ def _change(body: Body, t: float, y: Array) -> Array:
 
 @claim(GIVEN)
 def _flight(body: Body, at: State) -> str:
-    """It begins at the start that is given and goes on as the equations of motion say."""
+    """The flight begins at the given start and follows the equations of motion."""
     t, q, u = at
     assert body.flight is not None
     call = compiled_caller(body.flight, "body", offered(body), type(body).__name__)

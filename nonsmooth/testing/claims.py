@@ -137,10 +137,7 @@ class Claims(list[Claim]):
 
 
 def rows(
-    claims: Sequence[Claim],
-    components: Callable[[], Iterable[Any]],
-    count: int,
-    given: Sequence[Drawn] = (),
+    claims: Sequence[Claim], components: Callable[[], Iterable[Any]], count: int, given: Sequence[Drawn] = ()
 ) -> list[Row]:
     """Return the rows of claims about components that are made when a claim is checked.
 

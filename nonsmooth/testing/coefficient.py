@@ -125,7 +125,7 @@ def _not_negative(law: FrictionLaw, speed: float) -> str:
 
 @COEFFICIENT.claim()
 def _static_limit(law: FrictionLaw) -> str:
-    """The coefficient at rest is not below that of incipient slip, to which those of slow slip tend."""
+    """The coefficient at rest is not below the limit of slow slip."""
     rest, slow, slower = mu(law, 0.0), mu(law, 1e-12), mu(law, 1e-300)
     if slower > rest * (1.0 + 1e-12) + 1e-12:
         return f"coefficient(0) is {rest:g}, below {slower:g} of incipient slip"
@@ -136,7 +136,7 @@ def _static_limit(law: FrictionLaw) -> str:
 
 @COEFFICIENT.claim(SPEED, HEADING, FORCE)
 def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load: float) -> str:
-    """The force of the law, on the bound against the slip, obeys it; one along the slip or off the bound does not."""
+    """The force on the bound against the slip obeys the law; a force along the slip or off the bound does not."""
     slip = along(speed, heading)
     force = times(load, force_under_slip(law, slip))
     wrong = (-1.0, 0.5, 1.5, 0.0) if math.hypot(*force) > 1e-6 * load else ()
@@ -148,7 +148,7 @@ def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load
 
 @COEFFICIENT.claim(HEADING, FORCE, SHARE)
 def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: float) -> str:
-    """A force within the static bound obeys it, one outside does not."""
+    """At rest a force within the static bound obeys the law, and a larger force does not."""
     bound = times(load, force_on_bound(law, mu(law, 0.0), heading))
     size = math.hypot(*bound)
     outside = along(1.01 * size + 1e-3 * load, heading)

@@ -98,7 +98,7 @@ def _points(backend: DistanceBackend) -> None:
 
 @claim()
 def _order(backend: DistanceBackend) -> None:
-    """In the other order of two solids the answer is the same."""
+    """The distance is the same in the other order of two solids."""
     for one in _answers(backend):
         try:
             back = backend.separation(one.solids[1], one.places[1], one.solids[0], one.places[0])
@@ -111,7 +111,7 @@ def _order(backend: DistanceBackend) -> None:
 
 @claim()
 def _planes(backend: DistanceBackend) -> None:
-    """No plane across the normal leaves more between convex solids."""
+    """The planes across the normal that touch two convex solids are the distance apart."""
     for one in _answers(backend):
         first, second = one.shapes[0].solid, one.shapes[1].solid
         if first is None or second is None or first.hollow or second.hollow:

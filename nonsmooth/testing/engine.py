@@ -128,7 +128,7 @@ def _names(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _free_fall(trial: _Trial) -> None:
-    """A free body moves as gravity has it."""
+    """A free body falls on a parabola, with the same spin."""
     t, solution = trial.solution.t, trial.solution
     path = np.outer(t, _START[:3])
     path[:, 2] -= 0.5 * scenes.GRAVITY * t**2
@@ -153,13 +153,13 @@ def _samples(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _many_samples(trial: _Trial) -> None:
-    """No sample is lost where they fill the buffers many times."""
+    """No sample is lost if they fill the buffers many times."""
     _require_times(trial.model.run(_END, sample_interval=_END / _MANY_SAMPLES), _MANY_SAMPLES)
 
 
 @_ENGINE.claim()
 def _energy(trial: _Trial) -> None:
-    """The account of energy closes."""
+    """The energy account of the run closes."""
     trial.require_account(trial.solution)
 
 
@@ -233,7 +233,7 @@ def _heap(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _continues(trial: _Trial) -> None:
-    """A run that is stopped and resumed is the run that is not, to the last bit."""
+    """A run that is stopped and resumed is the same to the last bit."""
     half = trial.model.run(0.55 * _END)
     trial.require_same(trial.model.run(_END, start=half.state))
 

@@ -88,7 +88,7 @@ def _impact(law: FrictionLaw, p: ImpactProblem) -> Any:
 
 @_FRICTION.claim(SPEED, HEADING, FORCE, _PUSH)
 def _sustained_contact(law: FrictionLaw, speed: float, heading: float, weight: float, push: float) -> str:
-    """Forces that the engine finds for contacts that stick, start to slide or slide obey it."""
+    """Forces that the engine finds for contacts that stick, start to slide or slide obey the law."""
     pushed = along(push * weight * (mu(law, 0.0) + 1e-3), heading)
     for slip in ((0.0, 0.0), along(speed, heading)):
         normal, (t1, t2) = _contact(law, [*pushed, -weight], slip)
@@ -108,7 +108,7 @@ def _dissipation(law: FrictionLaw, p: ImpactProblem) -> str:
 
 @_FRICTION.claim(SPEED, HEADING)
 def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> str:
-    """An impact too slight to change the slip has the direction and ratio of impulses that the force has."""
+    """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
     slip = along(speed, heading)
     normal, traction = _contact(law, [0.0, 0.0, -1.0], slip)
     result = _impact(law, point((*slip, -_SLIGHT * speed)))
@@ -121,7 +121,7 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
 
 @_FRICTION.claim(SPEED, HEADING, TURN)
 def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: float) -> str:
-    """Turning the tangents changes neither its verdicts nor an impact."""
+    """Turning the tangents changes neither the verdicts of the law nor an impact."""
     bound = mu(law, speed)
     for share in (-1.0, 0.5):
         one, other = (

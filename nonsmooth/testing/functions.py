@@ -267,7 +267,7 @@ def _short(value: Any) -> str:
 
 
 def _known_parameters(function: CheckedFunction) -> None:
-    """Its functions ask for parameters that it offers."""
+    """Functions ask for parameters that the component offers."""
     for name in parameter_names(function.function, function.form):
         if name not in function.offered:
             error = not_offered(function.title, name, function.offered)
@@ -275,7 +275,7 @@ def _known_parameters(function: CheckedFunction) -> None:
 
 
 def _time_budget(function: CheckedFunction) -> None:
-    """Its functions come back within a second, in plain Python."""
+    """Functions return within a second in plain Python."""
     for call, given in function.calls:
         function.about_to_call(call, "time budget")
         try:
@@ -286,7 +286,7 @@ def _time_budget(function: CheckedFunction) -> None:
 
 
 def _finite_numbers(function: CheckedFunction) -> None:
-    """Its functions return finite numbers and raise nothing."""
+    """Functions return finite numbers and raise no exception."""
     for call, given in function.calls:
         try:
             result = function.plain(*given)
@@ -309,7 +309,7 @@ def _writes_its_block(function: CheckedFunction) -> None:
 
 
 def _compiled_equals_plain(function: CheckedFunction) -> None:
-    """Compiled, its functions return the same numbers."""
+    """Compiled functions return the same numbers as in plain Python."""
     # compiling takes its time
     function.has_come_back()
     compiled = function.compiled()
@@ -323,7 +323,7 @@ def _compiled_equals_plain(function: CheckedFunction) -> None:
 
 
 def _determinism(function: CheckedFunction) -> None:
-    """Its functions return the same whenever they are called."""
+    """Functions return the same numbers whenever they are called."""
     one, other = (dict(function.owner.parameters()) for _ in range(2))
     if one != other:
         raise Broken(f"its parameters are {one} first and {other} later", "parameters()", other)

@@ -56,7 +56,7 @@ def _value(guard: Guard, numbers: int) -> CheckedFunction:
 
 @claim(GIVEN)
 def _no_jumps(guard: Guard, case: Case) -> str:
-    """Its value is continuous where the state moves."""
+    """The value of the guard is continuous where the state moves."""
     call = plain_caller(guard.value, "guard", guard.parameters())
     found = jump(lambda dt: [call(*_state(case, dt))], -_WHILE, _WHILE)
     return "" if found is None else f"{found[0]:.6g} s after the input it jumps by {found[1][0]:g}"

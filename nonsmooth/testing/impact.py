@@ -105,7 +105,7 @@ def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
 
 @_SHARED.claim(GIVEN, _MU, fewest=FEWEST)
 def _cone(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """Normal impulses push, tangential ones lie in the cone of the friction coefficient."""
+    """Normal impulses push, and tangential impulses lie in the cone of the friction coefficient."""
     r = _respond(law, p, mu)
     small = 1e-8 * r.size
     for normal, *across in r.impulse:
@@ -132,7 +132,7 @@ def _dissipation(law: ImpactLaw, p: ImpactProblem) -> str:
 
 @_SHARED.claim(GIVEN, _ROUGH, fewest=FEWEST)
 def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """Nor does an impact with friction gain energy."""
+    """With friction no impact of approaching contacts gains energy."""
     # one contact alone too, with slip in and against the lean of the body
     one = replace(p, normal=p.normal[:, :1], tangential=p.tangential[:, :1])
     back = replace(one, velocity=p.velocity * np.array([-1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
@@ -141,7 +141,7 @@ def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> s
 
 @_SHARED.claim(_ONE, _MU, _FACTOR, fewest=FEWEST)
 def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
-    """Masses times c: the same velocities, impulses times c."""
+    """If all masses are c times as large, so are the impulses, and the velocities are the same."""
     one, other = _respond(law, p, mu), _respond(law, replace(p, mass=c * p.mass), mu)
     if fault := _difference(one, other.velocity, f"with {c:g} times the mass"):
         return fault
@@ -150,7 +150,7 @@ def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) ->
 
 @_SHARED.claim(GIVEN, _MU, _FACTOR, fewest=FEWEST)
 def _scaling_of_velocities(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
-    """Velocities times c before: times c after."""
+    """If all velocities before are c times as large, so are those after."""
     if isinstance(law, ImpactProcess) and not _is_homogeneous(law):
         raise NotChecked(f"{type(law).__name__}: its force is no power or its efficiency depends on the rate")
     one, other = _respond(law, p, mu), _respond(law, replace(p, velocity=c * p.velocity), mu)
@@ -183,7 +183,7 @@ def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -
 
 @_SHARED.claim(GIVEN, name="limit mu -> 0", fewest=FEWEST)
 def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
-    """Without friction no tangential impulse; with next to none, next to none."""
+    """Without friction there is no tangential impulse, and with little friction little of it."""
     for mu in (0.0, 1e-8):
         r = _respond(law, p, mu)
         across = float(np.max(np.abs(r.impulse[:, 1:])))
@@ -194,7 +194,7 @@ def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
 
 @_SHARED.claim(_MU, _HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
-    """An impact too slight to end the slip rubs as sustained contact does."""
+    """In an impact too slight to end the slip, friction is that of sustained contact."""
     slip = np.array([math.cos(heading), math.sin(heading)])
     r = _respond(law, point((*slip, -1e-4)), mu)
     ratio = r.impulse[0, 1:] / r.impulse[0, 0]
@@ -219,7 +219,7 @@ def _plastic(law: ImpactLaw, speed: float, mu: float) -> str:
 
 @claim(_SPEED, _MU)
 def _elastic(law: ImpactLaw, speed: float, mu: float) -> str:
-    """With full restitution a slow impact gives back all."""
+    """With full restitution a slow impact keeps the energy."""
     slow = 1e-9 * speed
     after = float(_respond(law, point((0.0, 0.0, -slow)), mu).after[0, 0])
     return f"of {slow:g} m/s it leaves {after:g} m/s" if abs(after - slow) > 1e-4 * slow else ""
@@ -242,7 +242,7 @@ def _list(values: Any) -> str:
 
 @_PROCESS.claim(_INDENTATION)
 def _force(law: ImpactProcess, indentation: float) -> str:
-    """Zero at zero, and it rises with the indentation."""
+    """The force is zero without indentation and rises with it."""
     force = plain_caller(law.force, "scalar", law.parameters())
     if force(0.0) != 0.0:
         return f"force(0) is {force(0.0):g}"
@@ -255,7 +255,7 @@ def _force(law: ImpactProcess, indentation: float) -> str:
 
 @_PROCESS.claim(_RATE)
 def _efficiency(law: ImpactProcess, drawn: float) -> str:
-    """1 for rates below zero, between 0 and 1 from there."""
+    """The efficiency is 1 at negative rates, and between 0 and 1 at others."""
     efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
     for rate in (0.0, drawn, *_GRID):
         if rate > 0.0 and efficiency(-rate) != 1.0:
@@ -267,7 +267,7 @@ def _efficiency(law: ImpactProcess, drawn: float) -> str:
 
 @_PROCESS.claim(problem_of(2), _ANY_MU, name="certificate")
 def _certificate_of_energies(law: ImpactProcess, p: ImpactProblem, mu: float) -> str:
-    """Energies that the engine stores and gives back obey it."""
+    """Energies that the engine stores and gives back in an impact obey the law."""
     r = respond([law] * 2, [mu] * 2, p)
     size = float(np.max(r.stored, initial=0.0))
     for stored, returned in zip(r.stored.tolist(), r.returned.tolist(), strict=True):
@@ -278,7 +278,7 @@ def _certificate_of_energies(law: ImpactProcess, p: ImpactProblem, mu: float) ->
 
 @_PROCESS.claim(_STORED)
 def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
-    """More energy back than was stored does not obey it."""
+    """More energy back than was stored does not obey the law."""
     if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
         return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
     return ""
@@ -319,7 +319,7 @@ def _writes_its_block(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
 
 @_MAP.claim(GIVEN, _ANY_MU, name="certificate")
 def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
-    """The impulses of the law obey it; larger ones, other friction and none where a contact approaches do not."""
+    """The impulses of the law obey it; larger ones, other friction and no impulse on closing contacts do not."""
     obeying, delassus, before = _impulses(law, p, mu), p.delassus, p.rates
     tolerance = _NEAR * float(np.max(np.abs(before)))
     across = obeying * np.tile([0.0, 1.0, 1.0], p.n)

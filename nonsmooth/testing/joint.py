@@ -80,7 +80,7 @@ def _rates(joint: Joint, at: Frames) -> Array:
 
 @claim()
 def _number_of_rows(joint: Joint) -> None:
-    """It takes one to six degrees of freedom."""
+    """The joint takes one to six degrees of freedom."""
     if joint.n_rows not in range(1, _MOST_ROWS + 1):
         raise Broken(f"it must be a whole number from 1 to {_MOST_ROWS}", "n_rows", joint.n_rows)
 
@@ -103,13 +103,13 @@ def _unlike(name: str, given: Array, found: Array, known: float) -> str:
 
 @_JOINT.claim(MOVEMENT)
 def _rate(joint: Joint, move: Movement) -> str:
-    """Axis and moment give the derivative of the residual, by differences."""
+    """Axis and moment give the derivative of the residual."""
     return _unlike("rate", _rates(joint, move.at()), *slope(lambda dt: _look(joint, move.at(dt))[:, RESIDUAL], STEP))
 
 
 @_JOINT.claim(MOVEMENT)
 def _bias(joint: Joint, move: Movement) -> str:
-    """It is the derivative of the rate while u' = 0, by differences."""
+    """The bias of a row is the derivative of its rate while u' = 0."""
     # the frames' accelerations are those that their bodies have while u' = 0
     bias = _look(joint, move.at())[:, ROW_BIAS]
     return _unlike("bias", bias, *slope(lambda dt: _rates(joint, move.at(dt)), STEP))
@@ -155,19 +155,19 @@ def _closed(joint: Joint) -> list[Frames]:
 
 @_JOINT.claim()
 def _can_be_closed(joint: Joint) -> str:
-    """There are poses at which all residuals vanish."""
+    """There are poses of the bodies at which all residuals vanish."""
     return "" if _closed(joint) else f"Newton's method finds none from {_TRIES} places"
 
 
 @_JOINT.claim()
 def _ends(joint: Joint) -> None:
-    """It can be drawn where it holds."""
+    """The joint can be drawn where it holds."""
     require_ends(joint.ends)
 
 
 @_JOINT.claim()
 def _independent_rows(joint: Joint) -> None:
-    """If it is closed, no row follows from the others."""
+    """Where the joint is closed, no row follows from the others."""
     ranks = []
     for at in _closed(joint):
         lines = np.array([_sides(row, at) for row in _look(joint, at)])

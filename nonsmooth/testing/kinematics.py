@@ -230,7 +230,7 @@ def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_AT_PLACES.claim(GIVEN)
 def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
-    """They are the gap apart, along the normal."""
+    """The witness points are the gap apart, along the normal."""
     block = at.put().geometry
     gap, n = block[blocks.GAP], block[_NORMAL]
     apart = block[blocks.POINT_B : blocks.SIDE_A] - block[blocks.POINT_A : blocks.POINT_B]
@@ -241,14 +241,14 @@ def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_AT_PLACES.claim(GIVEN)
 def _feature(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The number of the feature is one of those named."""
+    """The number of the feature is that of a named feature."""
     found, n = float(at.put().geometry[blocks.FEATURE]), len(kinematics.features)
     return "" if found in range(n) else f"it is {found:g}, of {n} features"
 
 
 @claim(GIVEN)
 def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The rate of the gap is its derivative in time, by differences."""
+    """The rate of the gap is its derivative in time."""
     rate = float(at.put().rate[0])
     found = at.derivative(lambda rig: rig.geometry[:1])
     if found is None or abs(found[0] - rate) <= _RATE * (1.0 + at.reach):
@@ -258,7 +258,7 @@ def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @claim(GIVEN, name="second-order terms")
 def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
-    """Those of gap and slip are the derivatives of their rates while u' = 0, by differences."""
+    """The second-order terms of gap and slip are the derivatives of their rates while u' = 0."""
     rig = at.put()
     axes, rate, bias = rig.axes, rig.rate, rig.bias
     found = at.derivative(lambda r: np.append(r.rate[0], r.rate[1:] @ r.axes[1:]))

@@ -93,7 +93,7 @@ def _depends_on_time(load: Load, t: float, move: Movement) -> str:
 
 @_LOAD.claim()
 def _ends(load: Load) -> None:
-    """It can be drawn where it acts."""
+    """The load can be drawn where it acts."""
     require_ends(load.ends)
 
 
@@ -115,6 +115,6 @@ def _frame_invariance(load: Load, t: float, move: Movement) -> str:
 
 @_FREE.claim(_TIME, MOVEMENT)
 def _relative_motion(load: Load, t: float, move: Movement) -> str:
-    """It does not feel a motion that both bodies share."""
+    """A motion that both bodies share changes neither force nor moment."""
     there = shared(move.at(), np.array([0.7, -1.1, 0.4]), np.array([-0.5, 0.9, 1.3]))
     return _unlike(_look(load, t, there), _look(load, t, move.at()), "without the shared motion")

@@ -59,7 +59,11 @@ def _rows(motion: Motion, duration: float | None) -> list[Row]:
     found = [
         *table(_MOTION),
         Row("no jumps", "Pose, velocities and accelerations are continuous", lambda: _check_jumps(motion, span)),
-        Row("time scale", "It changes no faster than its time scale says", lambda: _check_scale(motion, span)),
+        Row(
+            "time scale",
+            "Over a sixteenth of the time scale the motion is nearly straight",
+            lambda: _check_scale(motion, span),
+        ),
     ]
     return all_rows(motion, lambda: [_evaluator(motion, span)], found, table([_positive_time_scale]))
 
@@ -86,7 +90,7 @@ def _unit(motion: Motion) -> float:
 
 @claim()
 def _positive_time_scale(motion: Motion) -> None:
-    """Its time scale is positive."""
+    """The time scale is positive."""
     if not motion.time_scale > 0.0:
         raise Broken("it must be positive [s], or infinite", "time_scale", motion.time_scale)
 
@@ -114,7 +118,7 @@ def _slope_fault(motion: Motion, t: float, part: str, found: Array, known: float
 
 @_MOTION.claim(GIVEN)
 def _velocity(motion: Motion, t: float) -> str:
-    """Velocity and angular velocity are the derivatives of the pose, by differences."""
+    """Velocity and angular velocity are the derivatives of the pose."""
     rates, known = _slope(motion, t, "rotation")
     spin = spin_of(rates, _look(motion, t)[_PARTS["rotation"]])
     moves = _slope_fault(motion, t, "velocity", *_slope(motion, t, "position"))
@@ -123,7 +127,7 @@ def _velocity(motion: Motion, t: float) -> str:
 
 @_MOTION.claim(GIVEN)
 def _acceleration(motion: Motion, t: float) -> str:
-    """The accelerations are the derivatives of the velocities, by differences."""
+    """Acceleration and angular acceleration are the derivatives of the velocities."""
     moves = _slope_fault(motion, t, "acceleration", *_slope(motion, t, "velocity"))
     return moves or _slope_fault(motion, t, "angular acceleration", *_slope(motion, t, "angular velocity"))
 

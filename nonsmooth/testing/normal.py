@@ -80,7 +80,7 @@ def _rows(law: RigidNormalLaw) -> list[Row]:
 
 @_RIGID.claim(_LOAD)
 def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
-    """Accelerations and forces that the engine finds for closed contacts, pressed or pulled, obey it."""
+    """Accelerations and forces that the engine finds for closed contacts, pressed or pulled, obey the law."""
     p = point((0.0, 0.0, 0.0))
     result = solve_contact(p.mass, p.normal, p.tangential, [0.0, 0.0, load], [ReferenceFriction(0.0)])
     g, force = float(result.contact_acceleration[0, 0]), float(result.normal_force[0])
@@ -99,25 +99,25 @@ def _accepted(law: RigidNormalLaw, acceleration: float, force: float, size: floa
 
 @_RIGID.claim(_SIZE)
 def _no_penetration(law: RigidNormalLaw, size: float) -> str:
-    """A closed contact whose bodies accelerate into one another does not obey it."""
+    """A closed contact whose bodies accelerate into one another does not obey the law."""
     return _accepted(law, -1.0, 0.0, size)
 
 
 @_RIGID.claim(_SIZE)
 def _no_tension(law: RigidNormalLaw, size: float) -> str:
-    """A normal force that pulls does not obey it."""
+    """A normal force that pulls does not obey the law."""
     return _accepted(law, 0.0, -1.0, size)
 
 
 @_RIGID.claim(_SIZE)
 def _complementarity(law: RigidNormalLaw, size: float) -> str:
-    """A force on a contact that opens does not obey it."""
+    """A force on a contact that opens does not obey the law."""
     return _accepted(law, 1.0, 1.0, size)
 
 
 @_RIGID.claim(_SIZE, _LOAD)
 def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
-    """Other units, and tolerances with them, do not change its verdict."""
+    """Other units of acceleration and force do not change the verdict of the law."""
     for g, f in ((max(load, 0.0), max(-load, 0.0)), (load, 1.0)):
         one, other = (bool(law.is_fulfilled(c * g, c * f, c * _TOLERANCE)) for c in (1.0, size))
         if one is not other:
@@ -166,7 +166,7 @@ def _depth(law: CompliantNormalLaw, depth: float) -> float:
 
 @_COMPLIANT.claim()
 def _reach(law: CompliantNormalLaw) -> str:
-    """The gap at which it lets go is finite and not negative."""
+    """The gap at which the contact lets go is finite and not negative."""
     return "" if 0.0 <= law.reach < math.inf else f"it is {law.reach:g} m"
 
 
@@ -179,7 +179,7 @@ def _nothing_at_zero(law: CompliantNormalLaw, speed: float) -> str:
 
 @_COMPLIANT.claim(_DEPTH, _FACTOR, _SPEED, n_inputs=24)
 def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -> str:
-    """At rest the force does not fall with the indentation, and comes to 1 N."""
+    """At rest the force rises with the indentation, or stays, and reaches 1 N."""
     unit, force = _unit(law), _plain(law)
     if not math.isfinite(unit) and _pulling(law, speed):
         raise NotChecked("not checked, as it pulls where it is pressed")
@@ -202,7 +202,7 @@ def _pulling(law: CompliantNormalLaw, speed: float) -> str:
 
 @_COMPLIANT.claim(_DEPTH, _SHARE, _SPEED)
 def _pulls_within_its_reach(law: CompliantNormalLaw, depth: float, share: float, speed: float) -> str:
-    """At rest it does not push across a gap, and does not pull without a gap."""
+    """At rest the force does not push across a gap, and does not pull without a gap."""
     if not math.isfinite(_unit(law)) and (found := _pulling(law, speed)):
         return found
     inside, gap = _depth(law, depth), share * law.reach
@@ -222,7 +222,7 @@ def _wave(second: float, phase: float) -> Array:
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, _RATE_BACK, _WAVE)
 def _dissipation(law: CompliantNormalLaw, drawn: float, speed: float, rate_back: float, wave: Array) -> str:
-    """Round closed cycles, and from the closing of the contact to its end, it takes energy out or none."""
+    """No energy is gained in closed cycles of the indentation, and none from the closing of the contact to its end."""
     depth = _depth(law, drawn)
     span, quarter = depth + law.reach, np.linspace(0.0, 0.5 * math.pi, _POINTS + 1)
     inward, outward = depth * np.sin(quarter), -law.reach + span * np.cos(quarter)
@@ -249,7 +249,7 @@ def _energies(law: CompliantNormalLaw, x: Array, fastest: float, closing_rate: f
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, _RATE)
 def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: float) -> str:
-    """It accepts the force of the law, and none that differs by a hundredth."""
+    """The force of the law obeys it, and forces that differ by a hundredth do not."""
     x, rate = _depth(law, depth), share * speed
     force = _plain(law)(x, rate, speed)
     off = 0.01 * abs(force) + _NOTHING
@@ -261,7 +261,7 @@ def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: flo
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, fewest=FEWEST)
 def _impact(law: CompliantNormalLaw, drawn: float, speed: float) -> str:
-    """A mass that strikes in the engine leaves, or stays, as an independent integration of m x'' = -F has it."""
+    """A mass that strikes moves in the engine as in an independent integration of m x'' = -F."""
     depth, force = _depth(law, drawn), _plain(law)
     # a mass that the largest of these forces stops within the depth, or that is heavier
     load = max(abs(force(x, rate, speed)) for x in (1e-9 * depth, depth) for rate in (0.0, speed))

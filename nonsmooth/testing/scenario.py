@@ -190,7 +190,7 @@ def _repeatable(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _summary(trial: _Trial) -> None:
-    """`summarise` returns numbers and words by name, the same each time, `units` theirs."""
+    """`summarise` returns the same numbers and words each time, and `units` gives their units."""
     one, other = trial.summary(), trial.summary()
     if one != other:
         raise Broken("a second call gives another one", "summarise", other)
@@ -220,7 +220,7 @@ def _final_state(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _acceptance(trial: _Trial) -> None:
-    """A full run is not suspect; it has criteria, each with a finite number, and fulfils all."""
+    """A full run is not suspect and fulfils its criteria."""
     scenario, _ = trial.scenario, trial.solution
     solution = trial.run(scenario.t_end, scenario.sample_interval)
     if solution.status == "suspect":

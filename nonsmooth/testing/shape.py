@@ -37,21 +37,21 @@ def _rows(shape: Shape) -> list[Row]:
 
 @_SHAPE.claim()
 def _length(shape: Shape) -> None:
-    """Its length is finite and not negative."""
+    """The length is finite and not negative."""
     if not (math.isfinite(shape.length) and shape.length >= 0.0):
         raise Broken("it must be finite and not negative [m]", "length", shape.length)
 
 
 @_SHAPE.claim()
 def _extent(shape: Shape) -> None:
-    """A ball of its extent holds a point as far away as its length."""
+    """The extent is not below the length."""
     if not shape.extent >= shape.length:
         raise Broken(f"it must not be below the length {shape.length:g} m", "extent", shape.extent)
 
 
 @_SHAPE.claim()
 def _ceiling(shape: Shape) -> None:
-    """No point of its solid is above its ceiling."""
+    """No point of the solid is above the ceiling."""
     if math.isnan(shape.ceiling):
         raise Broken("it must be a height [m], or infinite", "ceiling", shape.ceiling)
     if shape.solid is not None:
@@ -62,7 +62,7 @@ def _ceiling(shape: Shape) -> None:
 
 @_SHAPE.claim()
 def _solid(shape: Shape) -> None:
-    """No point of its solid is farther along a direction than the support point.
+    """No point of the solid is farther along a direction than the support point.
 
     All points are within its bounds and its extent, and its inner point lies inside.
     """
@@ -92,7 +92,7 @@ def _solid(shape: Shape) -> None:
 
 @_SHAPE.claim()
 def _parts(shape: Shape) -> None:
-    """Its convex parts lie within its solid, or as far beyond it as contacts may see its surface."""
+    """Convex parts lie within the solid, or as far beyond it as contacts may see its surface."""
     solid = shape.solid
     for part in shape.parts:
         if solid is None or part.function or part.is_half_space:
@@ -106,7 +106,7 @@ def _parts(shape: Shape) -> None:
 
 @_SHAPE.claim()
 def _look(shape: Shape) -> None:
-    """It can be drawn."""
+    """The shape can be drawn."""
     require_look("look", shape.look)
 
 

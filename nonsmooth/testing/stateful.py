@@ -66,7 +66,7 @@ def _mu(law: StatefulFrictionLaw, speed: float, state: Array) -> float:
 
 @claim()
 def initial_state(law: StatefulFrictionLaw) -> str:
-    """Initial states and scales are as many, finite, the scales positive, and the coefficient takes `state`."""
+    """There are as many initial states as scales, all finite, the scales positive, and the coefficient takes `state`."""
     names = parameter_names(law.coefficient, "scalar")
     if "state" not in names:
         return f"coefficient takes {', '.join(names) or 'nothing'} beside the speed"
@@ -82,7 +82,7 @@ def _writes_its_block(law: StatefulFrictionLaw, speed: float) -> str:
 
 @STATES.claim(_STAGES)
 def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float, float]]) -> str:
-    """Through two speeds and a rest the states stay finite, and the coefficient with them not negative."""
+    """Through two speeds and a rest the states stay finite and the coefficient does not become negative."""
     state, scale = start_of(law)
     fast_speed = stages[0][0]
     for speed, duration in stages:
@@ -99,7 +99,7 @@ def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float,
 
 @STATES.claim(SPEED, HEADING, FORCE, _MOVED)
 def _certificate_with_states(law: StatefulFrictionLaw, speed: float, heading: float, load: float, moved: float) -> str:
-    """It takes the states: a force on the edge of the disc that they give obeys it, one off it does not."""
+    """A force on the bound that the states give obeys the law, and a force off the bound does not."""
     start, scale = start_of(law)
     state = start + 10.0**moved * scale
     slip, bound = along(speed, heading), _mu(law, speed, state) * load
@@ -112,7 +112,7 @@ def _certificate_with_states(law: StatefulFrictionLaw, speed: float, heading: fl
 
 @STATES.claim(SPEED, fewest=FEWEST)
 def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
-    """A mass that slides in the engine is slowed as an independent integration of motion and states has it."""
+    """A mass that slides slows down in the engine as in an independent integration of motion and states."""
     state, state_scale = start_of(law)
     start, scale = np.append(state, speed), np.append(state_scale, speed)
     quick = fastest(lambda z: _rates(law, speed, z), state, state_scale)

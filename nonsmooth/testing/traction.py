@@ -19,15 +19,7 @@ from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws, number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import ConstantLoad, Puck, run
-from nonsmooth.testing.reference import (
-    fastest,
-    followed,
-    is_same_motion,
-    require,
-    start_fault,
-    start_of,
-    writing_fault,
-)
+from nonsmooth.testing.reference import fastest, followed, is_same_motion, require, start_fault, start_of, writing_fault
 from nonsmooth.types import Array
 
 _DRAWS = 8
@@ -110,7 +102,7 @@ def _bent(law: TractionLaw, bent: float) -> Array:
 
 @claim()
 def _initial_state(law: TractionLaw) -> str:
-    """Initial states and scales are as many, finite, the scales positive."""
+    """There are as many initial states as scales, all finite, and the scales are positive."""
     return start_fault(law)
 
 
@@ -167,7 +159,7 @@ def _through(law: TractionLaw, load: float, motion: Array, times: list[float]) -
 
 @_TRACTION.claim(_LOAD, _MOTION)
 def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
-    """In a steady motion it takes energy out, or none."""
+    """Traction gives no energy to a steady motion."""
     times = _filling(law, load, motion) * np.linspace(0.5 * _LONG, _LONG, _SAMPLES)
     wrenches = _through(law, load, motion, times.tolist())
     mean = float(np.mean([wrench @ motion for wrench in wrenches]))
@@ -189,7 +181,7 @@ def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float
 
 @_TRACTION.claim(_LOAD, _MOTION, _BENT)
 def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
-    """It accepts force and moment of the law, and none that differ by a hundredth."""
+    """Force and moment of the law obey it, and those that differ by a hundredth do not."""
     state = _bent(law, bent)
     wrench, _ = _look(law, load, motion, state)
     off = 0.01 * float(np.max(np.abs(wrench))) + 1e-9 * load
@@ -204,7 +196,7 @@ def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> s
 
 @_TRACTION.claim(_LOAD, _MOTION, fewest=FEWEST)
 def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
-    """A body that slides, rolls and drills in the engine goes as an independent integration has it."""
+    """A body that slides, rolls and drills moves in the engine as in an independent integration."""
     state, state_scale = start_of(law)
     start, size = np.concatenate([motion, state]), float(np.max(np.abs(motion)))
     scale = np.concatenate([np.full(FORCE_AND_MOMENT, size), state_scale])
