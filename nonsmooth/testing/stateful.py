@@ -66,7 +66,7 @@ def _mu(law: StatefulFrictionLaw, speed: float, state: Array) -> float:
 
 @claim()
 def initial_state(law: StatefulFrictionLaw) -> str:
-    """There are as many initial states as scales, all finite, the scales positive, and the coefficient takes `state`."""
+    """There are as many initial states as scales, all finite, the scales positive, and `state` is an argument."""
     names = parameter_names(law.coefficient, "scalar")
     if "state" not in names:
         return f"coefficient takes {', '.join(names) or 'nothing'} beside the speed"
