@@ -5,11 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from nonsmooth.interfaces import CompliantNormalLaw, NormalLaw, RigidNormalLaw
 from nonsmooth.problems.contact import solve_contact
@@ -21,7 +19,7 @@ from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
 from nonsmooth.testing.outcome import NotChecked, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import Puck, run
-from nonsmooth.testing.reference import ReferenceFriction, point
+from nonsmooth.testing.reference import ReferenceFriction, followed, point
 from nonsmooth.types import Array
 
 _SIZE = number("size", 1e-3, 1e3, 1.0, is_log=True)
@@ -51,12 +49,8 @@ _GAIN = 1e-4
 """Part of the energy exchanged in a cycle that may be the error of its sum."""
 _SAME = 1e-6
 """Deviation of two impacts that counts as none, in units of depth and speed, ten times the error of the engine."""
-_EXACT = 1e-11
-_SHORT, _FREE = 1e-6, 0.5
-"""How long it is followed before its end is looked for, and after its end, in the unit below."""
 _LONGEST = 30.0
 """How long an impact is followed, in units of the time in which its depth is reached."""
-_MOST_CALLS = 200_000
 _COMPLIANT = Claims()
 
 
@@ -266,50 +260,20 @@ def _impact(law: CompliantNormalLaw, drawn: float, speed: float) -> str:
     # a mass that the largest of these forces stops within the depth, or that is heavier
     load = max(abs(force(x, rate, speed)) for x in (1e-9 * depth, depth) for rate in (0.0, speed))
     mass, unit = load * depth / speed**2, depth / speed
-    duration, x, rate = _integrated(law, load, depth, speed)
-    puck = Puck(mass, mass * depth**2, length=depth, speed=speed)
-    laws, end = ContactLaws(law, ReferenceFriction(0.0)), (1.0 + duration) * unit
-    solution = run(puck, depth, (0.0, 0.0, -speed, 0.0, 0.0, 0.0), laws, end)
+
+    def slope(y: Array) -> Array:
+        """Return the rates in units of depth and speed; without a force once the contact has opened."""
+        x, rate = float(y[0]), float(y[1])
+        return np.array([rate, -force(depth * x, speed * rate, speed) / load if depth * x >= -law.reach else 0.0])
+
+    x, rate = followed(slope, np.array([0.0, 1.0]), np.ones(2), [_LONGEST])[-1]
+    puck, u = Puck(mass, mass * depth**2, length=depth, speed=speed), (0.0, 0.0, -speed, 0.0, 0.0, 0.0)
+    solution = run(puck, depth, u, ContactLaws(law, ReferenceFriction(0.0)), (1.0 + _LONGEST) * unit)
     given = -float(solution.q_end[2]) / depth, -float(solution.u_end[2]) / speed
     if abs(given[1] - rate) <= _SAME and abs(given[0] - x) <= _SAME * max(1.0, abs(x)):
         return ""
     return (
-        f"{duration * unit:g} s after it has struck with {speed:g} m/s, a mass of {mass:g} kg is "
+        f"{_LONGEST * unit:g} s after it has struck with {speed:g} m/s, a mass of {mass:g} kg is "
         f"{given[0] * depth:.9g} m in, at {given[1] * speed:.9g} m/s; "
         f"by an independent integration {x * depth:.9g} m, at {rate * speed:.9g} m/s"
     )
-
-
-@final
-@dataclass(frozen=True)
-class _Opening:
-    """The event of scipy's integration at which a contact opens."""
-
-    reach: float
-    terminal: ClassVar[bool] = True
-    direction: ClassVar[float] = -1.0
-
-    def __call__(self, t: float, y: Array) -> float:
-        return float(y[0]) + self.reach
-
-
-def _integrated(law: CompliantNormalLaw, load: float, depth: float, speed: float) -> tuple[float, float, float]:
-    """Return how long a mass is followed that strikes, and its indentation and rate then.
-
-    All in units of ``depth`` and ``speed``, and of the mass that ``load`` stops within them.
-    """
-    force, calls = _plain(law), itertools.count()
-
-    def slope(t: float, y: Array) -> list[float]:
-        if next(calls) > _MOST_CALLS:
-            raise ArithmeticError(f"an impact at {speed:g} m/s asks for more than {_MOST_CALLS} calls of the force")
-        return [float(y[1]), -force(depth * float(y[0]), speed * float(y[1]), speed) / load]
-
-    exactly: Any = {"method": "DOP853", "rtol": _EXACT, "atol": 1e-3 * _EXACT}
-    # past the closing, where the gap may be the one at which the contact opens
-    found = solve_ivp(slope, (0.0, _SHORT), [0.0, 1.0], **exactly)
-    found = solve_ivp(slope, (_SHORT, _LONGEST), found.y[:, -1], events=_Opening(law.reach / depth), **exactly)
-    x, rate, duration = float(found.y[0, -1]), float(found.y[1, -1]), float(found.t[-1])
-    if found.status == 1:
-        x, duration = x + rate * _FREE, duration + _FREE
-    return duration, x, rate
