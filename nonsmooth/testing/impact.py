@@ -32,16 +32,15 @@ _NEAR = 1e-6
 """Agreement of velocities after impacts that should be the same, relative to the largest."""
 _INDENTATIONS = (0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
 _RATES = (*(-np.geomspace(1e-9, 1e2, 6)).tolist(), 0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
-_SHARED = Claims()
 _INDENTATION = number("indentation", 1e-6, 1e1, 1.0, is_log=True)
 _RATE = number("rate", 1e-6, 1e2, 1.0, is_log=True)
 _STORED = number("stored", 1e-3, 1e3, 1.0, is_log=True)
 _GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
-_PROCESS = Claims(fewest=FEWEST)
 _ANY_MU = number("friction", 0.0, 0.6)
 _OF_FUNCTION = 0.3
 """Friction coefficient with which the function is tried."""
-_MAP = Claims()
+_SHARED, _PROCESS, _MAP = Claims(fewest=FEWEST), Claims(fewest=FEWEST), Claims()
+"""Claims about all impact laws, about processes and about maps."""
 
 
 def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> list[Property]:
@@ -95,7 +94,7 @@ def _respond(law: ImpactLaw, p: ImpactProblem, mu: float) -> ImpactResponse:
     return respond([law] * p.n, [mu] * p.n, p)
 
 
-@_SHARED.claim(GIVEN, _MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU)
 def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """After the impact no contact approaches."""
     r = _respond(law, p, mu)
@@ -103,7 +102,7 @@ def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     return f"a gap closes at {-least:g} m/s afterwards" if least < -1e-7 * r.size else ""
 
 
-@_SHARED.claim(GIVEN, _MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU)
 def _cone(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """Normal impulses push, and tangential impulses lie in the cone of the friction coefficient."""
     r = _respond(law, p, mu)
@@ -124,13 +123,13 @@ def _gain(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     return f"the kinetic energy rises by {gain:g} J" if gain > 1e-7 * r.size**2 else ""
 
 
-@_SHARED.claim(GIVEN, fewest=FEWEST)
+@_SHARED.claim(GIVEN)
 def _dissipation(law: ImpactLaw, p: ImpactProblem) -> str:
     """Without friction no impact of approaching contacts gains energy."""
     return _gain(law, p, 0.0)
 
 
-@_SHARED.claim(GIVEN, _ROUGH, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _ROUGH)
 def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """With friction no impact of approaching contacts gains energy."""
     # one contact alone too, with slip in and against the lean of the body
@@ -139,7 +138,7 @@ def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> s
     return _gain(law, one, mu) or _gain(law, back, mu) or _gain(law, p, mu)
 
 
-@_SHARED.claim(_ONE, _MU, _FACTOR, fewest=FEWEST)
+@_SHARED.claim(_ONE, _MU, _FACTOR)
 def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
     """If all masses are c times as large, so are the impulses, and the velocities are the same."""
     one, other = _respond(law, p, mu), _respond(law, replace(p, mass=c * p.mass), mu)
@@ -148,7 +147,7 @@ def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) ->
     return "impulses are not proportional" if _apart(c * one.impulse, other.impulse, c * one.size) else ""
 
 
-@_SHARED.claim(GIVEN, _MU, _FACTOR, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _FACTOR)
 def _scaling_of_velocities(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
     """If all velocities before are c times as large, so are those after."""
     if isinstance(law, ImpactProcess) and not _is_homogeneous(law):
@@ -164,14 +163,14 @@ def _is_homogeneous(law: ImpactProcess) -> bool:
     return max(powers) - min(powers) < 1e-9 and max(shares) - min(shares) < 1e-12
 
 
-@_SHARED.claim(GIVEN, _MU, _TURN, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _TURN)
 def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) -> str:
     """Turning the tangents of the contacts changes no velocity."""
     one, other = _respond(law, p, mu), _respond(law, p.turned(turn), mu)
     return _difference(one, other.velocity, f"in tangents turned by {turn:g} rad")
 
 
-@_SHARED.claim(GIVEN, _MU, _OTHER_MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _OTHER_MU)
 def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -> str:
     """The order of the contacts does not matter."""
     if _is_alone(law):
@@ -181,7 +180,7 @@ def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -
     return _difference(one, other.velocity, "in the other order")
 
 
-@_SHARED.claim(GIVEN, name="limit mu -> 0", fewest=FEWEST)
+@_SHARED.claim(GIVEN, name="limit mu -> 0")
 def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
     """Without friction there is no tangential impulse, and with little friction little of it."""
     for mu in (0.0, 1e-8):
@@ -192,7 +191,7 @@ def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
     return ""
 
 
-@_SHARED.claim(_MU, _HEADING, fewest=FEWEST)
+@_SHARED.claim(_MU, _HEADING)
 def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
     """In an impact too slight to end the slip, friction is that of sustained contact."""
     slip = np.array([math.cos(heading), math.sin(heading)])
