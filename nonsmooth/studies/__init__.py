@@ -15,15 +15,15 @@ from nonsmooth.studies.opening import open_study
 from nonsmooth.studies.orbits import bifurcation, continuation, hysteresis, lyapunov, orbit
 from nonsmooth.studies.records import Stroboscope, Trajectory
 from nonsmooth.studies.sampling import Sampling, columns, grid, latin_hypercube, listed, random, sobol
-from nonsmooth.studies.status import RunStatus
+from nonsmooth.studies.status import CaseStatus
 from nonsmooth.studies.study import Study
 
 __all__ = [
     "Along",
+    "CaseStatus",
     "Dask",
     "Executor",
     "Family",
-    "RunStatus",
     "Sampling",
     "Serial",
     "Stroboscope",

@@ -12,7 +12,7 @@ from nonsmooth.storage.chunks import ArrayLayout
 from nonsmooth.studies.case import CaseFactory
 from nonsmooth.studies.records.record import StudyRecord
 from nonsmooth.studies.sampling import Sampling
-from nonsmooth.studies.status import UNKNOWN, RunStatus, reason_attributes
+from nonsmooth.studies.status import UNKNOWN, CaseStatus, reason_attributes
 
 
 def _classes(words: Sequence[str]) -> dict[str, Any]:
@@ -29,9 +29,9 @@ def variables(records: Sequence[StudyRecord], n_runs: int, chunk: int) -> dict[s
         found[one.name] = ArrayLayout(
             ("run", *one.axes), np.dtype(one.dtype).name, shape, chunk, np.array(one.none, one.dtype).item(), attributes
         )
-    ended = {"long_name": "how it ended", **_classes(list(RunStatus))}
+    ended = {"long_name": "how it ended", **_classes(list(CaseStatus))}
     found["reason"] = ArrayLayout(("run",), "int8", (n_runs,), chunk, UNKNOWN, reason_attributes())
-    return found | {"status": ArrayLayout(("run",), "int8", (n_runs,), chunk, RunStatus.NOT_RUN.code, ended)}
+    return found | {"status": ArrayLayout(("run",), "int8", (n_runs,), chunk, CaseStatus.NOT_RUN.code, ended)}
 
 
 def coordinates(records: Sequence[StudyRecord], sampling: Sampling, cases: CaseFactory) -> list[LabelledArray]:

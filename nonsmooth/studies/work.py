@@ -15,7 +15,7 @@ from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.case import Case, CaseFactory
 from nonsmooth.studies.records.record import RunResult, StudyRecord
 from nonsmooth.studies.sampling import Value
-from nonsmooth.studies.status import RAISED, WORKER_DIED, RunStatus, reason_of
+from nonsmooth.studies.status import RAISED, WORKER_DIED, CaseStatus, reason_of
 
 
 @final
@@ -73,7 +73,7 @@ class ChunkResult:
 class RunRow(NamedTuple):
     """Status and reason of a run, the reason in words if it has no records, values by record."""
 
-    status: RunStatus
+    status: CaseStatus
     reason: int
     text: str = ""
     values: Mapping[str, Any] = {}
@@ -112,7 +112,7 @@ class Work:
 
     def crashed(self, chunk: Chunk, text: str) -> ChunkResult:
         """Return the result of runs whose process died."""
-        return self._result(chunk, [RunRow(RunStatus.CRASHED, WORKER_DIED, text) for _ in chunk.parameters])
+        return self._result(chunk, [RunRow(CaseStatus.CRASHED, WORKER_DIED, text) for _ in chunk.parameters])
 
     def row(self, parameters: Mapping[str, Value]) -> RunRow:
         """Return the row of a run; an exception gives a row with status "failed".
@@ -126,22 +126,22 @@ class Work:
             case = self.cases.case(parameters)
             result = self.result(case, case.t_end)
         except RunFailed as error:
-            return RunRow(RunStatus.FAILED, reason_of(str(error)), str(error))
+            return RunRow(CaseStatus.FAILED, reason_of(str(error)), str(error))
         except Exception as error:
-            return RunRow(RunStatus.FAILED, RAISED, f"{type(error).__name__}: {error}")
+            return RunRow(CaseStatus.FAILED, RAISED, f"{type(error).__name__}: {error}")
         solution, values = result.solution, dict[str, Any]()
         if solution.status == "interrupted":
             raise KeyboardInterrupt
         reason = reason_of(solution.message)
         if self.engine.spent(solution):
             text = f"At t = {solution.t_end:.9g} s its {self.engine.steps} steps were used up."
-            return RunRow(RunStatus.BUDGET, reason, text)
+            return RunRow(CaseStatus.BUDGET, reason, text)
         for record in self.records:
             try:
                 values[record.name] = record.of(result)
             except Exception as error:
-                return RunRow(RunStatus.FAILED, RAISED, f"record {record.name}: {type(error).__name__}: {error}")
-        status = RunStatus.SUSPECT if solution.status == "suspect" else RunStatus.DONE
+                return RunRow(CaseStatus.FAILED, RAISED, f"record {record.name}: {type(error).__name__}: {error}")
+        status = CaseStatus.SUSPECT if solution.status == "suspect" else CaseStatus.DONE
         return RunRow(status, reason, "", values)
 
     def result(self, case: Case, t_end: float) -> RunResult:

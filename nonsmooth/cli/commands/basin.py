@@ -6,9 +6,9 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nonsmooth.cli.execute import saving
-from nonsmooth.cli.execute.study import perform
-from nonsmooth.cli.parse import outputs, study
+from nonsmooth.cli.commands.study import perform
+from nonsmooth.cli.execute.outputs import OVERWRITE, Saver
+from nonsmooth.cli.parse import study
 from nonsmooth.cli.parse.options import Command, Option
 from nonsmooth.cli.parse.values import tolerance
 from nonsmooth.cli.report.messages import say, tell
@@ -27,7 +27,7 @@ _OPTIONS = (
     Option.of(features, "tolerances", name="features", form="NAME=TOLERANCE,...", metavar="TOLERANCES"),
     Option.of(Along, "parameter", name="along", form="NAME, or NAME=TOLERANCE with --period or --features"),
     Option("--figures", "folder of the pictures; STUDY by default", metavar="DIR", kind=Path),
-    outputs.OVERWRITE,
+    OVERWRITE,
 )
 
 
@@ -40,8 +40,7 @@ def _execute(arguments: argparse.Namespace) -> bool:
     job = study.study_of(words, trust=arguments.trust)
     _check(job, tolerances, arguments, parameter)
     folder = arguments.figures or path.with_suffix("" if path.suffix else ".figures")
-    outputs.prepare_folder(folder, arguments.overwrite)
-    saving.without_display()
+    saver = Saver.of_pictures(folder, arguments.overwrite)
     found = perform(job, words, path, study.executor_given(arguments), arguments.chunk)
     if tolerances:
         found = found.assign(features(found, tolerances, along))
@@ -59,9 +58,7 @@ def _execute(arguments: argparse.Namespace) -> bool:
             drawn["uncertainty"] = pictures.uncertainty(boundary).figure
     if parameter:
         drawn["fractions"] = pictures.fractions(basin_fractions(found.attractor, parameter)).figure
-    troubles: list[str] = []
-    say("\n".join(map(str, saving.save_figures(drawn, folder, troubles))))
-    return not troubles
+    return saver.gallery(drawn)
 
 
 def _check(job: Study, tolerances: dict[str, float], arguments: argparse.Namespace, parameter: str) -> None:

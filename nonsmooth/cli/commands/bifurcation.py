@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 
-from nonsmooth.cli.commands.orbit import PICTURE, prepare, save
+from nonsmooth.cli.commands.orbit import PICTURE
 from nonsmooth.cli.docstrings import first_line
-from nonsmooth.cli.parse import outputs, values
+from nonsmooth.cli.execute.outputs import OVERWRITE, Saver
+from nonsmooth.cli.parse import values
 from nonsmooth.cli.parse.options import Command, Option, flag, given
 from nonsmooth.cli.parse.request import SCENARIO, SET, TRUST, job
 from nonsmooth.cli.report.messages import say, tell
@@ -35,7 +36,7 @@ _OPTIONS = (
     *_SAMPLES,
     flag("--follow", f"hysteresis: {first_line(hysteresis)}"),
     PICTURE,
-    outputs.OVERWRITE,
+    OVERWRITE,
 )
 
 
@@ -43,7 +44,7 @@ def _execute(arguments: argparse.Namespace) -> bool:
     """Run all values, print how many repeat after how many periods, save; return whether all succeeded."""
     values.check_not_set([arguments.over], arguments.set)
     name, row = values.axis(arguments.over)
-    prepare(arguments)
+    saver = Saver.of_pictures(arguments.out, arguments.overwrite)
     scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
     period, samples = values.period(arguments.period, name), given(bifurcation, _SAMPLES, arguments)
     ways: dict[str, Diagram]
@@ -65,9 +66,7 @@ def _execute(arguments: argparse.Namespace) -> bool:
     failed = [text for diagram in ways.values() for text in diagram.failures if text]
     for text in failed[:3]:
         tell(f"failed: {text}")
-    if arguments.out is None:
-        return not failed
-    return save(arguments.out, "bifurcation", found.draw(), _table(name, arguments.show, ways)) and not failed
+    return saver.diagram("bifurcation", found.draw, _table(name, arguments.show, ways)) and not failed
 
 
 def _table(name: str, coordinate: str, ways: dict[str, Diagram]) -> str:

@@ -12,7 +12,7 @@ from importlib import metadata, resources
 from pathlib import Path
 from string import Template
 
-from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.execute import outputs
 from nonsmooth.cli.parse.options import Command, CommandGroup, Option
 from nonsmooth.cli.report.messages import say
 from nonsmooth.errors import InvalidInput

@@ -11,8 +11,8 @@ import numpy as np
 
 from nonsmooth.checks import is_finite
 from nonsmooth.cli.docstrings import first_line
-from nonsmooth.cli.execute import saving
-from nonsmooth.cli.parse import outputs, values
+from nonsmooth.cli.execute.outputs import OVERWRITE, Saver
+from nonsmooth.cli.parse import values
 from nonsmooth.cli.parse.options import Command, Option, flag, given, names
 from nonsmooth.cli.parse.request import SCENARIO, SET, TRUST, job
 from nonsmooth.cli.report.messages import say
@@ -50,7 +50,7 @@ _ORBIT = (
     flag("--turn", f"symmetry: {first_line(Turn)}"),
     Option("--spin", f"symmetry: {first_line(Spin)}", metavar="BODY.AXIS", repeats=True),
     PICTURE,
-    outputs.OVERWRITE,
+    OVERWRITE,
 )
 _PERIOD = Option.of(orbit, "period", metavar="SECONDS")
 _BRANCH = (
@@ -63,16 +63,17 @@ _BRANCH = (
 
 
 def _orbit(arguments: argparse.Namespace) -> bool:
+    saver = Saver.of_pictures(arguments.out, arguments.overwrite)
     found = _found(arguments, lambda _: arguments.period)
     say(str(found))
-    if arguments.out is None:
-        return True
-    return save(arguments.out, "multipliers", pictures.multipliers(found), "\n".join(map(str, found.multipliers)))
+    numbers = "\n".join(map(str, found.multipliers))
+    return saver.diagram("multipliers", lambda: pictures.multipliers(found), numbers)
 
 
 def _continue(arguments: argparse.Namespace) -> bool:
     name, span = values.span(arguments.over)
     period = None if arguments.period is None else values.period(arguments.period, name)
+    saver = Saver.of_pictures(arguments.out, arguments.overwrite)
     found = _found(arguments, lambda known: period(_value(known, name)) if callable(period) else period)
     if not found.map.chart.names:
         remedy = "Choose another --section or --at, or name more of what repeats by --within."
@@ -84,24 +85,16 @@ def _continue(arguments: argparse.Namespace) -> bool:
     say(f"ends by {branch.ending}")
     for one in branch.special:
         say(f"{one.kind} at {name} = {one.value:.12g}")
-    if arguments.out is None:
-        return True
     label = f"{shown} [{unit(system, number)}]"
-    axes = pictures.branch(branch, lambda orbit: float(values_of(orbit.state)[number]), label)
-    return save(arguments.out, "branch", axes, _table(branch))
-
-
-def prepare(arguments: argparse.Namespace) -> None:
-    """Check and create the folder of the picture, if there is one."""
-    if arguments.out is not None:
-        outputs.require_matplotlib()
-        outputs.prepare_folder(arguments.out, arguments.overwrite)
-        saving.without_display()
+    return saver.diagram(
+        "branch",
+        lambda: pictures.branch(branch, lambda orbit: float(values_of(orbit.state)[number]), label),
+        _table(branch),
+    )
 
 
 def _found(arguments: argparse.Namespace, period_of: Callable[[Mapping[str, Any]], float | None]) -> Orbit:
     """Return the orbit of a request; its period may follow from the values of the scenario."""
-    prepare(arguments)
     scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
     symmetries = (*([Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
     return orbit(scenario, period_of(scenario.values), **given(orbit, _ORBIT, arguments), symmetries=symmetries)
@@ -121,15 +114,6 @@ def _table(branch: Branch) -> str:
     for value, one in zip(branch.values.tolist(), branch.orbits, strict=True):
         rows.append(f"{value!r},{float(np.max(np.abs(one.multipliers)))!r},{int(one.stable)}")
     return "\n".join(rows)
-
-
-def save(folder: Path, name: str, axes: Any, text: str) -> bool:
-    """Save a picture and its numbers; return whether both could be written."""
-    troubles: list[str] = []
-    paths = saving.save_figures({name: axes.figure}, folder, troubles)
-    saving.save_text(text, folder / f"{name}.csv", troubles)
-    say("\n".join(map(str, [*paths, folder / f"{name}.csv"])))
-    return not troubles
 
 
 COMMANDS = {

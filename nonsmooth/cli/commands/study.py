@@ -3,25 +3,49 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
+import sys
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from nonsmooth.cli.execute.study import perform
-from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.execute import outputs
 from nonsmooth.cli.parse.options import Command, CommandGroup, Option
 from nonsmooth.cli.parse.request import TRUST, check_stored
 from nonsmooth.cli.parse.study import EXECUTOR, OPTIONS, RECORD_OPTION, STUDY_WORDS, executor_given, study_of, words_of
 from nonsmooth.cli.report.messages import complain, say, tell
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies import draw_study, open_study
+from nonsmooth.studies import Executor, Study, draw_study, open_study
 from nonsmooth.studies.inputs import require, require_store
 from nonsmooth.studies.status import summary
 from nonsmooth.studies.study_folder import StudyFolder
+
+if TYPE_CHECKING:
+    import xarray
 
 _MOST = 10
 """Reasons of failed runs that are printed."""
 _STUDY = Option("study", "the folder that `--out` was given", metavar="STUDY.zarr", kind=Path)
 _OUT = Option("--out", "STUDY.png by default", metavar="FILE", kind=Path)
+
+
+def perform(
+    study: Study, words: Mapping[str, Any], path: Path, executor: Executor, chunk: int | None = None
+) -> xarray.Dataset:
+    """Run or continue a study; store the words of its request with it, report and return its records."""
+    try:
+        with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in
+            found = study.run(path, executor=executor, chunk=chunk, request=words)
+    except KeyboardInterrupt:
+        tell(f"complete chunks stay: `nonsmooth study resume {path}` continues")
+        raise
+    say(summary(found))
+    if texts := StudyFolder(path).texts():
+        first = min(texts)
+        tell(f"{len(texts)} runs have no records; the first is run {first}: {texts[first]}")
+    tell(f"the study is in {path}")
+    return found
 
 
 def _sweep(arguments: argparse.Namespace) -> bool:

@@ -75,6 +75,11 @@ class Job:
     engine: Engine
     laws: dict[str, Any]
 
+    @property
+    def title(self) -> str:
+        """Title of the scenario, or of its file."""
+        return str(self.scenario.resolved().get("title", type(self.scenario).title))
+
     def build(self) -> System:
         """Return the system with these laws."""
         system = self.scenario.build()

@@ -38,7 +38,7 @@ _MOST = 20
 
 @final
 @dataclass(frozen=True)
-class ClosedContacts:
+class ClosedConstraints:
     """Contacts of rigid bodies that are closed in a state.
 
     Attributes
@@ -51,7 +51,7 @@ class ClosedContacts:
     stuck: NDArray[np.int64]
 
     @classmethod
-    def at(cls, model: Model, state: State) -> ClosedContacts:
+    def at(cls, model: Model, state: State) -> ClosedConstraints:
         """Return the closed contacts of a state.
 
         Raises
@@ -94,7 +94,7 @@ class Chart:
         The coordinate, velocity or turn of a body that each direction changes.
     quaternions : tuple of int
         Where the quaternions begin.
-    contacts : ClosedContacts
+    contacts : ClosedConstraints
         The closed contacts.
     following : array
         The eliminated directions, shape [n_q + n_u, k].
@@ -107,7 +107,7 @@ class Chart:
     basis: Array
     names: tuple[str, ...]
     quaternions: tuple[int, ...]
-    contacts: ClosedContacts
+    contacts: ClosedConstraints
     following: Array
     inverse: Array
     ignored: Array
@@ -144,7 +144,7 @@ class Chart:
         InvalidInput
             If the law of a closed contact has inner states, or closed contacts leave no direction free.
         """
-        contacts, quaternions = ClosedContacts.at(model, state), tuple(quaternions_of(model.system).values())
+        contacts, quaternions = ClosedConstraints.at(model, state), tuple(quaternions_of(model.system).values())
         columns, names = _columns(model.system, state, within, without)
         # a direction is ignored only as far as coordinates that may change have a part in it
         changes = np.any(columns, axis=1)[:, None]
