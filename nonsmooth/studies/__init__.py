@@ -8,15 +8,16 @@ from nonsmooth.studies.attractors import (
     recurrences,
     uncertainty_exponent,
 )
+from nonsmooth.studies.dask import Dask
 from nonsmooth.studies.derivatives import Family, fit, sensitivity
 from nonsmooth.studies.drawing import draw_study
-from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
-from nonsmooth.studies.opening import open_study
+from nonsmooth.studies.executors import Executor, Serial, Threads
 from nonsmooth.studies.orbits import bifurcation, continuation, hysteresis, lyapunov, orbit
-from nonsmooth.studies.records import Stroboscope, Trajectory
 from nonsmooth.studies.sampling import Sampling, columns, grid, latin_hypercube, listed, random, sobol
+from nonsmooth.studies.state_records import Stroboscope, Trajectory
 from nonsmooth.studies.status import CaseStatus
 from nonsmooth.studies.study import Study
+from nonsmooth.studies.study_folder import open_study
 
 __all__ = [
     "Along",

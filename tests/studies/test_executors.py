@@ -21,7 +21,7 @@ from nonsmooth import studies
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plugins import file
 from nonsmooth.studies import status
-from nonsmooth.studies.executors.dask import Parcel, SchedulerLost
+from nonsmooth.studies.dask import Parcel, SchedulerLost
 from nonsmooth.studies.status import CaseStatus
 from nonsmooth.studies.study_folder import StudyFolder
 from tests.studies import ball

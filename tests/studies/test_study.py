@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.modes import Status
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.studies import status
-from nonsmooth.studies.records.recorders import Requested
+from nonsmooth.studies.records import Requested
 from nonsmooth.studies.status import CaseStatus
 from nonsmooth.studies.study_folder import StudyFolder
 from scenarios.bouncing_ball import BouncingBall

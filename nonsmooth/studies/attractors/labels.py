@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.checks import check_count
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.studies.attractors.matching import Along, Group, Grouping, joined
-from nonsmooth.studies.inputs import check_count
 
 if TYPE_CHECKING:
     import xarray

@@ -14,7 +14,7 @@ from nonsmooth.studies.attractors.linkage import linked, overlapping
 from nonsmooth.studies.attractors.matching import Along, Group
 from nonsmooth.studies.inputs import check_positive
 from nonsmooth.studies.periods import periods
-from nonsmooth.studies.records.stroboscope import NAME
+from nonsmooth.studies.state_records import NAME
 from nonsmooth.studies.status import VALUED
 from nonsmooth.types import Array
 

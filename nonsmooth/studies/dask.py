@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, final
 from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.plugins import file
 from nonsmooth.results.output import versions
-from nonsmooth.studies.executors.executor import WINDOW, Executor, check_workers
+from nonsmooth.studies.executors import WINDOW, Executor, check_workers
 from nonsmooth.studies.inputs import require
 from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _PATIENCE = 5.0
 """Time within which a scheduler must answer [s]."""
 _DEATHS = 3
-"""Deaths of workers after which a chunk is halved."""
+"""Deaths of workers after which a chunk is repeated run by run."""
 
 
 class SchedulerLost(NonsmoothError):
@@ -55,7 +55,7 @@ class Dask(Executor):
         """Yield results as workers return them.
 
         A chunk whose workers died may only have run next to the one that killed them.  Such chunks are repeated last,
-        each alone, and in halves if their workers die again, until the run that kills them is found.
+        run by run with nothing else, which finds the run that kills a worker.
 
         Raises
         ------
@@ -76,7 +76,7 @@ class Dask(Executor):
             try:
                 yield from _in_turn(client, parcel, chunks, window, suspects)
                 for chunk in suspects:
-                    yield _in_halves(client, parcel, chunk)
+                    yield _run_by_run(client, parcel, chunk)
             except CancelledError as error:
                 raise SchedulerLost(
                     "The scheduler is gone. Complete chunks stay: start a scheduler, and run the study again."
@@ -175,25 +175,18 @@ def _in_turn(
             yield block
 
 
-def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the result of a chunk while nothing else runs: a worker that dies dies because of it."""
+def _run_by_run(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
+    """Return the result of a suspected chunk; its runs are alone, so a worker that dies dies because of its run."""
     from distributed import KilledWorker
 
-    try:
-        return client.submit(_computed, parcel, chunk, pure=False).result()  # type: ignore[no-any-return]
-    except KilledWorker:
-        if len(chunk.parameters) == 1:
+    def result(run: Chunk) -> ChunkResult:
+        try:
+            return client.submit(_computed, parcel, run, pure=False).result()  # type: ignore[no-any-return]
+        except KilledWorker:
             text = "The process that ran it died, in each of the tries that the scheduler allows."
-            return parcel.open().crashed(chunk, text)
-    return _in_halves(client, parcel, chunk)
+            return parcel.open().crashed(run, text)
 
-
-def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the result of a suspected chunk; its halves run alone."""
-    if len(chunk.parameters) == 1:
-        return _alone(client, parcel, chunk)
-    one, other = chunk.halves()
-    return _alone(client, parcel, one).joined(_alone(client, parcel, other))
+    return ChunkResult.joined([result(run) for run in chunk.runs()])
 
 
 @final
