@@ -191,9 +191,9 @@ def _named(name: str, first: RunResult) -> StudyRecord:
     if not (words or all(part is None or isinstance(part, _NUMBER) for part in parts)):
         remedy = "Give a function f(scenario, solution) -> number, or list the words in `words` of the scenario."
         raise InvalidInput(f"record {name}", "must be a number, a row of numbers, or a word of a list", value, remedy)
-    text = described(f"{name} of the scenario", units.get(name, ""))
+    about = described(f"{name} of the scenario", units.get(name, ""))
     axes = {} if parts is not value else {f"{name}_part": range(len(parts))}
-    return StudyRecord(name, partial(_summarised, name), text, axes, words, "int8" if words else "float64")
+    return StudyRecord(name, partial(_summarised, name), about, axes, words, "int8" if words else "float64")
 
 
 def _summarised(name: str, result: RunResult) -> Any:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.studies.orbits.continuation import Branch
+from nonsmooth.studies.orbits.branch import Branch
 from nonsmooth.studies.orbits.periodic import Orbit
 from nonsmooth.studies.plotting import BLUE, MARKS, VERMILION, axes_of, few_ticks, finish
 
