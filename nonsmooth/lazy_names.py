@@ -39,11 +39,10 @@ def lazy_names(package: str, file: str) -> Names:
         if name not in modules:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
         module = modules[name]
-        # a stub names the modules of its own package, too
-        is_module = module == package
-        value = (
-            importlib.import_module(f"{module}.{name}") if is_module else getattr(importlib.import_module(module), name)
-        )
+        # a stub may name modules of its own package, too
+        if module == package:
+            return importlib.import_module(f"{module}.{name}")
+        value = getattr(importlib.import_module(module), name)
         setattr(sys.modules[package], name, value)
         return value
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import itertools
 import logging
 import pickle
 from collections.abc import Generator, Sequence
@@ -69,8 +70,7 @@ class Dask(Executor):
 
         with contextlib.ExitStack() as stack:
             client, parcel = self._client(stack), Parcel.of(work)
-            _check_alike(client)
-            _check_open(client, parcel)
+            _check_workers(client, parcel)
             suspects: list[Chunk] = []
             window = WINDOW * max(1, sum(client.nthreads().values()))
             try:
@@ -123,8 +123,8 @@ def _cluster(n: int) -> LocalCluster:
         raise InvalidInput("executor dask", "must be able to start processes", str(error), remedy) from error
 
 
-def _check_alike(client: Client) -> None:
-    """Raise InvalidInput if workers would give other bits than this process."""
+def _check_workers(client: Client, parcel: Parcel) -> None:
+    """Raise InvalidInput if workers would give other bits than this process, or lack the modules of the study."""
     client.wait_for_workers(1, timeout=_PATIENCE * 12)
     here = dict(versions())
     for address, there in client.run(versions).items():
@@ -132,10 +132,6 @@ def _check_alike(client: Client) -> None:
             differ = {name: there.get(name) for name in here if there.get(name) != here[name]}
             remedy = "Install the same ones; of unlike processors set NUMBA_CPU_NAME=generic everywhere."
             raise InvalidInput(f"worker {address}", f"must have the versions of this process, {here}", differ, remedy)
-
-
-def _check_open(client: Client, parcel: Parcel) -> None:
-    """Raise InvalidInput if workers do not find the modules of the study."""
     for address, fault in client.run(Parcel.fault, parcel).items():
         if fault:
             remedy = "Install it there, or start the workers where they find it (PYTHONPATH)."
@@ -152,21 +148,18 @@ def _in_turn(
     """Yield the results of all chunks; those whose workers died too often become suspects."""
     from distributed import KilledWorker, as_completed
 
-    left, running = iter(chunks), {}
-    done = as_completed()
+    left, running, done = iter(chunks), {}, as_completed()
 
-    def hand_out() -> None:
-        for chunk in left:
+    def hand_out(n: int) -> None:
+        for chunk in itertools.islice(left, n):
             future = client.submit(_computed, parcel, chunk, pure=False, retries=2)
             running[future.key] = chunk
             done.add(future)
-            return
 
-    for _ in range(window):
-        hand_out()
+    hand_out(window)
     for future in done:
         chunk = running.pop(future.key)
-        hand_out()
+        hand_out(1)
         try:
             block = future.result()
         except KilledWorker:

@@ -156,7 +156,6 @@ class Stroboscope(Recorder):
         times = (np.arange(last - self.keep + 1, last + 1) - before) * self.period
         if times[0] < -_ROUND * self.period:
             rule = f"must be short enough for a run of {t_end:g} s"
-            raise InvalidInput(
-                "Stroboscope: keep", rule, f"{self.keep} periods of {self.period:g} s", "Raise t_end, or keep fewer."
-            )
+            kept = f"{self.keep} periods of {self.period:g} s"
+            raise InvalidInput("Stroboscope: keep", rule, kept, "Raise t_end, or keep fewer.")
         return np.clip(times, 0.0, t_end)

@@ -58,11 +58,9 @@ def _check_name(name: str) -> None:
     remedy = "Take small letters, digits and underscores, a letter first: rubber_friction."
     if re.fullmatch(r"[a-z][a-z0-9_]*[a-z0-9]", name) is None or keyword.iskeyword(name):
         raise InvalidInput("new plugin: name", "must be that of a Python package", name, remedy)
-    holder = _holder(name)
-    if holder:
-        raise InvalidInput(
-            "new plugin: name", "must not be taken already", name, f"It is that of {holder}: take another."
-        )
+    if holder := _holder(name):
+        remedy = f"It is that of {holder}: take another."
+        raise InvalidInput("new plugin: name", "must not be taken already", name, remedy)
 
 
 def _holder(name: str) -> str:

@@ -68,10 +68,7 @@ class Option:
         *,
         name: str = "",
         form: str = "",
-        metavar: str = "",
-        repeats: bool = False,
-        is_required: bool = False,
-        convert: Callable[[Any], Any] | None = None,
+        **more: Any,
     ) -> Option:
         """Return the option of a parameter of a function: type and default of its signature, help of its docstring.
 
@@ -85,24 +82,16 @@ class Option:
             Name of the option, if it is another one.
         form : str
             Form of the word, if it is not a plain value.
-        metavar, repeats, is_required, convert
-            As of the class.
+        **more
+            Further attributes: metavar, repeats, is_required, convert.
         """
         known = inspect.signature(function).parameters[parameter]
         default = None if known.default is known.empty else known.default
         kind, placeholder = _KINDS.get(str(known.annotation).partition(" |")[0], (str, "WORD"))
         parts = [help_of(function, parameter), form, "" if default is None else f"{_word(default)} by default"]
-        return cls(
-            f"--{(name or parameter).replace('_', '-')}",
-            "; ".join(filter(None, parts)),
-            default,
-            metavar or placeholder,
-            str if form else kind,
-            repeats,
-            is_required,
-            convert=convert,
-            source=(function, parameter),
-        )
+        named, text = f"--{(name or parameter).replace('_', '-')}", "; ".join(filter(None, parts))
+        more = {"metavar": placeholder, "kind": str if form else kind, "source": (function, parameter)} | more
+        return cls(named, text, default, **more)
 
     @property
     def place(self) -> str:

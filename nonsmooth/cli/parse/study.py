@@ -37,18 +37,7 @@ _DRAWN = (
     Option.of(random, "seed"),
 )
 _BUDGET = Option.of(Study, "budget", metavar="STEPS")
-OPTIONS = (
-    SCENARIO,
-    *_DRAWN,
-    SET,
-    ENGINE,
-    *STROBOSCOPE,
-    _BUDGET,
-    Option.of(Study.run, "chunk"),
-    *EXECUTOR,
-    TRUST,
-    OUT,
-)
+OPTIONS = (SCENARIO, *_DRAWN, SET, ENGINE, *STROBOSCOPE, _BUDGET, Option.of(Study.run, "chunk"), *EXECUTOR, TRUST, OUT)
 """Options of all commands that run a study."""
 RECORD_OPTION = Option.of(
     Study,

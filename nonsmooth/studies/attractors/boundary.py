@@ -102,15 +102,8 @@ def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
     exponent = float(fit.slope)
     # no boundary has an exponent above 1: the excess is an error of the fit
     error = max(float(fit.stderr), exponent - _SMOOTH)
-    return Boundary(
-        steps.astype(float),
-        uncertain,
-        int(known.sum()),
-        exponent,
-        error,
-        float(fit.intercept),
-        labels.ndim - min(exponent, _SMOOTH),
-    )
+    n_starts, offset, dimension = int(known.sum()), float(fit.intercept), labels.ndim - min(exponent, _SMOOTH)
+    return Boundary(steps.astype(float), uncertain, n_starts, exponent, error, offset, dimension)
 
 
 def _check_even(attractor: xarray.DataArray) -> None:

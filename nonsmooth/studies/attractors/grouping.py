@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.studies.attractors.labels import Along, Group, Integers, labelled, over_runs
-from nonsmooth.studies.attractors.linkage import linked, overlapping
+from nonsmooth.studies.attractors.labels import Along, Group, labelled, over_runs
+from nonsmooth.studies.attractors.linkage import Integers, linked, overlapping
 from nonsmooth.studies.inputs import check_positive
 from nonsmooth.studies.periods import periods
 from nonsmooth.studies.state_records import NAME

@@ -62,12 +62,9 @@ class ClosedConstraints:
         contacts = model.system.contacts
         for number in np.flatnonzero(state.modes != Mode.OPEN).tolist():
             if isinstance(contacts[number].friction, (StatefulFrictionLaw, TractionLaw)):
-                raise InvalidInput(
-                    f"section: the {contacts[number]}",
-                    "must be open there, as its law has inner states",
-                    "closed",
-                    "Choose a section where it is open, or a law without inner states.",
-                )
+                rule = "must be open there, as its law has inner states"
+                remedy = "Choose a section where it is open, or a law without inner states."
+                raise InvalidInput(f"section: the {contacts[number]}", rule, "closed", remedy)
         rigid = np.array([isinstance(contact.normal, RigidNormalLaw) for contact in contacts], dtype=bool)
         closed = rigid & (state.modes != Mode.OPEN)
         return cls(np.flatnonzero(closed), np.flatnonzero(closed & (state.modes == Mode.STICK)))
@@ -152,9 +149,7 @@ class Chart:
         kept = _independent(columns, same)
         columns, names = columns[:, kept], tuple(names[i] for i in kept)
         if not names and len(contacts.closed):
-            rule = (
-                "must leave a coordinate or velocity free besides the one of the section, as contacts are closed there"
-            )
+            rule = "must leave a coordinate or velocity free besides the one of the section, as contacts are closed there"
             raise InvalidInput("section: within", rule, within, "Name more coordinates, or choose another section.")
         whole = cls(columns, names, quaternions, contacts, columns[:, :0], np.zeros((0, 0)), same)
         rows = whole._slopes(model, state)
@@ -252,12 +247,8 @@ def _columns(
     system: System, state: State, within: Collection[str] | None, without: Collection[str]
 ) -> tuple[Array, tuple[str, ...]]:
     """Return all directions about a state that may change, shape [n_q + n_u, m], and their names."""
-    chosen, scale, y, quaternions = (
-        labels_within(system, within),
-        scales_of(system),
-        values_of(state),
-        quaternions_of(system),
-    )
+    chosen, scale = labels_within(system, within), scales_of(system)
+    y, quaternions = values_of(state), quaternions_of(system)
     columns, names = list[Array](), list[str]()
     for i, (body, label, _) in enumerate(labels_of(system)):
         name = f"{body}.{label}"

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from nonsmooth.checks import floats
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
@@ -25,7 +26,7 @@ from nonsmooth.studies.inputs import check_periods, check_phase
 from nonsmooth.studies.orbits.scan import Period, check_period, period_at, scan
 from nonsmooth.studies.orbits.sections import clearest_state, state_at_phase
 from nonsmooth.studies.periods import alike, periods, settling
-from nonsmooth.studies.plotting import BLUE, GREEN, axes_of, dotted, few_ticks, finish
+from nonsmooth.studies.plotting import BLUE, GREEN, dotted, few_ticks, finish
 from nonsmooth.types import Array
 
 if TYPE_CHECKING:
