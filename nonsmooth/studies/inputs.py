@@ -23,11 +23,6 @@ def require(what: str, *packages: str) -> None:
         raise MissingPackagesError(f"{what} needs {', '.join(missing)}: {_REMEDY}")
 
 
-def require_store() -> None:
-    """Raise MissingPackagesError unless xarray is installed."""
-    require("a study", "xarray")
-
-
 def meter(display: Display | None) -> ProgressMeter:
     """Return the meter of a display, by default of standard error.
 

@@ -7,7 +7,7 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from operator import attrgetter
 from typing import Any, TypeAlias, final
 
@@ -144,13 +144,9 @@ _LINE = re.compile(r"(?P<words>.*?)(\s*\[(?P<unit>[^]]+)\])?\.?")
 """First line of a docstring: description, and unit in brackets at its end."""
 
 
-def _n_events(result: RunResult) -> int:
-    return len(result.solution.events)
-
-
 _NUMBERS: Mapping[str, tuple[Callable[[RunResult], float], str, str, str]] = {
     "impacts": (attrgetter("solution.counters.impacts"), "int64", "1", "impacts"),
-    "events": (_n_events, "int64", "1", "events, the start among them"),
+    "events": (lambda result: len(result.solution.events), "int64", "1", "events, the start among them"),
     "steps": (attrgetter("solution.counters.steps"), "int64", "1", "accepted steps of the flow"),
     "t_end": (attrgetter("solution.t_end"), "float64", "s", "time reached"),
     "energy_residual": (attrgetter("solution.energy.residual"), "float64", "1", "relative error of the energy account"),
@@ -166,12 +162,11 @@ def _of_function(function: Function) -> StudyRecord:
     line = _LINE.fullmatch((function.__doc__ or name).strip().partition("\n")[0])
     assert line is not None
     return StudyRecord(
-        name, partial(_called, function), described(line["words"], line["unit"] or ""), how=digest(function)
+        name,
+        lambda result: function(result.scenario, result.solution),
+        described(line["words"], line["unit"] or ""),
+        how=digest(function),
     )
-
-
-def _called(function: Function, result: RunResult) -> float:
-    return function(result.scenario, result.solution)
 
 
 def _named(name: str, first: RunResult) -> StudyRecord:
@@ -193,11 +188,7 @@ def _named(name: str, first: RunResult) -> StudyRecord:
         raise InvalidInput(f"record {name}", "must be a number, a row of numbers, or a word of a list", value, remedy)
     about = described(f"{name} of the scenario", units.get(name, ""))
     axes = {} if parts is not value else {f"{name}_part": range(len(parts))}
-    return StudyRecord(name, partial(_summarised, name), about, axes, words, "int8" if words else "float64")
-
-
-def _summarised(name: str, result: RunResult) -> Any:
-    return result.summary[name]
+    return StudyRecord(name, lambda result: result.summary[name], about, axes, words, "int8" if words else "float64")
 
 
 def _record(requested: Requested, first: RunResult) -> StudyRecord:

@@ -20,7 +20,7 @@ from nonsmooth.results.output import OtherVersions
 from nonsmooth.studies.case import case_factory
 from nonsmooth.studies.dask import Dask
 from nonsmooth.studies.executors import Executor, Serial, Threads
-from nonsmooth.studies.inputs import meter, require_store
+from nonsmooth.studies.inputs import meter, require
 from nonsmooth.studies.provenance import differing, provenance
 from nonsmooth.studies.records import Requested, RunResult, records
 from nonsmooth.studies.sampling import Sampling
@@ -171,7 +171,7 @@ class Study:
         FileError
             If it cannot be written; complete chunks stay.
         """
-        require_store()
+        require("a study", "xarray")
         check_chunk(chunk)
         does = executor_of(executor)
         place = path_of("study", path)
@@ -198,7 +198,7 @@ class Study:
 
     def _chunk(self, store: StudyFolder, number: int) -> Chunk:
         runs = range(number * store.chunk, min(len(self), (number + 1) * store.chunk))
-        return Chunk(number, runs.start, tuple(map(self._sampling.at, runs)))
+        return Chunk(runs.start, tuple(map(self._sampling.at, runs)))
 
     def _create(self, path: Path, chunk: int | None, request: Mapping[str, Any]) -> None:
         size = max(1, min(_LARGEST, -(-len(self) // _CHUNKS))) if chunk is None else chunk

@@ -26,7 +26,7 @@ from nonsmooth.storage.chunks import TEXT, ArrayLayout
 from nonsmooth.storage.files import writing
 from nonsmooth.storage.lock import LOCK, WRITER, check_no_links, locked
 from nonsmooth.studies.case import CaseFactory
-from nonsmooth.studies.inputs import require_store
+from nonsmooth.studies.inputs import require
 from nonsmooth.studies.records import StudyRecord
 from nonsmooth.studies.sampling import Sampling
 from nonsmooth.studies.status import UNKNOWN, CaseStatus, reason_attributes
@@ -253,7 +253,7 @@ def open_study(path: Path | str) -> xarray.Dataset:
     """
     import xarray
 
-    require_store()
+    require("a study", "xarray")
     folder = StudyFolder(path_of("study", path))
 
     def read(name: str) -> tuple[tuple[str, ...], Any, dict[str, Any]]:

@@ -26,21 +26,18 @@ class Chunk:
 
     Attributes
     ----------
-    number : int
-        Number of the chunk.
     first : int
         Number of its first run.
     parameters : tuple of dict
         Parameters of each run.
     """
 
-    number: int
     first: int
     parameters: tuple[dict[str, Value], ...]
 
     def runs(self) -> list[Chunk]:
         """Return its runs, each as a chunk of one."""
-        return [Chunk(self.number, self.first + i, (one,)) for i, one in enumerate(self.parameters)]
+        return [Chunk(self.first + i, (one,)) for i, one in enumerate(self.parameters)]
 
 
 @final
@@ -65,8 +62,7 @@ class ChunkResult:
     @classmethod
     def joined(cls, parts: Sequence[ChunkResult]) -> ChunkResult:
         """Return the results of successive parts of a chunk as one."""
-        first = parts[0].chunk
-        chunk = Chunk(first.number, first.first, tuple(one for part in parts for one in part.chunk.parameters))
+        chunk = Chunk(parts[0].chunk.first, tuple(one for part in parts for one in part.chunk.parameters))
         arrays = {name: np.concatenate([part.arrays[name] for part in parts]) for name in parts[0].arrays}
         return cls(chunk, arrays, {run: text for part in parts for run, text in part.texts.items()})
 
@@ -78,10 +74,6 @@ class RunRow(NamedTuple):
     reason: int
     text: str = ""
     values: Mapping[str, Any] = {}
-
-
-def _nothing() -> None:
-    """Do nothing."""
 
 
 @final
@@ -106,7 +98,7 @@ class Work:
     budget: int | None
     records: tuple[StudyRecord, ...] = field(default=())
 
-    def chunk(self, chunk: Chunk, before_each: Callable[[], None] = _nothing) -> ChunkResult:
+    def chunk(self, chunk: Chunk, before_each: Callable[[], object] = lambda: None) -> ChunkResult:
         """Return the result of a chunk; an exception of ``before_each`` ends it."""
         rows = []
         for parameters in chunk.parameters:

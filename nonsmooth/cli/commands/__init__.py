@@ -18,11 +18,11 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "save": ("export", "write a scenario to a file that `run` reads"),
     "figures": ("figures", "draw all figures of a scenario"),
     "sweep": ("study", "run a scenario over parameters"),
-    "basin": ("basin", "find which starts lead to which attractor"),
+    "basin": ("study", "find which starts lead to which attractor"),
     "study": ("study", "show, continue, check or draw a stored study"),
     "orbit": ("orbit", "find a periodic orbit and its multipliers"),
     "continue": ("orbit", "follow a periodic orbit along a parameter"),
-    "bifurcation": ("bifurcation", "sample a motion once a period for each value of a parameter"),
+    "bifurcation": ("orbit", "sample a motion once a period for each value of a parameter"),
     "new": ("new", "write a package to start from"),
 }
 """Module and summary of each command."""

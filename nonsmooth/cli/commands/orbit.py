@@ -1,8 +1,9 @@
-"""``nonsmooth orbit`` and ``continue``: a periodic orbit of a scenario, and its branch along a parameter."""
+"""``nonsmooth orbit``, ``continue`` and ``bifurcation``: periodic orbits, and motions along a parameter."""
 
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -15,50 +16,81 @@ from nonsmooth.cli.execute.outputs import OVERWRITE, Saver
 from nonsmooth.cli.parse import values
 from nonsmooth.cli.parse.options import Command, Option, flag, given, names
 from nonsmooth.cli.parse.request import SCENARIO, SET, TRUST, job
-from nonsmooth.cli.report.messages import say
+from nonsmooth.cli.report.messages import say, tell
 from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.studies import orbits
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit, values_of
-from nonsmooth.studies.orbits import Branch, Orbit, PoincareSection, Spin, Turn, continuation, orbit, pictures
 
 
-def _section(word: str) -> PoincareSection:
+def _section(word: str) -> orbits.PoincareSection:
     name, equals, rest = word.partition("=")
     level, colon, way = rest.partition(":")
     try:
         if name and equals and (way == "falling" if colon else True):
-            return PoincareSection(name.strip(), float(level), rising=not colon)
+            return orbits.PoincareSection(name.strip(), float(level), rising=not colon)
     except ValueError:
         pass
     remedy = "For example --section phi_m=0, or --section vz=0:falling."
     raise InvalidInput("--section", "must have the form NAME=LEVEL or NAME=LEVEL:falling", word, remedy)
 
 
-def _spin(word: str) -> Spin:
+def _spin(word: str) -> orbits.Spin:
     body, dot, axis = word.rpartition(".")
     if not dot:
         raise InvalidInput("--spin", "must have the form BODY.AXIS", word, "For example --spin dumbbell.x.")
-    return Spin(body, axis)
+    return orbits.Spin(body, axis)
 
 
-PICTURE = Option("--out", "folder of a picture and its numbers", metavar="DIR", kind=Path)
+_PICTURE = Option("--out", "folder of a picture and its numbers", metavar="DIR", kind=Path)
 _SECTION = "NAME=LEVEL where it rises to the level, NAME=LEVEL:falling where it falls"
 _ORBIT = (
-    Option.of(orbit, "section", form=_SECTION, metavar="NAME=LEVEL", convert=_section),
-    Option.of(orbit, "at", metavar="SECONDS"),
-    Option.of(orbit, "settle", metavar="SECONDS"),
-    Option.of(orbit, "within", form="NAME,NAME,...", metavar="NAMES", convert=names),
-    flag("--turn", f"symmetry: {first_line(Turn)}"),
-    Option("--spin", f"symmetry: {first_line(Spin)}", metavar="BODY.AXIS", repeats=True),
-    PICTURE,
+    Option.of(orbits.orbit, "section", form=_SECTION, metavar="NAME=LEVEL", convert=_section),
+    Option.of(orbits.orbit, "at", metavar="SECONDS"),
+    Option.of(orbits.orbit, "settle", metavar="SECONDS"),
+    Option.of(orbits.orbit, "within", form="NAME,NAME,...", metavar="NAMES", convert=names),
+    flag("--turn", f"symmetry: {first_line(orbits.Turn)}"),
+    Option("--spin", f"symmetry: {first_line(orbits.Spin)}", metavar="BODY.AXIS", repeats=True),
+    _PICTURE,
     OVERWRITE,
 )
-_PERIOD = Option.of(orbit, "period", metavar="SECONDS")
+_PERIOD = Option.of(orbits.orbit, "period", metavar="SECONDS")
 _BRANCH = (
-    Option.of(continuation, "period", form=values.PERIOD, metavar="SECONDS"),
+    Option.of(orbits.continuation, "period", form=values.PERIOD, metavar="SECONDS"),
     Option.of(
-        continuation, "span", name="over", form="the parameter and its ends", metavar="NAME=LOW:HIGH", is_required=True
+        orbits.continuation,
+        "span",
+        name="over",
+        form="the parameter and its ends",
+        metavar="NAME=LOW:HIGH",
+        is_required=True,
     ),
     Option("--show", "coordinate of the picture; the first of --within by default", metavar="NAME"),
+)
+
+
+_SAMPLES = (
+    Option.of(orbits.bifurcation, "coordinate", name="show", is_required=True),
+    Option.of(orbits.bifurcation, "at", metavar="SECONDS"),
+    Option.of(orbits.bifurcation, "settle"),
+    Option.of(orbits.bifurcation, "keep"),
+)
+_BIFURCATION = (
+    SCENARIO,
+    SET,
+    TRUST,
+    Option.of(
+        orbits.bifurcation,
+        "values",
+        name="over",
+        form="the parameter and N values from LOW to HIGH",
+        metavar="NAME=LOW:HIGH:N",
+        is_required=True,
+    ),
+    Option.of(orbits.bifurcation, "period", form=values.PERIOD, metavar="SECONDS", is_required=True),
+    *_SAMPLES,
+    flag("--follow", f"hysteresis: {first_line(orbits.hysteresis)}"),
+    _PICTURE,
+    OVERWRITE,
 )
 
 
@@ -67,7 +99,7 @@ def _orbit(arguments: argparse.Namespace) -> bool:
     found = _found(arguments, lambda _: arguments.period)
     say(str(found))
     numbers = "\n".join(map(str, found.multipliers))
-    return saver.diagram("multipliers", lambda: pictures.multipliers(found), numbers)
+    return saver.diagram("multipliers", lambda: orbits.pictures.multipliers(found), numbers)
 
 
 def _continue(arguments: argparse.Namespace) -> bool:
@@ -80,7 +112,7 @@ def _continue(arguments: argparse.Namespace) -> bool:
         raise InvalidInput("orbit", "must leave something free at the section", arguments.within, remedy)
     shown, system = arguments.show or found.map.chart.names[0], found.family.model().system
     number = coordinate_number(system, shown)
-    branch = continuation(found, name, span, period=period if callable(period) else None)
+    branch = orbits.continuation(found, name, span, period=period if callable(period) else None)
     say(f"{len(branch.orbits)} orbits, {name} from {branch.values.min():.9g} to {branch.values.max():.9g}")
     say(f"ends by {branch.ending}")
     for one in branch.special:
@@ -88,16 +120,18 @@ def _continue(arguments: argparse.Namespace) -> bool:
     label = f"{shown} [{unit(system, number)}]"
     return saver.diagram(
         "branch",
-        lambda: pictures.branch(branch, lambda orbit: float(values_of(orbit.state)[number]), label),
+        lambda: orbits.pictures.branch(branch, lambda orbit: float(values_of(orbit.state)[number]), label),
         _table(branch),
     )
 
 
-def _found(arguments: argparse.Namespace, period_of: Callable[[Mapping[str, Any]], float | None]) -> Orbit:
+def _found(arguments: argparse.Namespace, period_of: Callable[[Mapping[str, Any]], float | None]) -> orbits.Orbit:
     """Return the orbit of a request; its period may follow from the values of the scenario."""
     scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
-    symmetries = (*([Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
-    return orbit(scenario, period_of(scenario.values), **given(orbit, _ORBIT, arguments), symmetries=symmetries)
+    symmetries = (*([orbits.Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
+    return orbits.orbit(
+        scenario, period_of(scenario.values), **given(orbits.orbit, _ORBIT, arguments), symmetries=symmetries
+    )
 
 
 def _value(known: Mapping[str, Any], name: str) -> float:
@@ -108,7 +142,7 @@ def _value(known: Mapping[str, Any], name: str) -> float:
     return numbers[name]
 
 
-def _table(branch: Branch) -> str:
+def _table(branch: orbits.Branch) -> str:
     """Return values, largest multipliers and stability of a branch as CSV."""
     rows = [f"{branch.name},largest_multiplier,stable"]
     for value, one in zip(branch.values.tolist(), branch.orbits, strict=True):
@@ -116,7 +150,49 @@ def _table(branch: Branch) -> str:
     return "\n".join(rows)
 
 
+def _bifurcation(arguments: argparse.Namespace) -> bool:
+    """Run all values, print how many repeat after how many periods, save; return whether all succeeded."""
+    values.check_not_set([arguments.over], arguments.set)
+    name, row = values.axis(arguments.over)
+    saver = Saver.of_pictures(arguments.out, arguments.overwrite)
+    scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
+    period, samples = values.period(arguments.period, name), given(orbits.bifurcation, _SAMPLES, arguments)
+    ways: dict[str, orbits.Diagram]
+    found: orbits.Diagram | orbits.Hysteresis
+    if arguments.follow:
+        found = orbits.hysteresis(scenario, name, row, period, **samples)
+        ways = {"up": found.up, "down": found.down}
+        say(f"{found.apart.sum()} of {len(row)} values have two motions")
+    else:
+        found = orbits.bifurcation(scenario, name, row, period, **samples)
+        ways = {"": found}
+    for way, diagram in ways.items():
+        head = f"{way}: " if way else ""
+        for after, count in sorted(Counter(diagram.periods.tolist()).items()):
+            words = {-1: "failed", 0: "do not repeat"}.get(after, f"repeat after {after} periods")
+            say(f"{head}{count} {words}")
+        if count := int(diagram.settling.sum()):
+            say(f"{head}{count} still settle: take a larger --settle")
+    failed = [text for diagram in ways.values() for text in diagram.failures if text]
+    for text in failed[:3]:
+        tell(f"failed: {text}")
+    return saver.diagram("bifurcation", found.draw, _samples_table(name, arguments.show, ways)) and not failed
+
+
+def _samples_table(name: str, coordinate: str, ways: dict[str, orbits.Diagram]) -> str:
+    """Return the samples as CSV, a row for each value."""
+    is_single = list(ways) == [""]
+    keep = next(iter(ways.values())).points.shape[1]
+    samples = ",".join(f"{coordinate}_{i + 1}" for i in range(keep))
+    rows = [f"{'' if is_single else 'way,'}{name},{samples}"]
+    for way, diagram in ways.items():
+        for value, row in zip(diagram.values.tolist(), diagram.points.tolist(), strict=True):
+            rows.append(",".join([*([] if is_single else [way]), repr(value), *map(repr, row)]))
+    return "\n".join(rows)
+
+
 COMMANDS = {
     "orbit": Command(_orbit, (SCENARIO, SET, TRUST, _PERIOD, *_ORBIT)),
     "continue": Command(_continue, (SCENARIO, SET, TRUST, *_BRANCH, *_ORBIT)),
+    "bifurcation": Command(_bifurcation, _BIFURCATION),
 }

@@ -66,24 +66,19 @@ def _performed(arguments: argparse.Namespace, saver: Saver) -> run_report.Report
 
 
 def _resume(arguments: argparse.Namespace) -> bool:
-    saver = Saver(arguments.folder)
+    saver, output = Saver(arguments.folder), Output(arguments.folder)
     with contextlib.redirect_stdout(sys.stderr):
-        report = _continued(Output(arguments.folder), arguments.trust, saver)
+        outputs.require_matplotlib()
+        name, made = job_of(output, SolutionFolder.opened(output), arguments.trust)
+        system = made.build()
+        check_resumable(output)
+
+        def compute(progress: Progress) -> Solution:
+            model = assemble(system, made.engine)
+            return model.resume(output, progress=lambda t, t_end: progress(t, t_end, model.n_events))
+
+        report = perform(made, {"scenario": name, **made.head()}, compute, saver)
     return _said(report, saver, arguments.json)
-
-
-def _continued(output: Output, is_trusted: bool, saver: Saver) -> run_report.Report:
-    outputs.require_matplotlib()
-    folder = SolutionFolder.opened(output)
-    name, made = job_of(output, folder, is_trusted)
-    system = made.build()
-    check_resumable(output)
-
-    def compute(progress: Progress) -> Solution:
-        model = assemble(system, made.engine)
-        return model.resume(output, progress=lambda t, t_end: progress(t, t_end, model.n_events))
-
-    return perform(made, {"scenario": name, **made.head()}, compute, saver)
 
 
 def _said(report: run_report.Report, saver: Saver, as_json: bool) -> bool:

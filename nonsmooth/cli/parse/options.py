@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import NoneType
-from typing import Any, TypeAlias, final
+from typing import Any, final
 
 from nonsmooth.cli.docstrings import described_parameters
 
@@ -88,7 +88,8 @@ class Option:
         known = inspect.signature(function).parameters[parameter]
         default = None if known.default is known.empty else known.default
         kind, placeholder = _KINDS.get(str(known.annotation).partition(" |")[0], (str, "WORD"))
-        parts = [help_of(function, parameter), form, "" if default is None else f"{_word(default)} by default"]
+        text = _SHAPE.sub("", described_parameters(function)[parameter]).rstrip(".")
+        parts = [text[:1].lower() + text[1:], form, "" if default is None else f"{_word(default)} by default"]
         named, text = f"--{(name or parameter).replace('_', '-')}", "; ".join(filter(None, parts))
         more = {"metavar": placeholder, "kind": str if form else kind, "source": (function, parameter)} | more
         return cls(named, text, default, **more)
@@ -125,12 +126,6 @@ class Option:
 def flag(name: str, text: str) -> Option:
     """Return an option without a value."""
     return Option(name, text, False, kind=None)
-
-
-def help_of(function: Callable[..., Any], parameter: str) -> str:
-    """Return the description of a parameter in the docstring of its function, as the help of an option."""
-    text = _SHAPE.sub("", described_parameters(function)[parameter]).rstrip(".")
-    return text[:1].lower() + text[1:]
 
 
 def given(function: Callable[..., Any], options: Iterable[Option], arguments: argparse.Namespace) -> dict[str, Any]:
@@ -180,9 +175,6 @@ class CommandGroup:
         parts = parser.add_subparsers(title=self.title, required=True, metavar=self.metavar)
         for name, part in self.parts.items():
             part.fill(parts.add_parser(name, help=part.text, allow_abbrev=False))
-
-
-AnyCommand: TypeAlias = Command | CommandGroup
 
 
 def names(word: str) -> tuple[str, ...]:

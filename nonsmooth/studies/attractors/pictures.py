@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nonsmooth.plot.arguments import axes_of
-from nonsmooth.studies.attractors.boundary import Boundary
-from nonsmooth.studies.attractors.shares import basin_stability
+from nonsmooth.studies.attractors.basins import Boundary, basin_stability
 from nonsmooth.studies.drawing import draw_study, label_of
 from nonsmooth.studies.plotting import BLUE, MOST_CLASSES, class_colours, finish
 

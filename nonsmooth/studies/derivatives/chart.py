@@ -149,7 +149,9 @@ class Chart:
         kept = _independent(columns, same)
         columns, names = columns[:, kept], tuple(names[i] for i in kept)
         if not names and len(contacts.closed):
-            rule = "must leave a coordinate or velocity free besides the one of the section, as contacts are closed there"
+            rule = (
+                "must leave a coordinate or velocity free besides the one of the section, as contacts are closed there"
+            )
             raise InvalidInput("section: within", rule, within, "Name more coordinates, or choose another section.")
         whole = cls(columns, names, quaternions, contacts, columns[:, :0], np.zeros((0, 0)), same)
         rows = whole._slopes(model, state)
