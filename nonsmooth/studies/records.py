@@ -161,12 +161,8 @@ def _of_function(function: Function) -> StudyRecord:
     name = function.__name__
     line = _LINE.fullmatch((function.__doc__ or name).strip().partition("\n")[0])
     assert line is not None
-    return StudyRecord(
-        name,
-        lambda result: function(result.scenario, result.solution),
-        described(line["words"], line["unit"] or ""),
-        how=digest(function),
-    )
+    about = described(line["words"], line["unit"] or "")
+    return StudyRecord(name, lambda run: function(run.scenario, run.solution), about, how=digest(function))
 
 
 def _named(name: str, first: RunResult) -> StudyRecord:

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from nonsmooth.checks import is_finite
 from nonsmooth.cli.docstrings import first_line
 from nonsmooth.cli.execute.outputs import OVERWRITE, Saver
 from nonsmooth.cli.parse import values
 from nonsmooth.cli.parse.options import Command, Option, flag, given, names
 from nonsmooth.cli.parse.request import SCENARIO, SET, TRUST, job
 from nonsmooth.cli.report.messages import say, tell
-from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.studies import orbits
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.studies import Family, orbits
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit, values_of
 
 
@@ -41,6 +41,8 @@ def _spin(word: str) -> orbits.Spin:
     return orbits.Spin(body, axis)
 
 
+_required = partial(Option.of, is_required=True)
+_N_VALUES = "the parameter and N values from LOW to HIGH"
 _PICTURE = Option("--out", "folder of a picture and its numbers", metavar="DIR", kind=Path)
 _SECTION = "NAME=LEVEL where it rises to the level, NAME=LEVEL:falling where it falls"
 _ORBIT = (
@@ -56,20 +58,13 @@ _ORBIT = (
 _PERIOD = Option.of(orbits.orbit, "period", metavar="SECONDS")
 _BRANCH = (
     Option.of(orbits.continuation, "period", form=values.PERIOD, metavar="SECONDS"),
-    Option.of(
-        orbits.continuation,
-        "span",
-        name="over",
-        form="the parameter and its ends",
-        metavar="NAME=LOW:HIGH",
-        is_required=True,
-    ),
+    _required(orbits.continuation, "span", name="over", form="the parameter and its ends", metavar="NAME=LOW:HIGH"),
     Option("--show", "coordinate of the picture; the first of --within by default", metavar="NAME"),
 )
 
 
 _SAMPLES = (
-    Option.of(orbits.bifurcation, "coordinate", name="show", is_required=True),
+    _required(orbits.bifurcation, "coordinate", name="show"),
     Option.of(orbits.bifurcation, "at", metavar="SECONDS"),
     Option.of(orbits.bifurcation, "settle"),
     Option.of(orbits.bifurcation, "keep"),
@@ -78,15 +73,8 @@ _BIFURCATION = (
     SCENARIO,
     SET,
     TRUST,
-    Option.of(
-        orbits.bifurcation,
-        "values",
-        name="over",
-        form="the parameter and N values from LOW to HIGH",
-        metavar="NAME=LOW:HIGH:N",
-        is_required=True,
-    ),
-    Option.of(orbits.bifurcation, "period", form=values.PERIOD, metavar="SECONDS", is_required=True),
+    _required(orbits.bifurcation, "values", name="over", form=_N_VALUES, metavar="NAME=LOW:HIGH:N"),
+    _required(orbits.bifurcation, "period", form=values.PERIOD, metavar="SECONDS"),
     *_SAMPLES,
     flag("--follow", f"hysteresis: {first_line(orbits.hysteresis)}"),
     _PICTURE,
@@ -106,7 +94,7 @@ def _continue(arguments: argparse.Namespace) -> bool:
     name, span = values.span(arguments.over)
     period = None if arguments.period is None else values.period(arguments.period, name)
     saver = Saver.of_pictures(arguments.out, arguments.overwrite)
-    found = _found(arguments, lambda known: period(_value(known, name)) if callable(period) else period)
+    found = _found(arguments, lambda scenario: period(Family.of(scenario)[name]) if callable(period) else period)
     if not found.map.chart.names:
         remedy = "Choose another --section or --at, or name more of what repeats by --within."
         raise InvalidInput("orbit", "must leave something free at the section", arguments.within, remedy)
@@ -125,21 +113,12 @@ def _continue(arguments: argparse.Namespace) -> bool:
     )
 
 
-def _found(arguments: argparse.Namespace, period_of: Callable[[Mapping[str, Any]], float | None]) -> orbits.Orbit:
+def _found(arguments: argparse.Namespace, period_of: Callable[[Scenario], float | None]) -> orbits.Orbit:
     """Return the orbit of a request; its period may follow from the values of the scenario."""
     scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
     symmetries = (*([orbits.Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
-    return orbits.orbit(
-        scenario, period_of(scenario.values), **given(orbits.orbit, _ORBIT, arguments), symmetries=symmetries
-    )
-
-
-def _value(known: Mapping[str, Any], name: str) -> float:
-    """Return the value of a parameter of the scenario."""
-    numbers = {word: float(value) for word, value in known.items() if is_finite(value)}
-    if name not in numbers:
-        raise UnknownName("parameter", name, numbers)
-    return numbers[name]
+    words = given(orbits.orbit, _ORBIT, arguments)
+    return orbits.orbit(scenario, period_of(scenario), **words, symmetries=symmetries)
 
 
 def _table(branch: orbits.Branch) -> str:

@@ -61,15 +61,7 @@ class Option:
     source: tuple[Callable[..., Any], str] | None = None
 
     @classmethod
-    def of(
-        cls,
-        function: Callable[..., Any],
-        parameter: str,
-        *,
-        name: str = "",
-        form: str = "",
-        **more: Any,
-    ) -> Option:
+    def of(cls, function: Callable[..., Any], parameter: str, *, name: str = "", form: str = "", **more: Any) -> Option:
         """Return the option of a parameter of a function: type and default of its signature, help of its docstring.
 
         Parameters

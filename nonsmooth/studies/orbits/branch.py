@@ -137,14 +137,9 @@ def continuation(
     with meter(display) as shown:
         covered = RangeCovered(shown, name, value, span)
         back, on = (_followed(path, replace(first, tangent=way), most, covered) for way in (-up, up))
-    return Branch(
-        name,
-        np.concatenate([back.values[:0:-1], on.values]),
-        back.orbits[:0:-1] + on.orbits,
-        back.grazing_distances[:0:-1] + on.grazing_distances,
-        back.special[::-1] + on.special,
-        f"{back.ending}; {on.ending}",
-    )
+    values, orbits = np.concatenate([back.values[:0:-1], on.values]), back.orbits[:0:-1] + on.orbits
+    distances, special = back.grazing_distances[:0:-1] + on.grazing_distances, back.special[::-1] + on.special
+    return Branch(name, values, orbits, distances, special, f"{back.ending}; {on.ending}")
 
 
 _PERIOD = "continuation: period"
