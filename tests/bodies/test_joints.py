@@ -294,8 +294,8 @@ def test_joints_that_come_to_contradict_each_other() -> None:
         ns.simulate(system, 0.1)
 
 
-def test_a_joined_point_mass_is_named() -> None:
-    """Round-off moves a body that turns next to freely; with the inertia of the message the run comes to its end."""
+def test_a_joined_point_mass_ends_a_run() -> None:
+    """Round-off moves a body of next to no inertia; with the inertia of the message the run reaches its end."""
 
     def pendulum(moment: float) -> ns.System:
         pivot, upper, lower = DrivenBody(), PlanarBody(1.0, 1e-3), PlanarBody(1e-3, moment)
@@ -307,7 +307,7 @@ def test_a_joined_point_mass_is_named() -> None:
         system.place(lower, position=(upper_x - math.sin(0.5), upper_z - math.cos(0.5)), angle=0.5)
         return system
 
-    with pytest.raises(ns.RunFailed, match=r"apart by .* The moment of inertia of 'planar body 2', 1e-16 kg m\^2"):
+    with pytest.raises(ns.RunFailed, match=r"apart by .* let no inertia be below 1e-8"):
         ns.simulate(pendulum(1e-16), 0.05)
     assert ns.simulate(pendulum(1e-8), 0.05).status == "done"
     with pytest.raises(ns.InvalidInput, match=r"moment must be > 0 .* of a point mass 1e-8 m l\^2"):

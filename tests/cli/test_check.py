@@ -151,7 +151,7 @@ def test_every_kind_of_that_name(call: Call) -> None:
     status, output, _ = call("check", "dumbbell")
     assert status == 0
     assert [line for line in output.splitlines() if line.startswith("dumbbell: ")] == [
-        f"dumbbell: {kind} of nonsmooth 0.1.0" for kind in ("body", "scenario")
+        f"dumbbell: {kind} of nonsmooth 0.2.0" for kind in ("body", "scenario")
     ]
 
 

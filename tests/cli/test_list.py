@@ -16,14 +16,14 @@ def test_all_groups_with_source_and_first_line(call: Call) -> None:
     assert [line for line in output.splitlines() if line and line[0] != " "] == [f"{group}:" for group in GROUPS]
     for row in (
         ("tiny", "tiny 0.1", "Tiny: A ball on a vibrating plate."),
-        ("ball", "nonsmooth 0.1.0", "Ball: A free solid sphere."),
-        ("hinge", "nonsmooth 0.1.0", "Hinge: Two points and two axes through them coincide."),
+        ("ball", "nonsmooth 0.2.0", "Ball: A free solid sphere."),
+        ("hinge", "nonsmooth 0.2.0", "Hinge: Two points and two axes through them coincide."),
         (
             "spring",
-            "nonsmooth 0.1.0",
+            "nonsmooth 0.2.0",
             "Spring: F = -k (d - d0) - c d' along the line between two points at distance d, which must not vanish.",
         ),
-        ("coulomb", "friction", "nonsmooth 0.1.0", "Coulomb: Coulomb's law, Eq. (17)."),
+        ("coulomb", "friction", "nonsmooth 0.2.0", "Coulomb: Coulomb's law, Eq. (17)."),
     ):
         assert " ".join(" ".join(row).split()) in " ".join(output.split())
     assert max(map(len, output.splitlines())) <= 80

@@ -212,7 +212,7 @@ def test_discs_that_pass_beside_each_other_end_no_run() -> None:
         assert ns.simulate(system, 0.4).status == "done"
 
 
-def test_contacts_of_shapes_that_have_no_parts_are_said_to_be_seen_by_their_gaps_only(
+def test_contacts_of_shapes_that_have_no_parts_are_listed_as_unchecked(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Of a shape with neither convex parts nor a solid nothing but gaps tells; a ball next to it is looked at."""
@@ -228,7 +228,7 @@ def test_contacts_of_shapes_that_have_no_parts_are_said_to_be_seen_by_their_gaps
     system.place(bean, position=(0.2, 0.0, 0.2))
     solution = ns.simulate(system, 0.01)
     assert contacts_without_body_check(solution) == ("bean",)
-    assert "1 contacts seen by their gaps only" in repr(solution)
+    assert "1 contacts whose bodies are not checked for overlap" in repr(solution)
 
 
 def _poses(rng: np.random.Generator, n: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:

@@ -88,7 +88,7 @@ def as_text(report: Report) -> str:
         rows.append(("" if i else "time in modes", line))
     rows.append(("contacts", _contacts(plain["contacts"])))
     counts = {
-        "contacts seen by their gaps only": str(len(plain["unseen_contacts"])),
+        "contacts whose bodies are not checked": str(len(plain["unseen_contacts"])),
         "impulses outside of cones": str(plain["impulses_beyond_cone"]),
         "friction gave": _with_unit(_spell(plain["friction_gain"]), UNITS["friction_gain"]),
     }
