@@ -69,10 +69,12 @@ def panels(
 def legend(figure: Figure, columns: int = 3, note: str = "") -> None:
     """Put one legend below all panels, with each label once, under a note; none if nothing has a label.
 
-    The legend has at most ``columns`` columns, and rows of about equal length.
+    It replaces the legends of the panels.  It has at most ``columns`` columns, and rows of about equal length.
     """
     entries: dict[str, Any] = {}
     for ax in figure.axes:
+        if (own := ax.get_legend()) is not None:
+            own.remove()
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     if entries:

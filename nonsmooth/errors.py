@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 _LONGEST = 400
 """Most characters of a value or a list in a message. Meshes have thousands."""
@@ -30,6 +30,13 @@ class InvalidInput(NonsmoothError, ValueError):
     def __init__(self, thing: str, rule: str, value: object, remedy: str) -> None:
         self.thing, self.rule, self.value, self.remedy = thing, rule, value, remedy
         super().__init__(f"{thing} {rule}, but it is {_shortened(repr(value))}. {remedy}")
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names of a message, as many as fit; the others are counted."""
+    fit = next((n for n in range(len(names), 1, -1) if len(", ".join(names[:n])) <= _LONGEST), 1)
+    more = f" and {len(names) - fit} more" if fit < len(names) else ""
+    return f"{', '.join(names[:fit])}{more}"
 
 
 def _shortened(text: str) -> str:
@@ -61,7 +68,7 @@ class UnknownName(InvalidInput):
 
         near = get_close_matches(name, known, n=1, cutoff=0.5)
         hint = f"That is {other}. " if other else f"Did you mean {near[0]!r}? " if near else ""
-        listing = _shortened(", ".join(known)) if known else "none"
+        listing = _listed(known) if known else "none"
         super().__init__(kind, "must be a known one", name, f"{hint}Known: {listing}. {remedy}".rstrip())
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _N_NAMED = 6
 """Largest number of labels of an axis that a printed history lists."""
-_SIDES: Mapping[str, tuple[str, ...]] = {"axis": (*"xyz",), "column": (*"xyz",), "side": ("first", "second")}
+FIXED_LABELS: Mapping[str, tuple[str, ...]] = {"axis": (*"xyz",), "column": (*"xyz",), "side": ("first", "second")}
 """Labels of axes that are the same in every system."""
 
 
@@ -90,7 +90,7 @@ class History(Mapping[str, NDArray[Any]]):
     ) -> History:
         """History of arrays without the axis of time among their dimensions; keeps the labels of their axes only."""
         used = dict.fromkeys(axis for one in arrays for axis in one.dimensions)
-        known = {**_SIDES, **labels}
+        known = {**FIXED_LABELS, **labels}
         return cls(time, arrays, {axis: known[axis] for axis in used if axis in known}, **more)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -141,7 +141,7 @@ class History(Mapping[str, NDArray[Any]]):
             f"  {_range(one.values)}".rstrip()
             for one in self.arrays
         ]
-        lines += [f"  {axis}: {_listed(names)}" for axis, names in self.labels.items() if axis not in _SIDES]
+        lines += [f"  {axis}: {_listed(names)}" for axis, names in self.labels.items() if axis not in FIXED_LABELS]
         return "\n".join([f"History({spoken(self.time, self.over)})", *lines])
 
     def to_xarray(self) -> xarray.Dataset:

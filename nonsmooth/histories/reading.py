@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.histories.history import History, LabelledArray
+from nonsmooth.histories.history import FIXED_LABELS, History, LabelledArray
 from nonsmooth.histories.request import Parts, Request, numbers_of, read_times
 from nonsmooth.histories.variables import VARIABLES, Variable
 from nonsmooth.system.labels import labels
@@ -32,6 +32,8 @@ def read_history(
     rows = [_row(name) for name in names]
     if not rows:
         raise InvalidInput(f"{_WHERE}: names", "must be at least one", (), f"Known: {', '.join(VARIABLES)}.")
+    if len({row.name for row in rows}) < len(rows):
+        raise InvalidInput(f"{_WHERE}: names", "must differ", [row.name for row in rows], "Ask for each name once.")
     if len(over := {row.over for row in rows}) > 1:
         rule = "must be variables over time, or variables over impulses"
         raise InvalidInput(f"{_WHERE}: names", rule, [row.name for row in rows], "Ask for each kind in its own call.")
@@ -44,34 +46,42 @@ def read_history(
     for row in rows:
         if row.reading not in readings:
             readings[row.reading] = row.reading(request)
-    single = given.ndim == 0 and over == {"time"}
-    arrays = tuple(_labelled(row, row.values(readings[row.reading]), single) for row in rows)
-    if over == {"impulse"}:
-        return History.of(readings[rows[0].reading].time, arrays, {}, over="impulse")
+    time = readings[rows[0].reading].time if over == {"impulse"} else request.times
     names_along, along = _names(request, {axis for row in rows for axis in row.axes})
+    sizes = {axis: len(found) for axis, found in (*FIXED_LABELS.items(), *names_along.items())}
+    sizes |= {"time": len(time), "impulse": len(time)}
+    single = given.ndim == 0 and over == {"time"}
+    arrays = tuple(_labelled(row, row.values(readings[row.reading]), sizes, single) for row in rows)
+    if over == {"impulse"}:
+        return History.of(time, arrays, {}, over="impulse")
     return History.of(given, arrays, names_along, along=along)
 
 
 def _row(name: str | Variable) -> Variable:
     if isinstance(name, Variable):
+        if VARIABLES.get(name.name, name) is not name:
+            raise InvalidInput(f"{_WHERE}: variable", "must have a name of its own", name.name, "Choose another name.")
         return name
     if not isinstance(name, str) or name not in VARIABLES:
-        remedy = "nonsmooth.histories.variables.variables() lists them with their units."
+        remedy = "print(nonsmooth.histories.variables.variables()) lists them; a variable of your own is an object."
         raise UnknownName(f"{_WHERE}: variable", str(name), VARIABLES, remedy=remedy)
     return VARIABLES[name]
 
 
-def _labelled(row: Variable, values: NDArray[Any], single: bool) -> LabelledArray:
+def _labelled(row: Variable, values: ArrayLike, sizes: Mapping[str, int], single: bool) -> LabelledArray:
     """Array of a row of the table; without the axis of time at a single time.
 
     Raises
     ------
     InvalidInput
-        The function of the row returns an array with other axes.
+        The function of the row returns an array with other axes, or with other lengths of axes of known size.
     """
-    if np.ndim(values) != 1 + len(row.axes):
-        rule = f"must have the axes {', '.join((row.over, *row.axes))}"
-        raise InvalidInput(f"values of the variable {row.name!r}", rule, np.shape(values), "Change its row.")
+    values, axes = np.asarray(values), (row.over, *row.axes)
+    wanted = [sizes.get(axis) for axis in axes]
+    if len(wanted) != values.ndim or any(n not in (None, m) for n, m in zip(wanted, values.shape, strict=True)):
+        rule = f"must have the axes {', '.join(f'{axis} ({sizes[axis]})' if axis in sizes else axis for axis in axes)}"
+        remedy = "Entries of closed contacts become an array over times and contacts by `spread`."
+        raise InvalidInput(f"values of the variable {row.name!r}", rule, values.shape, remedy)
     return LabelledArray.of(row.name, row.axes, values[0] if single else values, row.description, row.unit)
 
 

@@ -18,7 +18,7 @@ it.  Its attributes are the numbers that a new variable can be made of:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from operator import attrgetter
 from typing import Any, final
@@ -26,6 +26,8 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.checks import check_kind
+from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.contacts import ClosedContacts, NearContacts
 from nonsmooth.histories.impulses import Impulses
 from nonsmooth.histories.joints import Joints
@@ -64,6 +66,12 @@ class Variable:
     reading: Callable[[Request], Any]
     values: Callable[[Any], NDArray[Any]]
     over: str = "time"
+
+    def __post_init__(self) -> None:
+        check_kind(f"Variable {self.name!r}: axes", self.axes, tuple, 'For example ("contact",).')
+        if isinstance(self.reading, type) or not callable(self.reading):
+            rule = "must be a function of a request"
+            raise InvalidInput(f"Variable {self.name!r}: reading", rule, self.reading, "Take `of` of a reading.")
 
 
 def _row(name: str, unit: str, axes: tuple[str, ...], description: str, reading: Any, over: str = "time") -> Variable:
@@ -137,8 +145,9 @@ VARIABLES: Mapping[str, Variable] = {row.name: row for row in _ROWS}
 """All variables by their names."""
 
 
-def variables(rows: Iterable[Variable] = _ROWS) -> str:
+def variables() -> str:
     """The table of variables as text: name, unit, axes and description, a line each."""
+    rows = VARIABLES.values()
     cells = [(row.name, f"[{row.unit}]" if row.unit else "", ", ".join((row.over, *row.axes))) for row in rows]
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     return "\n".join(

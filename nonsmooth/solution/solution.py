@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, match_args=False)
 class Solution:
     """The result of a run: samples, events, energies, and the history of any quantity.
 
@@ -41,7 +41,7 @@ class Solution:
     recorded : Recorded
         Samples and events as the engine recorded them.
     ending : Ending
-        Source of :attr:`end`.
+        Reads :attr:`end` when it is first needed.  The engine makes it, as it makes the solution.
     """
 
     system: System
@@ -59,12 +59,12 @@ class Solution:
 
     @property
     def q(self) -> NDArray[np.float64]:
-        """Coordinates of all bodies at the samples, shape [n, n_q]."""
+        """Coordinates of all bodies, in their order, at the samples, shape [n, n_q]."""
         return self.recorded.rows[:, 1 : 1 + len(self.state.q)]
 
     @property
     def u(self) -> NDArray[np.float64]:
-        """Velocities of all bodies at the samples, shape [n, n_u]."""
+        """Velocities of all bodies, in their order, at the samples, shape [n, n_u]."""
         first = 1 + len(self.state.q)
         return self.recorded.rows[:, first : first + len(self.state.u)]
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nonsmooth.interfaces import AnisotropicFrictionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, claim, rows
+from nonsmooth.testing.claims import FEWEST, Claims, claim, rows
 from nonsmooth.testing.coefficient import (
     COEFFICIENT,
     DRAWS,
@@ -28,15 +27,14 @@ from nonsmooth.testing.coefficient import (
     mu,
     times,
 )
-from nonsmooth.testing.component import component_rows, variants
-from nonsmooth.testing.functions import CheckedFunction, Functions
+from nonsmooth.testing.component import variants
+from nonsmooth.testing.functions import CheckedFunction, all_rows
 from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.puck import Puck, run
-from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact
-from nonsmooth.testing.reference_motion import require
+from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact, require
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 _INSTANT = 1e-7
 """Part of the time to stop over which a force is taken as the change of momentum."""
 _SLIGHT = 1e-4
@@ -47,14 +45,14 @@ _ELSEWHERE = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 """Axes of the body that does not have the law's axis."""
 _AXIS_HEADING = number("axis_heading", -3.1, 3.1)
 _LEAN = number("axis_lean", -0.5, 0.5)
+_ANISOTROPIC = Claims()
 
 
 def anisotropic_rows(law: AnisotropicFrictionLaw, vanishing: tuple[str, ...]) -> list[Row]:
     """Return the properties of an anisotropic friction law, of which ``vanishing`` are the coefficients."""
-    functions = Functions(lambda: [_coefficient(one) for one in variants(law)])
     first = rows([_ratios, _axis_and_body], lambda: variants(law), 1)
     found = [*rows([*COEFFICIENT, *_ANISOTROPIC], lambda: variants(law), DRAWS), limit_row(law, vanishing, _vanishes)]
-    return [*component_rows(law), *first, *functions.rows(), *functions.guarded(found)]
+    return all_rows(law, lambda: [_coefficient(one) for one in variants(law)], found, first)
 
 
 def _coefficient(law: AnisotropicFrictionLaw) -> CheckedFunction:
@@ -64,7 +62,7 @@ def _coefficient(law: AnisotropicFrictionLaw) -> CheckedFunction:
 
 @claim()
 def _ratios(law: AnisotropicFrictionLaw) -> str:
-    """They are three, positive, and the largest is 1."""
+    """The ratios of the bound are three positive numbers, and the largest is 1."""
     ratios = law.ratios
     sound = len(ratios) == 3 and all(0.0 < r <= 1.0 for r in ratios) and max(ratios) == 1.0
     return "" if sound else f"they are {tuple(ratios)}"
@@ -80,9 +78,9 @@ def _axis_and_body(law: AnisotropicFrictionLaw) -> str:
     return "" if sound else f"the axis is {tuple(axis)}"
 
 
-@claim(SPEED, HEADING)
+@_ANISOTROPIC.claim(SPEED, HEADING)
 def _maximum_dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float) -> str:
-    """Of all forces in the bound it accepts that under slip which takes out most energy."""
+    """Under slip, of all forces on the bound, only the force that takes out most energy obeys the law."""
     slip = along(speed, heading)
     own = force_under_slip(law, slip)
     most = -own[0] * slip[0] - own[1] * slip[1]
@@ -148,11 +146,11 @@ def _after(
     return after, solution.energy.friction_loss
 
 
-@claim(SPEED, HEADING, FORCE, SHARE, _AXIS_HEADING, _LEAN, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, FORCE, SHARE, _AXIS_HEADING, _LEAN, fewest=FEWEST)
 def _sustained_contact(
     law: AnisotropicFrictionLaw, speed: float, heading: float, load: float, share: float, axis: float, lean: float
 ) -> str:
-    """Forces that the engine finds for contacts that stick or slide obey it."""
+    """Forces that the engine finds for contacts that stick or slide obey the law."""
     held = times(share * load, force_on_bound(law, mu(law, 0.0), heading + math.pi))
     after, _ = _after(law, (0.0, 0.0), axis, lean, push=times(-1.0, held), weight=load, t_end=1.0)
     if math.hypot(*after) > 1e-9:
@@ -169,16 +167,16 @@ def _sustained_contact(
     return ""
 
 
-@claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
     """Friction takes energy out of impacts."""
     _, lost = _after(law, along(speed, heading), axis, approach=speed, t_end=1e-9)
     return f"friction gives {-lost:g} J to the impact" if lost < -1e-8 * speed**2 else ""
 
 
-@claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
-    """An impact too slight to change the slip has the direction and ratio of impulses that the force has."""
+    """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
     slip, approach = along(speed, heading), _SLIGHT * speed
     after, _ = _after(law, slip, axis, approach=approach, t_end=1e-12)
     # the spring of the reference gives back half of the energy
@@ -190,7 +188,7 @@ def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: 
     return ""
 
 
-@claim(SPEED, HEADING, TURN, fewest=FEWEST)
+@_ANISOTROPIC.claim(SPEED, HEADING, TURN, fewest=FEWEST)
 def _frame_invariance(law: AnisotropicFrictionLaw, speed: float, heading: float, turn: float) -> str:
     """If the bodies and the slip are turned together, an impact turns with them."""
     slip = along(speed, heading)
@@ -198,15 +196,6 @@ def _frame_invariance(law: AnisotropicFrictionLaw, speed: float, heading: float,
     if math.dist(a, b) > 1e-6 * speed:
         return f"the slip after is ({a[0]:g}, {a[1]:g}) m/s, turned by {turn:g} rad ({b[0]:g}, {b[1]:g}) m/s"
     return ""
-
-
-_ANISOTROPIC = [
-    _maximum_dissipation,
-    _sustained_contact,
-    _dissipation,
-    _force_and_impact_level,
-    _frame_invariance,
-]
 
 
 @claim(SPEED, HEADING)

@@ -1,26 +1,62 @@
-"""Properties of bodies that have coordinates, and of driven bodies."""
+"""Properties of bodies: their start, frames, mass, energy, momentum, a short run, and flight in closed form."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import UNITS_OF_Q, UNITS_OF_U
-from nonsmooth.testing.body_block import State, offered, places_of, plain, state_at, state_of
-from nonsmooth.testing.body_motion import DRIVEN, FLIGHT, free_claims
-from nonsmooth.testing.claims import GIVEN, claim, rows
-from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, place_of_function
+from nonsmooth.runs.simulate import simulate
+from nonsmooth.system.system import System
+from nonsmooth.testing.body_block import (
+    OBLIQUE,
+    WEIGHTLESS,
+    BodyBlock,
+    State,
+    block_of,
+    block_size,
+    offered,
+    plain,
+    state_at,
+    state_of,
+    stepped,
+)
+from nonsmooth.testing.claims import GIVEN, Claims, claim, rows
+from nonsmooth.testing.differences import rotation_fault, slope, slope_fault, smooth_slope, spin_of
+from nonsmooth.testing.functions import (
+    CheckedFunction,
+    all_rows,
+    compiled_caller,
+    left_over,
+    place_of_function,
+    written,
+)
 from nonsmooth.testing.inputs import draws
-from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_look
+from nonsmooth.types import Array
 
 _DRAWS = 12
 _UNKNOWN = "no_such_word"
+_SAME = 1e-6
+_STEP = 1e-3
+"""Step of the differences, in units of the shortest time of the motion."""
+_SLOWEST = 1e-3
+"""Least rate from which a time is derived [1/s], so that a body at rest has one."""
+_FALLS = 20
+_RUN = 0.4
+"""Start of a short run, in units of the states that are drawn."""
+_TURNS = 3.0
+"""Duration of flights, in units of the time in which a number changes by its scale."""
+_AXES, _POSE = slice(ROTATION, VELOCITY), slice(POSITION, VELOCITY)
+_EVERY, _FREE = Claims(), Claims()
+"""Claims about every body, and about bodies with coordinates."""
 
 
 def check_body(body: Body) -> list[Property]:
@@ -35,42 +71,43 @@ def check_body(body: Body) -> list[Property]:
 
 
 def _rows(body: Body) -> list[Row]:
-    functions = Functions(lambda: [_function(body, name) for name in ("evaluator", "flight") if getattr(body, name)])
-    claims = [_start, _writes_its_block, _sketch, *DRIVEN]
-    if body.n_u > 0:
-        claims += free_claims(body)
-    if body.flight is not None:
-        claims.append(FLIGHT)
-    table = rows(claims, lambda: [body], _DRAWS, [state_of(body)])
-    return [*component_rows(body), *functions.rows(), *functions.guarded(table)]
+    has_coordinates = body.n_u > 0
+    optional = {
+        _unit_quaternion: has_coordinates and body.quaternion >= 0,
+        _spin: has_coordinates and body.spin >= 0,
+        _momentum: body.n_u == 6 and len(body.frames) == 1,
+        _flight: body.flight is not None,
+    }
+    claims = [*_EVERY, *_FREE * has_coordinates, *(one for one, is_asked in optional.items() if is_asked)]
+    functions = [name for name in ("evaluator", "flight") if getattr(body, name)]
+    found = rows(claims, lambda: [body], _DRAWS, [state_of(body)])
+    return all_rows(body, lambda: [_function(body, name) for name in functions], found)
 
 
 def _function(body: Body, name: str) -> CheckedFunction:
-    size = places_of(body).size if name == "evaluator" else body.n_q + body.n_u
+    size = block_size(body) if name == "evaluator" else body.n_q + body.n_u
     inputs = [(f"t = {case['t']:.3g}", state_at(body, case)) for case in draws([state_of(body)], 6)]
     return CheckedFunction(body, name, "body", offered(body), inputs, size)
 
 
-@claim()
-def _start(body: Body) -> str:
+@_EVERY.claim()
+def _start(body: Body) -> None:
     """The start has the sizes that the body names, each number a unit, and unknown words are refused."""
     q, u = body.state()
-    for name, once, again in zip(("q", "u"), (q, u), body.state(), strict=True):
-        if not np.array_equal(once, again):
-            both = f"{np.asarray(once).tolist()} and {np.asarray(again).tolist()}"
-            place = place_of_function(type(body).state)
-            raise Broken(f"`state` gives another start each time: {place}", name, both)
-    sizes, scales, labels = (body.n_q, body.n_u), body.scales, (body.q_labels, body.u_labels)
-    for name, given, size in zip(("q", "u"), (q, u), sizes, strict=True):
+    sizes, labels, known = (body.n_q, body.n_u), (body.q_labels, body.u_labels), (UNITS_OF_Q, UNITS_OF_U)
+    columns = zip("qu", sizes, (q, u), body.state(), body.scales, labels, known, strict=True)
+    for name, size, given, again, scale, named, units in columns:
+        if not np.array_equal(given, again):
+            both = f"{np.asarray(given).tolist()} and {np.asarray(again).tolist()}"
+            raise Broken(f"`state` gives another start each time: {place_of_function(type(body).state)}", name, both)
         if np.shape(given) != (size,) or not np.all(np.isfinite(given)):
             raise Broken(f"`state` must give {size} finite numbers", name, given)
-    for name, scale, size in zip(("q", "u"), scales, sizes, strict=True):
         if np.shape(scale) != (size,) or not np.all(np.isfinite(scale)) or not np.all(np.asarray(scale) > 0.0):
             raise Broken(f"`scales` must give {size} positive numbers", name, scale)
-    for name, named, units in zip(("q_labels", "u_labels"), labels, (UNITS_OF_Q, UNITS_OF_U), strict=True):
         wrong = [label for label in named if not label[0] or label[1] not in units]
         if wrong or len(dict(named)) < len(named):
-            raise Broken(f"`{name}` must give each number a name of its own and a unit of {units}", name, named)
+            reason = f"`{name}_labels` must give each number a name of its own and a unit of {units}"
+            raise Broken(reason, f"{name}_labels", named)
     if body.quaternion >= 0 and abs(float(np.linalg.norm(q[body.quaternion : body.quaternion + 4])) - 1.0) > 1e-12:
         raise Broken("the quaternion has no unit length", "quaternion", q.tolist())
     if not body.time_scale > 0.0:
@@ -78,22 +115,22 @@ def _start(body: Body) -> str:
     try:
         body.state(**{_UNKNOWN: 0.0})
     except InvalidInput:
-        return ""
+        return
     raise Broken("`state` takes words that it does not know", _UNKNOWN, 0.0)
 
 
-@claim(GIVEN)
+@_EVERY.claim(GIVEN)
 def _writes_its_block(body: Body, at: State) -> str:
     """It writes every number that can be non-zero, whatever stood there, and nothing beyond the block."""
     call, (t, q, u), (start, rest) = plain(body), at, body.state()
     # another state, on the other side of the start
     before = 1.0 - t, start - 0.9 * (q - start) + 0.1, rest - 0.9 * (u - rest) + 0.1
-    return left_over(lambda out: call(*at, out), lambda out: call(*before, out), places_of(body).size)
+    return left_over(lambda out: call(*at, out), lambda out: call(*before, out), block_size(body))
 
 
-@claim()
-def _sketch(body: Body) -> str:
-    """What is seen of it besides its shapes can be drawn."""
+@_EVERY.claim()
+def _sketch(body: Body) -> None:
+    """The sketch of the body can be drawn."""
     sketch = body.sketch
     if not isinstance(sketch, Sequence) or len(sketch) > len(body.frames):
         raise Broken(f"it must be a look for each of {len(body.frames)} frames at most", "sketch", sketch)
@@ -105,4 +142,211 @@ def _sketch(body: Body) -> str:
         raise Broken("it must give the ends of the same number of lines at all q, shape [n, 2, 3]", "strokes", shape)
     if not np.all(np.isfinite(body.strokes(q))):
         raise Broken("ends of lines must be finite [m]", "strokes", body.strokes(q))
+
+
+def _rate(body: Body, here: BodyBlock) -> float:
+    """Return the largest rate of the coordinates, in units of their scales [1/s]."""
+    return max(float(np.max(np.abs(here.rates) / body.scales[0], initial=0.0)), _SLOWEST)
+
+
+@_EVERY.claim(GIVEN)
+def _rotation(body: Body, at: State) -> str:
+    """The axes of every frame are a rotation matrix."""
+    here = block_of(body, at)
+    for i in range(len(body.frames)):
+        if fault := rotation_fault(here.frames[i][_AXES]):
+            return f"{fault}, of frame {i}"
+    return ""
+
+
+def _frame_slope(body: Body, at: State, i: int, part: slice) -> tuple[Array, float]:
+    """Return the derivative in time of a part of a frame while u' = 0, and a bound of its error."""
+    t, q, u = at
+    dt = _STEP / max(1.0 / body.time_scale, _rate(body, block_of(body, (0.0, q, u))) if body.n_q else _SLOWEST)
+
+    def rates(time: float, place: Array) -> Array:
+        return block_of(body, (time, place, u)).rates
+
+    def after(step: float) -> Array:
+        """Return q after a step of Runge and Kutta: exact enough for differences of fourth order."""
+        first = rates(t, q)
+        second = rates(t + 0.5 * step, stepped(body, q, first, 0.5 * step))
+        third = rates(t + 0.5 * step, stepped(body, q, second, 0.5 * step))
+        fourth = rates(t + step, stepped(body, q, third, step))
+        return stepped(body, q, (first + 2.0 * second + 2.0 * third + fourth) / 6.0, step)
+
+    def value(step: float) -> Array:
+        return np.array(block_of(body, (t + step, after(step) if body.n_q else q, u)).frames[i, part])
+
+    return slope(value, dt)
+
+
+@_EVERY.claim(GIVEN)
+def _velocity(body: Body, at: State) -> str:
+    """Velocity and angular velocity of every frame are the derivatives of its pose."""
+    for i, frame in enumerate(block_of(body, at).frames):
+        rates, known = _frame_slope(body, at, i, _POSE)
+        spin = spin_of(rates[ROTATION:], frame[_AXES])
+        fault = slope_fault(f"velocity of frame {i}", frame[VELOCITY:SPIN], rates[:ROTATION], known)
+        if fault := fault or slope_fault(f"angular velocity of frame {i}", frame[SPIN:ACCELERATION], spin, known):
+            return fault
+    return ""
+
+
+@_EVERY.claim(GIVEN)
+def _acceleration(body: Body, at: State) -> str:
+    """The biases are the derivatives of the velocities while u' = 0."""
+    for i, frame in enumerate(block_of(body, at).frames):
+        found, known = _frame_slope(body, at, i, slice(VELOCITY, ACCELERATION))
+        if fault := slope_fault(f"acceleration biases of frame {i}", frame[ACCELERATION:], found, known):
+            return fault
+    return ""
+
+
+@_FREE.claim(GIVEN)
+def _jacobian(body: Body, at: State) -> str:
+    """The Jacobian is the derivative of the velocities by u."""
+    t, q, u = at
+    here, still = block_of(body, at), block_of(body, (t, q, np.zeros(body.n_u)))
+    for i in range(len(body.frames)):
+        given, rest = (block.frames[i][VELOCITY:ACCELERATION] for block in (here, still))
+        predicted = rest + here.jacobians[i] @ u
+        if np.max(np.abs(given - predicted)) > 1e-9 * float(np.max(np.abs(given)) + np.max(np.abs(predicted))):
+            return f"frame {i} moves at {given.tolist()}, Jacobian times u is {predicted.tolist()}"
+    return ""
+
+
+@_FREE.claim(GIVEN)
+def _mass_matrix(body: Body, at: State) -> str:
+    """M is symmetric and positive definite."""
+    inverse = block_of(body, at).inverse
+    # entries may have different units: they are judged by their diagonals
+    size = np.sqrt(np.abs(np.diag(inverse)))
+    if not np.all(size > 0.0):
+        return f"the diagonal of M^-1 is {np.diag(inverse).tolist()}"
+    scaled = inverse / np.outer(size, size)
+    if np.max(np.abs(scaled - scaled.T)) > 1e-12:
+        return f"M^-1 is not symmetric: {inverse.tolist()}"
+    least = float(np.linalg.eigvalsh(scaled)[0])
+    return f"M^-1 is not positive definite: {inverse.tolist()}" if least <= 1e-14 else ""
+
+
+@_FREE.claim(GIVEN)
+def _kinetic_energy(body: Body, at: State) -> str:
+    """The kinetic energy is u . M u / 2."""
+    here, u = block_of(body, at), at[2]
+    given, expected = float(here.energy[0]), 0.5 * float(u @ np.linalg.solve(here.inverse, u))
+    if abs(given - expected) > 1e-8 * expected + 1e-300:
+        return f"it is {given:g} J, u . M u / 2 is {expected:g} J"
+    return ""
+
+
+def _along(body: Body, at: State, gravity: Mapping[str, float], value: Callable[[BodyBlock, Array], Array]) -> Array:
+    """Return the derivative in time of a value of block and u along the free motion, prescribed motions at rest."""
+    t, q, u = at
+    here = block_of(body, at, gravity)
+    acceleration = here.inverse @ here.force
+    speed = max(_rate(body, here), float(np.max(np.abs(acceleration) / body.scales[1])))
+
+    def after(dt: float) -> Array:
+        # straight lines: only the first derivative is asked for
+        moved, faster = q + dt * here.rates, u + dt * acceleration
+        return np.array(value(block_of(body, (t, moved, faster), gravity), faster))
+
+    return smooth_slope(after, _STEP / speed)
+
+
+@_FREE.claim(GIVEN)
+def _energy_in_free_flight(body: Body, at: State) -> str:
+    """In free flight the sum of kinetic and potential energy stays."""
+    rates, here, u = _along(body, at, OBLIQUE, lambda b, u: b.energy), block_of(body, at), at[2]
+    size = float(np.sum(np.abs(rates)) + np.abs(u) @ np.abs(here.force) + 1e-9 * np.sum(np.abs(here.energy)))
+    if abs(float(np.sum(rates))) > _SAME * size:
+        return f"the kinetic energy changes by {rates[0]:g} W, the potential by {rates[1]:g} W"
+    return ""
+
+
+@_FREE.claim()
+def _free_flight(body: Body) -> None:
+    """A short run of the body alone closes its energy account."""
+    numbers = {one.name: _RUN * one.high for one in state_of(body).numbers}
+    _, q, u = state_at(body, numbers | {"t": 0.0})
+    system = System([body], gravity=9.81)
+    system.set_start(body, q, u)
+    duration = min(_FALLS / _rate(body, block_of(body, (0.0, q, u))), 1.0)
+    residual = simulate(system, duration, sample_interval=duration).energy.residual
+    if not (math.isfinite(residual) and residual <= 1e-7):
+        raise Broken(f"after {duration:g} s the account leaves {residual:g} of the energy unexplained")
+
+
+def _quaternion(body: Body) -> slice:
+    return slice(body.quaternion, body.quaternion + 4)
+
+
+@claim(GIVEN)
+def _unit_quaternion(body: Body, at: State) -> str:
+    """The rates of a unit quaternion keep its length."""
+    part = _quaternion(body)
+    rates = block_of(body, at).rates[part]
+    change = float(at[1][part] @ rates)
+    return f"its length changes at {change:g} 1/s" if abs(change) > 1e-9 * float(np.linalg.norm(rates)) else ""
+
+
+@claim(GIVEN)
+def _spin(body: Body, at: State) -> str:
+    """The rates of the quaternion are half its product with (0, spin)."""
+    (a, *axis), spin = at[1][_quaternion(body)], at[2][body.spin : body.spin + 3]
+    expected = 0.5 * np.append(-np.dot(axis, spin), a * spin + np.cross(axis, spin))
+    rates = block_of(body, at).rates[_quaternion(body)]
+    wrong = float(np.max(np.abs(rates - expected)))
+    return f"they are {rates.tolist()}" if wrong > 1e-9 * float(np.linalg.norm(spin)) else ""
+
+
+@claim(GIVEN)
+def _momentum(body: Body, at: State) -> str:
+    """Without gravity, momentum and angular momentum stay in free flight."""
+
+    def value(b: BodyBlock, u: Array) -> Array:
+        # M u = J^T (p, L), L about the origin of the frame
+        wrench = np.linalg.solve(b.jacobians[0].T, np.linalg.inv(b.inverse) @ u)
+        return np.append(wrench[:3], wrench[3:] + np.cross(b.frames[0][:3], wrench[:3]))
+
+    here = block_of(body, at, WEIGHTLESS)
+    if abs(np.linalg.det(here.jacobians[0])) < 1e-12:
+        raise NotChecked(f"{type(body).__name__}: its frame does not move freely")
+    change, total = _along(body, at, WEIGHTLESS, value), value(here, at[2])
+    for name, part in (("momentum", slice(0, 3)), ("angular momentum", slice(3, 6))):
+        if np.max(np.abs(change[part])) > _SAME * _rate(body, here) * float(np.max(np.abs(total[part]))):
+            return f"the {name} {total[part].tolist()} changes by {change[part].tolist()} per second"
+    return ""
+
+
+def _change(body: Body, t: float, y: Array) -> Array:
+    """Return the rates of coordinates and velocities in free motion."""
+    here = block_of(body, (t, y[: body.n_q], y[body.n_q :]))
+    return np.append(here.rates, here.inverse @ here.force)
+
+
+@claim(GIVEN)
+def _flight(body: Body, at: State) -> str:
+    """The flight begins at the given start and follows the equations of motion."""
+    t, q, u = at
+    assert body.flight is not None
+    call = compiled_caller(body.flight, "body", offered(body), type(body).__name__)
+    scale, start, n = np.concatenate(body.scales), np.append(q, u), body.n_q + body.n_u
+    speed = max(float(np.max(np.abs(_change(body, t, start)) / (scale + np.abs(start)))), _SLOWEST)
+
+    def flown(elapsed: float) -> Array:
+        return written(lambda out: call(elapsed, q.copy(), u.copy(), out), n)[:n]
+
+    if np.max(np.abs(flown(0.0) - start) / (scale + np.abs(start))) > _SAME:
+        return f"after no time it is at {flown(0.0).tolist()}"
+    for part in (0.3, 1.0):
+        elapsed = part * _TURNS / speed
+        found = smooth_slope(lambda dt, since=elapsed: flown(since + dt), _STEP / speed)  # type: ignore[misc]
+        expected = _change(body, t + elapsed, flown(elapsed))
+        wrong = np.abs(found - expected) / (speed * (scale + np.abs(flown(elapsed))))
+        if not np.max(wrong) <= _SAME:
+            i = int(np.argmax(wrong))
+            return f"after {elapsed:g} s number {i} changes by {found[i]:g} per second, not by {expected[i]:g}"
     return ""

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any, final
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Body
 from nonsmooth.rotations import turned
 from nonsmooth.testing.functions import Caller, compiled_caller, plain_caller, written
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 State = tuple[float, Array, Array]
 """Time [s], coordinates and velocities."""
 WEIGHTLESS = {"gravity_x": 0.0, "gravity_y": 0.0, "gravity_z": 0.0}
@@ -23,92 +21,35 @@ OBLIQUE = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
 """Gravity of the checks [m/s^2]; the properties must hold with any."""
 
 
-@final
-@dataclass(frozen=True)
-class BlockPlaces:
-    """First places of the parts of a body's block (:mod:`nonsmooth.engine.memory.blocks`)."""
+class BodyBlock(NamedTuple):
+    """The numbers that a body writes (:mod:`nonsmooth.engine.memory.blocks`); a driven body writes frames only.
 
-    n_frames: int
-    n_q: int
-    n_u: int
+    Attributes
+    ----------
+    frames : array
+        Position, rotation, velocity, angular velocity and the two biases of each frame, shape [n, 24].
+    jacobians : array
+        Jacobians of (velocity, angular velocity) of each frame, shape [n, 6, n_u].
+    rates, force : array
+        dq/dt, shape [n_q], and h, shape [n_u].
+    inverse : array
+        M^-1, shape [n_u, n_u].
+    energy : array
+        Kinetic and potential energy [J].
+    """
 
-    def frame(self, i: int) -> int:
-        """Motion of a frame, 24 numbers."""
-        return i * (FRAME + 6 * self.n_u)
-
-    def jacobian(self, i: int) -> int:
-        """Jacobian of a frame, 6 n_u numbers."""
-        return self.frame(i) + FRAME
-
-    @property
-    def rates(self) -> int:
-        """Coordinate rates, n_q numbers."""
-        return self.frame(self.n_frames)
-
-    @property
-    def force(self) -> int:
-        """Forces, n_u numbers."""
-        return self.rates + self.n_q
-
-    @property
-    def inverse_mass(self) -> int:
-        """Inverse mass matrix, row by row."""
-        return self.force + self.n_u
-
-    @property
-    def energy(self) -> int:
-        """Kinetic and potential energy."""
-        return self.inverse_mass + self.n_u * self.n_u
-
-    @property
-    def size(self) -> int:
-        """Length of the block; a driven body writes its frames only."""
-        return self.energy + 2 if self.n_u else self.rates
+    frames: Array
+    jacobians: Array
+    rates: Array
+    force: Array
+    inverse: Array
+    energy: Array
 
 
-def places_of(body: Body) -> BlockPlaces:
-    """Return the places in the block of a body."""
-    return BlockPlaces(len(body.frames), body.n_q, body.n_u)
-
-
-@final
-@dataclass(frozen=True)
-class BodyBlock:
-    """The numbers that a body writes."""
-
-    places: BlockPlaces
-    numbers: Array
-
-    def _part(self, start: int, *shape: int) -> Array:
-        return self.numbers[start : start + int(np.prod(shape))].reshape(shape)
-
-    def frame(self, i: int) -> Array:
-        """Position, rotation, velocity, angular velocity and the two biases of a frame, shape [24]."""
-        return self._part(self.places.frame(i), FRAME)
-
-    def jacobian(self, i: int) -> Array:
-        """Jacobian of (velocity, angular velocity) of a frame, shape [6, n_u]."""
-        return self._part(self.places.jacobian(i), 6, self.places.n_u)
-
-    @property
-    def rates(self) -> Array:
-        """dq/dt, shape [n_q]."""
-        return self._part(self.places.rates, self.places.n_q)
-
-    @property
-    def force(self) -> Array:
-        """h, shape [n_u]."""
-        return self._part(self.places.force, self.places.n_u)
-
-    @property
-    def inverse(self) -> Array:
-        """M^-1, shape [n_u, n_u]."""
-        return self._part(self.places.inverse_mass, self.places.n_u, self.places.n_u)
-
-    @property
-    def energy(self) -> Array:
-        """Kinetic and potential energy [J]."""
-        return self._part(self.places.energy, 2)
+def block_size(body: Body) -> int:
+    """Return the length of the block of a body."""
+    frames = len(body.frames) * (FRAME + 6 * body.n_u)
+    return frames + body.n_q + body.n_u + body.n_u * body.n_u + 2 if body.n_u else frames
 
 
 def offered(body: Body, gravity: Mapping[str, float] = OBLIQUE) -> dict[str, Any]:
@@ -123,9 +64,15 @@ def plain(body: Body) -> Caller:
 
 def block_of(body: Body, at: State, gravity: Mapping[str, float] = OBLIQUE) -> BodyBlock:
     """Return the block that the compiled evaluator of a body writes at a state."""
-    call, places = compiled_caller(body.evaluator, "body", offered(body, gravity), type(body).__name__), places_of(body)
-    t, q, u = at
-    return BodyBlock(places, written(lambda out: call(t, np.array(q), np.array(u), out), places.size))
+    call = compiled_caller(body.evaluator, "body", offered(body, gravity), type(body).__name__)
+    (t, q, u), n_q, n_u = at, body.n_q, body.n_u
+    numbers = written(lambda out: call(t, np.array(q), np.array(u), out), block_size(body))[: block_size(body)]
+    n, row = len(body.frames), FRAME + 6 * n_u
+    frames, rest = np.split(numbers, [n * row])
+    frames = frames.reshape(n, row)
+    rates, force, inverse, energy = np.split(rest, np.cumsum([n_q, n_u, n_u * n_u]))
+    jacobians = frames[:, FRAME:].reshape(n, 6, n_u)
+    return BodyBlock(frames[:, :FRAME], jacobians, rates, force, inverse.reshape(n_u, n_u), energy)
 
 
 def state_of(body: Body) -> Drawn:

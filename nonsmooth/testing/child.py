@@ -208,12 +208,7 @@ _watchdogs: list[_Watchdog] = []
 
 
 def about_to(
-    words: str,
-    component: Any,
-    case: Mapping[str, float] | None = None,
-    *,
-    seconds: float = TRIAL,
-    prop: str = "",
+    words: str, component: Any, case: Mapping[str, float] | None = None, *, seconds: float = TRIAL, prop: str = ""
 ) -> None:
     """Say what is about to be called; in a child the process is ended if that takes too long.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import inspect
+import functools
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -13,10 +13,17 @@ from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import UnusualValue
 from nonsmooth.testing.child import about_to
 from nonsmooth.testing.inputs import Drawn, draws, simplified
-from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, words_of
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, name_of, says_of, words_of
 
 FEWEST = 3
 """Inputs of claims that use the engine in plain mode, in which it is some 400 times slower."""
+
+
+@final
+class Inapplicable(Exception):
+    """A claim says nothing about an input."""
+
+
 GIVEN = Drawn((), dict)
 """Stands for the inputs that :func:`rows` is given."""
 
@@ -33,7 +40,7 @@ class Claim:
     says : str
         The statement.
     trial : callable
-        Takes the component and its inputs. Returns the fault, or "" if there is none.
+        Takes the component and its inputs. Returns the fault, "" or None if there is none.
     inputs : tuple of Drawn
         What the trial gets besides the component.
     n_inputs : int or None
@@ -44,7 +51,7 @@ class Claim:
 
     name: str
     says: str
-    trial: Callable[..., str]
+    trial: Callable[..., str | None]
     inputs: tuple[Drawn, ...] = ()
     n_inputs: int | None = None
     fewest: int | None = None
@@ -60,7 +67,9 @@ class Claim:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", UnusualValue)
-                return self.trial(component, *(one.made(case) for one in self.inputs))
+                return self.trial(component, *(one.made(case) for one in self.inputs)) or ""
+        except Inapplicable:
+            return ""
         except (NotChecked, Broken):
             raise
         except (NonsmoothError, ArithmeticError, LookupError, TypeError, ValueError) as error:
@@ -87,21 +96,48 @@ class Claim:
 
 def claim(
     *inputs: Drawn, name: str = "", n_inputs: int | None = None, fewest: int | None = None
-) -> Callable[[Callable[..., str]], Claim]:
+) -> Callable[[Callable[..., str | None]], Claim]:
     """Make a claim of a function: its name with blanks is the name, its docstring the statement."""
 
-    def made(trial: Callable[..., str]) -> Claim:
-        says = " ".join(inspect.cleandoc(trial.__doc__ or "").split()).rstrip(".")
-        return Claim(name or trial.__name__.strip("_").replace("_", " "), says, trial, inputs, n_inputs, fewest)
+    def made(trial: Callable[..., str | None]) -> Claim:
+        return Claim(name or name_of(trial), says_of(trial), trial, inputs, n_inputs, fewest)
 
     return made
 
 
+def wrong_verdict(is_accepted: bool, expected: bool) -> str:
+    """Return "is_fulfilled refuses" or "is_fulfilled accepts" if a certificate is wrong; "" if it is right."""
+    if bool(is_accepted) is expected:
+        return ""
+    return "is_fulfilled refuses" if expected else "is_fulfilled accepts"
+
+
+@final
+class Claims(list[Claim]):
+    """The claims about a kind of component, in the order in which they are written.
+
+    Parameters
+    ----------
+    fewest : int, optional
+        Inputs that are tried in plain mode.
+    """
+
+    def __init__(self, *, fewest: int | None = None) -> None:
+        super().__init__()
+        self._fewest = fewest
+
+    def claim(self, *inputs: Drawn, **options: Any) -> Callable[[Callable[..., str | None]], Claim]:
+        """Make a claim of a function, as :func:`claim` does, and add it."""
+
+        def added(trial: Callable[..., str | None]) -> Claim:
+            self.append(claim(*inputs, **{"fewest": self._fewest, **options})(trial))
+            return self[-1]
+
+        return added
+
+
 def rows(
-    claims: Sequence[Claim],
-    components: Callable[[], Iterable[Any]],
-    count: int,
-    given: Sequence[Drawn] = (),
+    claims: Sequence[Claim], components: Callable[[], Iterable[Any]], count: int, given: Sequence[Drawn] = ()
 ) -> list[Row]:
     """Return the rows of claims about components that are made when a claim is checked.
 
@@ -116,8 +152,8 @@ def rows(
     given : sequence of Drawn
         Inputs in the place of :data:`GIVEN`.
     """
-    return [_row(one.at(*given), components, count) for one in claims]
+    return [Row(one.name, one.says, functools.partial(_examine, one.at(*given), components, count)) for one in claims]
 
 
-def _row(one: Claim, components: Callable[[], Iterable[Any]], count: int) -> Row:
-    return Row(one.name, one.says, lambda: one.examine(components(), count))
+def _examine(one: Claim, components: Callable[[], Iterable[Any]], count: int) -> None:
+    one.examine(components(), count)

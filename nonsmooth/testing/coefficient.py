@@ -14,7 +14,7 @@ from typing import Any, final
 import numpy as np
 
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
-from nonsmooth.testing.claims import Claim, claim
+from nonsmooth.testing.claims import Claim, Claims, wrong_verdict
 from nonsmooth.testing.component import numbers_of, remade
 from nonsmooth.testing.functions import CheckedFunction, plain_caller, scalar_function
 from nonsmooth.testing.inputs import number
@@ -30,6 +30,8 @@ TURN = number("turn", -3.1, 3.1, 1.0)
 DRAWS = 10
 _ANY_SPEED = number("slip_speed", 1e-9, 1e3, 1.0, is_log=True)
 _SPEEDS = (0.0, 1e-300, *np.geomspace(1e-12, 1e3, 16).tolist())
+COEFFICIENT = Claims()
+"""The claims about every law with a coefficient."""
 
 
 @final
@@ -111,21 +113,19 @@ def vanishing_names(law: FrictionLaw) -> tuple[str, ...]:
 
 
 def verdict(law: FrictionLaw, slip: Pair, load: float, force: Pair, expected: bool) -> str:
-    """Return "refuses" or "accepts" if the certificate of a law is wrong about a force, else ""."""
-    if bool(law.is_fulfilled(slip, load, force, 1e-9 * load)) is expected:
-        return ""
-    return "refuses" if expected else "accepts"
+    """Return the fault of the certificate of a law about a force; "" if it has none."""
+    return wrong_verdict(law.is_fulfilled(slip, load, force, 1e-9 * load), expected)
 
 
-@claim(_ANY_SPEED, n_inputs=60)
+@COEFFICIENT.claim(_ANY_SPEED, n_inputs=60)
 def _not_negative(law: FrictionLaw, speed: float) -> str:
     """The coefficient is never negative."""
     return f"coefficient({speed:g}) is {mu(law, speed):g}" if mu(law, speed) < 0.0 else ""
 
 
-@claim()
+@COEFFICIENT.claim()
 def _static_limit(law: FrictionLaw) -> str:
-    """The coefficient at rest is not below that of incipient slip, to which those of slow slip tend."""
+    """The coefficient at rest is not below the limit of slow slip."""
     rest, slow, slower = mu(law, 0.0), mu(law, 1e-12), mu(law, 1e-300)
     if slower > rest * (1.0 + 1e-12) + 1e-12:
         return f"coefficient(0) is {rest:g}, below {slower:g} of incipient slip"
@@ -134,32 +134,28 @@ def _static_limit(law: FrictionLaw) -> str:
     return ""
 
 
-@claim(SPEED, HEADING, FORCE)
+@COEFFICIENT.claim(SPEED, HEADING, FORCE)
 def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load: float) -> str:
-    """The force of the law, on the bound against the slip, obeys it; one along the slip or off the bound does not."""
+    """The force on the bound against the slip obeys the law; a force along the slip or off the bound does not."""
     slip = along(speed, heading)
     force = times(load, force_under_slip(law, slip))
     wrong = (-1.0, 0.5, 1.5, 0.0) if math.hypot(*force) > 1e-6 * load else ()
     for share in (1.0, *wrong):
         if word := verdict(law, slip, load, times(share, force), share == 1.0):
-            return f"is_fulfilled {word} {share:g} of the force ({force[0]:g}, {force[1]:g}) N of the law"
+            return f"{word} {share:g} of the force ({force[0]:g}, {force[1]:g}) N of the law"
     return ""
 
 
-@claim(HEADING, FORCE, SHARE)
+@COEFFICIENT.claim(HEADING, FORCE, SHARE)
 def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: float) -> str:
-    """A force within the static bound obeys it, one outside does not."""
+    """At rest a force within the static bound obeys the law, and a larger force does not."""
     bound = times(load, force_on_bound(law, mu(law, 0.0), heading))
     size = math.hypot(*bound)
     outside = along(1.01 * size + 1e-3 * load, heading)
     for force, expected in ((times(share, bound), True), (outside, False)):
         if word := verdict(law, (0.0, 0.0), load, force, expected):
-            return f"is_fulfilled {word} {math.hypot(*force):g} N at rest, where {size:g} N is the bound"
+            return f"{word} {math.hypot(*force):g} N at rest, where {size:g} N is the bound"
     return ""
-
-
-COEFFICIENT = [_not_negative, _static_limit, _certificate_under_slip, _certificate_at_rest]
-"""The claims about every law with a coefficient."""
 
 
 def limit_row(law: FrictionLaw, names: tuple[str, ...], vanishes: Claim) -> Row:

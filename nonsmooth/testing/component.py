@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import json
 import math
 import tomllib
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, NonsmoothError, PluginError
 from nonsmooth.files import components as files
 from nonsmooth.files.formats import text_of as toml_text
 from nonsmooth.files.gate import TRUSTED
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
-from nonsmooth.testing.inputs import inside, outside
-from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, name_of, says_of, words_of
+
+_FAR = 3.0
+"""Ratio of other values of a parameter to the given one."""
+_JUST = 1e-9
+"""Distance past a bound, relative to it, that a component must notice."""
 
 
 def remade(component: Any, **values: Any) -> Any:
@@ -50,7 +55,7 @@ def variants(component: Any) -> list[Any]:
     """Return the component as given and with every single parameter at other values of its range."""
     found = [component]
     for name, (value, rule) in numbers_of(component).items():
-        for other in inside(value, rule):
+        for other in _inside(value, rule):
             made = accepted(component, **{name: other}) if value is not None and other != value else None
             if made is not None:
                 found.append(made)
@@ -59,29 +64,25 @@ def variants(component: Any) -> list[Any]:
 
 def component_rows(component: Any) -> list[Row]:
     """Return the properties that every component has."""
-    bounds = (
-        "A parameter outside of its declared range, or not a finite number, raises InvalidInput; "
-        "one inside is accepted, if need be with other values of the others"
-    )
-    trip = "Made anew from words, from JSON and from a scenario file, it is equal and offers the same parameters"
-    return [
-        Row("declared bounds", bounds, lambda: _check_bounds(component)),
-        Row("round trip", trip, lambda: _check_round_trip(component)),
-        Row("immutable", "No parameter can be set after it is made", lambda: _check_immutable(component)),
-    ]
+    checks = _declared_bounds, _round_trip, _immutable
+    return [Row(name_of(check), says_of(check), functools.partial(check, component)) for check in checks]
 
 
-def _check_bounds(component: Any) -> None:
+def _declared_bounds(component: Any) -> None:
+    """A parameter outside of its declared range, or not a finite number, raises InvalidInput.
+
+    A parameter inside is accepted, if need be with other values of the others.
+    """
     owner = type(component)
     for name, (field, rule) in rules(owner).items():
-        wrong: tuple[Any, ...] = outside(rule) if rule.unit != "" else ()
+        wrong: tuple[Any, ...] = _outside(rule) if rule.unit != "" else ()
         if rule.choices:
             wrong += ("no such word",)
         for value in wrong:
             if field.init and accepted(component, **{name: value}) is not None:
                 raise Broken(f"a value outside of its range ({rule.describe()}) is accepted", name, repr(value))
     for name, (value, rule) in numbers_of(component).items():
-        for one in inside(value, rule):
+        for one in _inside(value, rule):
             if not _acceptable(component, name, one, rule):
                 raise Broken(f"a value inside of its range ({rule.describe()}) is refused", name, repr(one))
 
@@ -108,7 +109,7 @@ def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
         if field.default is None and other != name:
             yield {other: None}
     ranges = {
-        other: inside(value, rule) + ((rule.usual[1],) if math.isfinite(rule.usual[1]) else ())
+        other: _inside(value, rule) + ((rule.usual[1],) if math.isfinite(rule.usual[1]) else ())
         for other, (value, rule) in numbers_of(component).items()
         if other != name
     }
@@ -125,7 +126,8 @@ def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
         yield zero | {other: max(ranges[other])}
 
 
-def _check_round_trip(component: Any) -> None:
+def _round_trip(component: Any) -> None:
+    """Made anew from words, from JSON and from a scenario file, it is equal and offers the same parameters."""
     owner = type(component)
     declared = {name: getattr(component, name) for name, (field, _) in rules(owner).items() if field.init}
     fields = [field.name for field in dataclasses.fields(component) if field.init]
@@ -164,7 +166,8 @@ def _through_file(component: Any) -> Any:
     return files.component(owner.__name__, tomllib.loads(toml_text({"it": table}))["it"], owner, TRUSTED)
 
 
-def _check_immutable(component: Any) -> None:
+def _immutable(component: Any) -> None:
+    """No parameter can be set after it is made."""
     fields = dataclasses.fields(component)
     if not fields:
         raise NotChecked(f"{type(component).__name__}: it has no parameters")
@@ -175,3 +178,64 @@ def _check_immutable(component: Any) -> None:
         except dataclasses.FrozenInstanceError:
             continue
         raise Broken("it can be set: write @dataclass(frozen=True) above the class", field.name, repr(value))
+
+
+def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:
+    """Return a component with the parameters given, those of its example, and some value for others without default.
+
+    Raises
+    ------
+    InvalidInput
+        If a value is wrong, or a field without default is no declared number and not in the example.
+    PluginError
+        If the class raises anything else.
+    """
+    values = {**owner.example(), **from_words(owner, words, name)}
+    for field in dataclasses.fields(owner):
+        if field.name in values or not field.init or field.default is not field.default_factory:
+            continue
+        rule = rules(owner)[field.name][1] if field.name in rules(owner) else Rule("", "")
+        if rule.unit == "" and not rule.choices:
+            remedy = f"Let {owner.__name__}.example return one, or pass an object to the function of nonsmooth.testing."
+            raise InvalidInput(f"{name}.{field.name}", "must have a value to be checked with", None, remedy)
+        values[field.name] = rule.choices[0] if rule.choices else _typical(rule)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnusualValue)
+        try:
+            return owner(**values)
+        except NonsmoothError:
+            raise
+        except Exception as error:
+            raise PluginError(f"{name} cannot be made with {values}: {words_of(error)}.") from error
+
+
+def _inside(value: float | None, rule: Rule) -> tuple[float, ...]:
+    """Return values within the declared range of a parameter: bounds that belong to it and values between."""
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    tried = [rule.minimum, rule.maximum]
+    if value is not None:
+        tried += [value, value / _FAR, value * _FAR]
+    if low > -math.inf and high < math.inf:
+        tried.append(0.5 * (low + high))
+    return tuple(x for x in dict.fromkeys(tried) if math.isfinite(x) and low <= x <= high and x > rule.above)
+
+
+def _outside(rule: Rule) -> tuple[float, ...]:
+    """Return values outside of the declared range of a parameter, and those that are not finite."""
+    found = [math.nan, math.inf, -math.inf]
+    for bound, sign in ((rule.minimum, -1.0), (rule.maximum, 1.0)):
+        if math.isfinite(bound):
+            found += [bound + sign * (_JUST + _JUST * abs(bound)), bound + sign * (1.0 + abs(bound))]
+    if math.isfinite(rule.above):
+        found += [rule.above, rule.above - 1.0]
+    return tuple(found)
+
+
+def _typical(rule: Rule) -> float:
+    """Return a value in the middle of the declared range of a parameter, or of its usual range."""
+    low, high = max(rule.minimum, rule.above), rule.maximum
+    if math.isfinite(low) and math.isfinite(high):
+        return 0.5 * (low + high)
+    if rule.usual[0] > 0.0 and math.isfinite(rule.usual[1]):
+        return math.sqrt(rule.usual[0] * rule.usual[1])
+    return low + 1.0 if math.isfinite(low) else high - 1.0 if math.isfinite(high) else 1.0

@@ -7,14 +7,16 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from nonsmooth.types import Array
+
 _PIECES = 64
 _SUSPECTS = 3
 _HALVINGS = 30
 _LEFT = 1e-4
 """Part of a change that is left over 2^-30 of the way where the function jumps; a slope leaves some 1e-9."""
+_SAME = 1e-6
+"""Deviation of a derivative from differences that counts as none, relative to its size."""
 _ROUND_OFF = 1e-14
 """Round-off of a value, relative to its size."""
 
@@ -26,6 +28,14 @@ def slope(value: Callable[[float], Any], dt: float) -> tuple[Array, float]:
     coarse = (8.0 * (at[2] - at[-2]) - (at[4] - at[-4])) / (24.0 * dt)
     noise = _ROUND_OFF * max(float(np.max(np.abs(values), initial=0.0)) for values in at.values()) / dt
     return np.asarray(fine), float(np.max(np.abs(fine - coarse), initial=0.0)) + noise
+
+
+def slope_fault(name: str, given: Array, found: Array, known: float) -> str:
+    """Return that a value is not the derivative by :func:`slope`, which is known that well; "" if it is."""
+    # at a knot of a table the differences know little, and nothing is asked
+    if np.max(np.abs(given - found)) <= _SAME * np.max(np.abs(found)) + 10.0 * known:
+        return ""
+    return f"the {name} is {given.tolist()}, the differences give {found.tolist()}"
 
 
 def smooth_slope(value: Callable[[float], Any], dt: float) -> Array:

@@ -17,10 +17,9 @@ from nonsmooth.parameters import UnusualValue
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation
 from nonsmooth.testing.claims import claim, rows
-from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.component import component_rows, make
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
-from nonsmooth.testing.registered import make
 
 _POSES = 6
 _SAME = 1e-5
@@ -88,19 +87,18 @@ def _place(rng: np.random.Generator, size: float) -> Place:
 
 
 @claim()
-def _points(backend: DistanceBackend) -> str:
+def _points(backend: DistanceBackend) -> None:
     """Nearest points are the distance apart, along the normal."""
     for one in _answers(backend):
         found = one.found
         off = found.second - found.first - found.distance * found.normal
         if not (np.max(np.abs(off)) <= _SAME * one.size and abs(float(found.normal @ found.normal) - 1.0) <= _SAME):
             raise one.broken("they are not", "separation", found)
-    return ""
 
 
 @claim()
-def _order(backend: DistanceBackend) -> str:
-    """In the other order of two solids the answer is the same."""
+def _order(backend: DistanceBackend) -> None:
+    """The distance is the same in the other order of two solids."""
     for one in _answers(backend):
         try:
             back = backend.separation(one.solids[1], one.places[1], one.solids[0], one.places[0])
@@ -109,12 +107,11 @@ def _order(backend: DistanceBackend) -> str:
         allowed = one.found.error + back.error + _SAME * one.size
         if back.overlap or not abs(back.distance - one.found.distance) <= allowed:
             raise one.broken("it is not", "separation", (one.found, back))
-    return ""
 
 
 @claim()
-def _planes(backend: DistanceBackend) -> str:
-    """No plane across the normal leaves more between convex solids."""
+def _planes(backend: DistanceBackend) -> None:
+    """The planes across the normal that touch two convex solids are the distance apart."""
     for one in _answers(backend):
         first, second = one.shapes[0].solid, one.shapes[1].solid
         if first is None or second is None or first.hollow or second.hollow:
@@ -124,4 +121,3 @@ def _planes(backend: DistanceBackend) -> str:
         between = float(n @ (low - place - axes @ first.support(axes.T @ n)))
         if not abs(between - one.found.distance) <= one.found.error + 1e-3 * one.size:
             raise one.broken(f"they leave {between:.9g} m", "distance", one.found.distance)
-    return ""

@@ -8,7 +8,6 @@ from typing import final
 
 import numpy as np
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import InvalidInput
@@ -19,12 +18,13 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.system.materials import ContactLaws
 from nonsmooth.system.system import System
 from nonsmooth.testing import engine_scenes as scenes
-from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import Puck, over_slab
 from nonsmooth.testing.reference import ReferenceContact, ReferenceFriction, ReferenceImpact
+from nonsmooth.types import Array
 
 _END, _SAMPLES = 0.3, 6
 _MANY_SAMPLES = 5000
@@ -37,6 +37,7 @@ _THROUGH = 0.1
 _HEAP_SAMPLES = 60
 _HEIGHT = 0.5 * scenes.GRAVITY * (0.5 * _END) ** 2
 """Height of a fall that ends in the middle of the run [m]."""
+_ENGINE = Claims()
 
 
 def check_engine(engine: Engine) -> list[Property]:
@@ -107,35 +108,32 @@ class _Trial:
             raise Broken(f"the run must be done, but {solution.message}", "status", solution.status)
         return solution
 
-    def account_fault(self, solution: Solution) -> str:
-        """Return the fault of the energy account of a run."""
-        return _above("energy residual", np.array([solution.energy.residual]), self.promised)
+    def require_account(self, solution: Solution) -> None:
+        """Raise Broken unless the energy account of a run closes."""
+        _require_at_most("energy residual", np.array([solution.energy.residual]), self.promised)
 
-    def difference(self, other: Solution) -> str:
-        """Return the difference of another run of the free body."""
+    def require_same(self, other: Solution) -> None:
+        """Raise Broken unless another run of the free body is the same."""
         for name in ("q_end", "u_end"):
             one, two = getattr(self.solution, name), getattr(other, name)
             if not np.array_equal(one, two):
                 raise Broken("must be the same", name, float(np.abs(one - two).max()))
-        return ""
 
 
-@claim()
-def _names(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _names(trial: _Trial) -> None:
     """`own`, `counts` and `settings` name what the workspace has, or is to have."""
     assemble(trial.system, trial.engine)
-    return ""
 
 
-@claim()
-def _free_fall(trial: _Trial) -> str:
-    """A free body moves as gravity has it."""
+@_ENGINE.claim()
+def _free_fall(trial: _Trial) -> None:
+    """A free body falls on a parabola, with the same spin."""
     t, solution = trial.solution.t, trial.solution
     path = np.outer(t, _START[:3])
     path[:, 2] -= 0.5 * scenes.GRAVITY * t**2
     assert_allclose(solution.q[:, :3], path, rtol=0.0, atol=_EXACT)
     assert_allclose(solution.u[:, 3:], np.broadcast_to(_START[3:], (len(t), 3)), rtol=0.0, atol=_EXACT)
-    return ""
 
 
 def _require_times(solution: Solution, n: int) -> None:
@@ -145,49 +143,46 @@ def _require_times(solution: Solution, n: int) -> None:
     assert_allclose(solution.t, np.linspace(0.0, _END, n + 1), rtol=0.0, atol=1e-12)
 
 
-@claim()
-def _samples(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _samples(trial: _Trial) -> None:
     """The samples are at the times asked for, from the start to the end."""
     _require_times(trial.solution, _SAMPLES)
     if trial.solution.t_end != _END:
         raise Broken("the run must end there", "t_end", trial.solution.t_end)
-    return ""
 
 
-@claim()
-def _many_samples(trial: _Trial) -> str:
-    """No sample is lost where they fill the buffers many times."""
+@_ENGINE.claim()
+def _many_samples(trial: _Trial) -> None:
+    """No sample is lost if they fill the buffers many times."""
     _require_times(trial.model.run(_END, sample_interval=_END / _MANY_SAMPLES), _MANY_SAMPLES)
-    return ""
 
 
-@claim()
-def _energy(trial: _Trial) -> str:
-    """The account of energy closes."""
-    return trial.account_fault(trial.solution)
+@_ENGINE.claim()
+def _energy(trial: _Trial) -> None:
+    """The energy account of the run closes."""
+    trial.require_account(trial.solution)
 
 
-@claim()
-def _repeatable(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _repeatable(trial: _Trial) -> None:
     """A second run of a model is the same to the last bit."""
-    return trial.difference(trial.model.run(_END, sample_interval=_END / _SAMPLES))
+    trial.require_same(trial.model.run(_END, sample_interval=_END / _SAMPLES))
 
 
-@claim()
-def _contact(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _contact(trial: _Trial) -> None:
     """A body does not fall through a slab, or `check` refuses it and names the engine."""
     system = _slab(_HEIGHT)
     if trial.refusal(system):
-        return ""
+        return
     _ = trial.model
     lowest = float(assemble(system, trial.engine).run(_END, sample_interval=_END / _SAMPLES).q[:, 2].min())
     if not lowest >= -_THROUGH * _HEIGHT:
         raise Broken(f"it must stay over the slab, but for {_THROUGH:g} of the way it fell", "gap", lowest)
-    return ""
 
 
-@claim()
-def _modes(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _modes(trial: _Trial) -> None:
     """A body that lies on a slab is closed, and a body that lands has impulses."""
     if not trial.engine.records_contacts:
         raise NotChecked("the engine records no contacts")
@@ -197,36 +192,33 @@ def _modes(trial: _Trial) -> str:
     landed = trial.run(_slab(_HEIGHT))
     if not np.any(landed.history("normal_impulse")["normal_impulse"] > 0.0):
         raise Broken("one must be positive after a landing", "impulses", landed.events.listed_impulse[:, 0])
-    return ""
 
 
-@claim()
-def _quaternion(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _quaternion(trial: _Trial) -> None:
     """A box that tumbles keeps its angular momentum and the length of its quaternion."""
     solution = trial.run(scenes.tumbling())
     momentum = scenes.momentum(solution)
     changes = np.linalg.norm(momentum - momentum[0], axis=1) / float(np.linalg.norm(momentum[0]))
     lengths = np.linalg.norm(solution.of(solution.system.bodies[1])[0][:, 3:7], axis=1)
-    return (
-        _above("change of angular momentum", changes, trial.promised)
-        or _above("length of the quaternion less 1", np.abs(lengths - 1.0), trial.promised)
-        or trial.account_fault(solution)
-    )
+    _require_at_most("change of angular momentum", changes, trial.promised)
+    _require_at_most("length of the quaternion less 1", np.abs(lengths - 1.0), trial.promised)
+    trial.require_account(solution)
 
 
-@claim()
-def _driven_plate(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _driven_plate(trial: _Trial) -> None:
     """A plate that swings throws a ball to the height of the closed form."""
     solution = trial.run(scenes.thrown())
     height = solution.of(solution.system.bodies[1])[0][-1, 2] - scenes.RADIUS
     exact = scenes.thrown_height(_END)
     if not abs(height - exact) <= _THROUGH * exact:
         raise Broken(f"must be {exact:.6g} m, but for {_THROUGH:g} of it", "height of the ball", float(height))
-    return trial.account_fault(solution)
+    trial.require_account(solution)
 
 
-@claim()
-def _heap(trial: _Trial) -> str:
+@_ENGINE.claim()
+def _heap(trial: _Trial) -> None:
     """Of ten balls on a plate the energy never rises, and none passes into another."""
     if PLAIN:
         raise NotChecked("a heap takes minutes in plain mode")
@@ -235,30 +227,15 @@ def _heap(trial: _Trial) -> str:
     if not deep <= _THROUGH * scenes.RADIUS:
         raise Broken(f"must be at most {_THROUGH * scenes.RADIUS:g} m", "deepest overlap", deep)
     rises = (energy - np.minimum.accumulate(energy)) / energy[0]
-    return _above("rise of the energy", rises, trial.promised) or trial.account_fault(solution)
+    _require_at_most("rise of the energy", rises, trial.promised)
+    trial.require_account(solution)
 
 
-@claim()
-def _continues(trial: _Trial) -> str:
-    """A run that is stopped and resumed is the run that is not, to the last bit."""
+@_ENGINE.claim()
+def _continues(trial: _Trial) -> None:
+    """A run that is stopped and resumed is the same to the last bit."""
     half = trial.model.run(0.55 * _END)
-    return trial.difference(trial.model.run(_END, start=half.state))
-
-
-_ENGINE = [
-    _names,
-    _free_fall,
-    _samples,
-    _many_samples,
-    _energy,
-    _repeatable,
-    _contact,
-    _modes,
-    _quaternion,
-    _driven_plate,
-    _heap,
-    _continues,
-]
+    trial.require_same(trial.model.run(_END, start=half.state))
 
 
 def _slab(height: float) -> System:
@@ -267,9 +244,8 @@ def _slab(height: float) -> System:
     return over_slab(Puck(), height, np.zeros(6), laws, gravity=scenes.GRAVITY)
 
 
-def _above(what: str, values: NDArray[np.float64], most: float) -> str:
-    """Raise Broken if a value is not at most so large."""
+def _require_at_most(name: str, values: Array, most: float) -> None:
+    """Raise Broken unless all values are at most so large."""
     worst = float(np.max(values))
     if not worst <= most:
-        raise Broken(f"must be at most {most:g}", what, worst)
-    return ""
+        raise Broken(f"must be at most {most:g}", name, worst)

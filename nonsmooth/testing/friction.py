@@ -12,7 +12,7 @@ from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFr
 from nonsmooth.problems.contact import solve_contact
 from nonsmooth.problems.impact import solve_impact
 from nonsmooth.testing.anisotropic import anisotropic_rows
-from nonsmooth.testing.claims import FEWEST, claim, rows
+from nonsmooth.testing.claims import FEWEST, Claims, claim, rows
 from nonsmooth.testing.coefficient import (
     COEFFICIENT,
     DRAWS,
@@ -27,17 +27,18 @@ from nonsmooth.testing.coefficient import (
     mu,
     vanishing_names,
 )
-from nonsmooth.testing.component import component_rows, variants
-from nonsmooth.testing.functions import CheckedFunction, Functions
+from nonsmooth.testing.component import variants
+from nonsmooth.testing.functions import all_rows
 from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.reference import ImpactProblem, ReferenceImpact, point, problem_of
-from nonsmooth.testing.stateful import START, STATES, rates_function
+from nonsmooth.testing.stateful import STATES, initial_state, rates_function
 
 _PUSH = number("push", 0.0, 3.0)
 _SLIGHT = 1e-6
 """Approach in units of the slip speed that leaves the slip as it is."""
+_FRICTION = Claims(fewest=FEWEST)
 
 
 def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None = None) -> list[Property]:
@@ -60,16 +61,18 @@ def _rows(law: FrictionLaw, coefficients: Sequence[str] | None) -> list[Row]:
     vanishing = vanishing_names(law) if coefficients is None else tuple(coefficients)
     if isinstance(law, AnisotropicFrictionLaw):
         return anisotropic_rows(law, vanishing)
-    functions = Functions(lambda: [made for one in variants(law) for made in _functions(one)])
     table = functools.partial(rows, components=lambda: variants(law), count=DRAWS)
-    has_states = isinstance(law, StatefulFrictionLaw)
-    found = [*table([*COEFFICIENT, *_FRICTION]), limit_row(law, vanishing, _vanishes), *table(STATES * has_states)]
-    return [*component_rows(law), *table(START * has_states), *functions.rows(), *functions.guarded(found)]
-
-
-def _functions(law: FrictionLaw) -> list[CheckedFunction]:
+    found = [*table([*COEFFICIENT, *_FRICTION]), limit_row(law, vanishing, _vanishes)]
+    if not isinstance(law, StatefulFrictionLaw):
+        return all_rows(law, lambda: [coefficient_function(one) for one in variants(law)], found)
     # the rates first, which refuse states that are not in order
-    return [*([rates_function(law)] if isinstance(law, StatefulFrictionLaw) else []), coefficient_function(law)]
+    functions = rates_function, coefficient_function
+    return all_rows(
+        law,
+        lambda: [function(one) for one in variants(law) for function in functions],
+        [*found, *table(STATES)],
+        table([initial_state]),
+    )
 
 
 def _contact(law: FrictionLaw, force: Sequence[float], slip: Sequence[float]) -> tuple[float, Any]:
@@ -83,9 +86,9 @@ def _impact(law: FrictionLaw, p: ImpactProblem) -> Any:
     return solve_impact(p.mass, p.normal, p.tangential, p.velocity, *laws)
 
 
-@claim(SPEED, HEADING, FORCE, _PUSH, fewest=FEWEST)
+@_FRICTION.claim(SPEED, HEADING, FORCE, _PUSH)
 def _sustained_contact(law: FrictionLaw, speed: float, heading: float, weight: float, push: float) -> str:
-    """Forces that the engine finds for contacts that stick, start to slide or slide obey it."""
+    """Forces that the engine finds for contacts that stick, start to slide or slide obey the law."""
     pushed = along(push * weight * (mu(law, 0.0) + 1e-3), heading)
     for slip in ((0.0, 0.0), along(speed, heading)):
         normal, (t1, t2) = _contact(law, [*pushed, -weight], slip)
@@ -94,7 +97,7 @@ def _sustained_contact(law: FrictionLaw, speed: float, heading: float, weight: f
     return ""
 
 
-@claim(problem_of(2), fewest=FEWEST)
+@_FRICTION.claim(problem_of(2))
 def _dissipation(law: FrictionLaw, p: ImpactProblem) -> str:
     """Friction takes energy out of impacts."""
     if not np.any(p.normal.T @ p.velocity < 0.0):
@@ -103,9 +106,9 @@ def _dissipation(law: FrictionLaw, p: ImpactProblem) -> str:
     return f"friction gives {-least:g} J to the impact" if least < -1e-8 else ""
 
 
-@claim(SPEED, HEADING, fewest=FEWEST)
+@_FRICTION.claim(SPEED, HEADING)
 def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> str:
-    """An impact too slight to change the slip has the direction and ratio of impulses that the force has."""
+    """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
     slip = along(speed, heading)
     normal, traction = _contact(law, [0.0, 0.0, -1.0], slip)
     result = _impact(law, point((*slip, -_SLIGHT * speed)))
@@ -116,9 +119,9 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
     return "" if law.is_fulfilled(slip, 1.0, (t1, t2), 1e-4) else "is_fulfilled refuses the impulses of an impact"
 
 
-@claim(SPEED, HEADING, TURN, fewest=FEWEST)
+@_FRICTION.claim(SPEED, HEADING, TURN)
 def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: float) -> str:
-    """Turning the tangents changes neither its verdicts nor an impact."""
+    """Turning the tangents changes neither the verdicts of the law nor an impact."""
     bound = mu(law, speed)
     for share in (-1.0, 0.5):
         one, other = (
@@ -130,9 +133,6 @@ def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: floa
     p = point((*along(speed, heading), -1.0))
     a, b = _impact(law, p).velocity, _impact(law, p.turned(turn)).velocity
     return "" if np.allclose(a, b, rtol=0.0, atol=1e-6 * speed) else f"the velocities after are {a} and {b}"
-
-
-_FRICTION = [_sustained_contact, _dissipation, _force_and_impact_level, _frame_invariance]
 
 
 @claim(SPEED, HEADING)

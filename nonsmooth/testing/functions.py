@@ -5,22 +5,22 @@ from __future__ import annotations
 import functools
 import inspect
 import types
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.binding.compile import bind, caller, parameter_names
 from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.kernel import PLAIN, at, entry_addresses, unshared
-from nonsmooth.parameters import Value, not_offered
+from nonsmooth.parameters import not_offered
 from nonsmooth.testing.child import CALL, about_to
-from nonsmooth.testing.outcome import Broken, NotChecked, Row, described
+from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, name_of, says_of
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 Caller = Callable[..., Any]
 ROOM = 4
 """Numbers behind the block that a function writes."""
@@ -57,8 +57,8 @@ def _slice(heap: Array, offset: int) -> Array:
     return heap[offset:]
 
 
-def compiled_caller(function: Caller, form: str, values: Mapping[str, Value], owner: str) -> Caller:
-    """Return the same, compiled; arguments are numbers and contiguous arrays, as the engine has them.
+def compiled_caller(function: Caller, form: str, values: Mapping[str, Any], owner: str) -> Caller:
+    """Return the same, compiled; arguments are numbers and contiguous arrays, as the engine passes them.
 
     Raises
     ------
@@ -67,19 +67,12 @@ def compiled_caller(function: Caller, form: str, values: Mapping[str, Value], ow
     PluginError
         If the function cannot be compiled.
     """
-    address, heap = bind(function, form, values, owner)
+    names = parameter_names(function, form)
+    address, heap = bind(function, form, dict.fromkeys(values, 0.0) if form == "map" else values, owner)
     if PLAIN:
         return plain_caller(function, form, values)
-    return caller(form, address, np.array([*heap, 0.0]))
-
-
-def compiled_map(function: Caller, vectors: Mapping[str, Array], owner: str) -> Caller:
-    """Return a compiled function of the form "map", its parameters one number per contact."""
-    address, _ = bind(function, "map", dict.fromkeys(vectors, 0.0), owner)
-    if PLAIN:
-        return plain_caller(function, "map", vectors)
-    numbers = np.concatenate([vectors[name] for name in parameter_names(function, "map")] + [np.zeros(1)])
-    return caller("map", address, numbers)
+    numbers = [number for name in names for number in values[name]] if form == "map" else heap
+    return caller(form, address, np.array([*numbers, 0.0]))
 
 
 def place_of_function(function: Caller) -> str:
@@ -146,6 +139,28 @@ class CheckedFunction:
         """Component and name."""
         return f"{type(self.owner).__name__}.{self.name}"
 
+    @property
+    def place(self) -> str:
+        """Name, file and line of the function."""
+        return place_of_function(self.function)
+
+    @property
+    def calls(self) -> Iterator[tuple[str, tuple[Any, ...]]]:
+        """The inputs, each with the words of a call."""
+        return ((f"{self.title}({words})", given) for words, given in self.inputs)
+
+    def broken(self, reason: str) -> Broken:
+        """Return a fault of the function, with the parameters of its component."""
+        return Broken(reason, *described(self.owner))
+
+    def about_to_call(self, words: str, prop: str) -> None:
+        """Say that the function is about to be called, which may take a second."""
+        about_to(f"{words} {{takes}} in {self.place}", self.owner, seconds=CALL, prop=prop)
+
+    def has_come_back(self) -> None:
+        """Say that other things follow, which may take longer than a call."""
+        about_to("it {takes}", self.owner)
+
     def plain(self, *given: Any) -> Any:
         """Return what it returns or writes, in plain Python."""
         return self._result(plain_caller(self.function, self.form, self.offered), given)
@@ -168,27 +183,28 @@ def scalar_function(owner: Any, name: str, values: Sequence[float], offered: Map
     return CheckedFunction(owner, name, "scalar", offered, [(f"{x:g}", (x,)) for x in values])
 
 
-class Functions:
+@final
+@dataclass(frozen=True, eq=False)
+class _Functions:
     """The functions of a component, checked once, before anything else runs them.
 
     Nothing else is checked if one of them is not fit to be run: the engine calls the compiled ones.
     """
 
-    def __init__(self, functions: Callable[[], Sequence[Any]]) -> None:
-        self._make = functions
-        self._found: dict[str, Broken | None] = {}
+    made: Callable[[], Sequence[CheckedFunction]]
+    found: dict[str, Broken | None] = field(default_factory=dict)
 
     @cached_property
-    def all(self) -> Sequence[Any]:
+    def all(self) -> Sequence[CheckedFunction]:
         """The functions."""
-        return self._make()
+        return self.made()
 
     def check(self, name: str) -> None:
         """Raise the fault of a stage, or NotChecked if an earlier one has a fault."""
-        for stage in _STAGES:
-            if stage not in self._found:
-                self._found[stage] = self._first_fault(stage)
-            fault = self._found[stage]
+        for stage, look in _STAGES.items():
+            if stage not in self.found:
+                self.found[stage] = self._first_fault(look)
+            fault = self.found[stage]
             if fault is not None and stage == name:
                 raise fault
             if fault is not None:
@@ -196,56 +212,53 @@ class Functions:
             if stage == name:
                 return
 
-    def _first_fault(self, stage: str) -> Broken | None:
+    def _first_fault(self, look: Callable[[CheckedFunction], None]) -> Broken | None:
         for function in self.all:
             try:
-                _STAGES[stage](function)
+                look(function)
             except Broken as fault:
                 return fault
         return None
 
-    def guarded(self, rows: list[Row]) -> list[Row]:
-        """Return properties that are checked only if the functions are fit to be run."""
-        return [row._replace(check=functools.partial(self._behind, row)) for row in rows]
+    def rows(self, found: Sequence[Row]) -> list[Row]:
+        """Return the properties of the functions, then others, which are checked only if the functions can be run."""
+        # "writes its block" is stated by a claim of the component
+        own = [
+            Row(name, says_of(look), functools.partial(self.check, name))
+            for name, look in _STAGES.items()
+            if look.__doc__
+        ]
+        later = [Row(name, says_of(look), functools.partial(self._every, look)) for name, look in _LATER.items()]
+        behind = [row._replace(check=functools.partial(self._behind, row)) for row in (*later, *found)]
+        return [*own, *behind]
+
+    def _every(self, look: Callable[[CheckedFunction], None]) -> None:
+        for function in self.all:
+            look(function)
 
     def _behind(self, row: Row) -> None:
         self.check(row.name)
         entry_addresses()
         row.check()
 
-    def rows(self) -> list[Row]:
-        """Return the properties of the functions."""
-        own = [Row(name, says, functools.partial(self.check, name)) for name, says in _SAYS.items()]
-        equal = Row("compiled equals plain", "Compiled, its functions return the same numbers", self._same_compiled)
-        again = Row("determinism", "Its functions return the same whenever they are called", self._repeatable)
-        return [*own, *self.guarded([equal, again])]
 
-    def _same_compiled(self) -> None:
-        for function in self.all:
-            # compiling takes its time
-            about_to("it {takes}", function.owner)
-            compiled = function.compiled()
-            for words, given in function.inputs:
-                one = np.asarray(function.plain(*given))
-                _about_to(function, f"compiled, {function.title}({words})", "compiled equals plain")
-                other = np.asarray(compiled(*given))
-                size = float(np.max(np.abs(one), initial=0.0))
-                if not np.allclose(other, one, rtol=_SAME, atol=_SAME * size):
-                    reason = f"{function.title}({words}) is {_short(one)} plain and {_short(other)} compiled"
-                    raise Broken(reason, *described(function.owner))
-            about_to("it {takes}", function.owner)
+def all_rows(
+    component: Any, functions: Callable[[], Sequence[CheckedFunction]], found: Sequence[Row], first: Sequence[Row] = ()
+) -> list[Row]:
+    """Return all properties of a component whose functions the engine calls.
 
-    def _repeatable(self) -> None:
-        for function in self.all:
-            one, other = (dict(function.owner.parameters()) for _ in range(2))
-            if one != other:
-                raise Broken(f"its parameters are {one} first and {other} later", "parameters()", other)
-            first = [np.array(function.plain(*given)) for _, given in function.inputs]
-            for (words, given), once in reversed(list(zip(function.inputs, first, strict=True))):
-                again = np.asarray(function.plain(*given))
-                if not np.array_equal(again, once):
-                    reason = f"{function.title}({words}) is {_short(once)} first and {_short(again)} later"
-                    raise Broken(reason, *described(function.owner))
+    Parameters
+    ----------
+    component : object
+        The component.
+    functions : callable
+        Returns its functions, and those of its variants.
+    found : sequence of Row
+        Properties that are checked only if the functions can be run.
+    first : sequence of Row, optional
+        Properties that are checked without the functions.
+    """
+    return [*component_rows(component), *first, *_Functions(functions).rows(found)]
 
 
 def _short(value: Any) -> str:
@@ -253,67 +266,82 @@ def _short(value: Any) -> str:
     return f"{float(array):.9g}" if array.ndim == 0 else np.array2string(array, precision=6, threshold=8)
 
 
-def _about_to(function: CheckedFunction, words: str, prop: str) -> None:
-    place = place_of_function(function.function)
-    about_to(f"{words} {{takes}} in {place}", function.owner, seconds=CALL, prop=prop)
-
-
-def _names(function: CheckedFunction) -> None:
+def _known_parameters(function: CheckedFunction) -> None:
+    """Functions ask for parameters that the component offers."""
     for name in parameter_names(function.function, function.form):
         if name not in function.offered:
             error = not_offered(function.title, name, function.offered)
-            raise Broken(f"{place_of_function(function.function)}: {error}".rstrip("."), name, "not offered")
+            raise Broken(f"{function.place}: {error}".rstrip("."), name, "not offered")
 
 
-def _time(function: CheckedFunction) -> None:
-    for words, given in function.inputs:
-        _about_to(function, f"{function.title}({words})", "time budget")
+def _time_budget(function: CheckedFunction) -> None:
+    """Functions return within a second in plain Python."""
+    for call, given in function.calls:
+        function.about_to_call(call, "time budget")
         try:
             function.plain(*given)
         except Exception:
             break  # the next property tells what it raises
-    # what follows has more time than a call
-    about_to("it {takes}", function.owner)
+    function.has_come_back()
 
 
-def _finite(function: CheckedFunction) -> None:
-    place = place_of_function(function.function)
-    for words, given in function.inputs:
-        title = f"{function.title}({words})"
+def _finite_numbers(function: CheckedFunction) -> None:
+    """Functions return finite numbers and raise no exception."""
+    for call, given in function.calls:
         try:
             result = function.plain(*given)
         except Exception as error:
-            reason = f"{title} raises {type(error).__name__}: {error}, in {place}{_raised_at(error)}"
-            raise Broken(reason, *described(function.owner)) from error
+            reason = f"{call} raises {type(error).__name__}: {error}, in {function.place}{_raised_at(error)}"
+            raise function.broken(reason) from error
         # a block comes as an array
         kinds = (int, float) if FORMS[function.form].returns else (np.ndarray,)
         if isinstance(result, bool) or not isinstance(result, kinds):
             cause = " (a power of a negative number)" if isinstance(result, complex) else ""
-            raise Broken(
-                f"{title} returns {result!r}{cause}, in {place}, and not one number", *described(function.owner)
-            )
+            raise function.broken(f"{call} returns {result!r}{cause}, in {function.place}, and not one number")
         if not np.all(np.isfinite(result)):
-            raise Broken(f"{title} is {_short(result)}, in {place}", *described(function.owner))
+            raise function.broken(f"{call} is {_short(result)}, in {function.place}")
 
 
-def _inside(function: CheckedFunction) -> None:
-    for words, given in function.inputs if not FORMS[function.form].returns else ():
+def _writes_its_block(function: CheckedFunction) -> None:
+    for call, given in () if FORMS[function.form].returns else function.calls:
         if np.any(np.asarray(function.plain(*given))[-ROOM:] != OLD):
-            raise Broken(f"{function.title}({words}) writes beyond its block", *described(function.owner))
+            raise function.broken(f"{call} writes beyond its block")
 
 
-_STAGES: dict[str, Callable[[CheckedFunction], None]] = {
-    "known parameters": _names,
-    "time budget": _time,
-    "finite numbers": _finite,
-    "writes its block": _inside,
-}
+def _compiled_equals_plain(function: CheckedFunction) -> None:
+    """Compiled functions return the same numbers as in plain Python."""
+    # compiling takes its time
+    function.has_come_back()
+    compiled = function.compiled()
+    for call, given in function.calls:
+        one = np.asarray(function.plain(*given))
+        function.about_to_call(f"compiled, {call}", "compiled equals plain")
+        other = np.asarray(compiled(*given))
+        if not np.allclose(other, one, rtol=_SAME, atol=_SAME * float(np.max(np.abs(one), initial=0.0))):
+            raise function.broken(f"{call} is {_short(one)} plain and {_short(other)} compiled")
+    function.has_come_back()
+
+
+def _determinism(function: CheckedFunction) -> None:
+    """Functions return the same numbers whenever they are called."""
+    one, other = (dict(function.owner.parameters()) for _ in range(2))
+    if one != other:
+        raise Broken(f"its parameters are {one} first and {other} later", "parameters()", other)
+    first = [np.array(function.plain(*given)) for _, given in function.calls]
+    for (call, given), once in reversed(list(zip(function.calls, first, strict=True))):
+        again = np.asarray(function.plain(*given))
+        if not np.array_equal(again, once):
+            raise function.broken(f"{call} is {_short(once)} first and {_short(again)} later")
+
+
+def _table(*looks: Callable[[CheckedFunction], None]) -> dict[str, Callable[[CheckedFunction], None]]:
+    return {name_of(look): look for look in looks}
+
+
+_STAGES = _table(_known_parameters, _time_budget, _finite_numbers, _writes_its_block)
 """What is checked first, in this order; all else only if this holds."""
-_SAYS = {
-    "known parameters": "Its functions ask for parameters that it offers",
-    "time budget": "Its functions come back within a second, in plain Python",
-    "finite numbers": "Its functions return finite numbers and raise nothing",
-}
+_LATER = _table(_compiled_equals_plain, _determinism)
+"""What is checked of functions that can be run."""
 
 
 def _raised_at(error: Exception) -> str:

@@ -6,12 +6,12 @@ import numpy as np
 
 from nonsmooth.interfaces import Guard
 from nonsmooth.testing.claims import GIVEN, claim, rows
-from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.differences import Array, jump
-from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller
+from nonsmooth.testing.differences import jump
+from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
+from nonsmooth.types import Array
 
 _NUMBERS, _DRAWS = 24, 24
 _WHILE = 0.5
@@ -32,9 +32,8 @@ def check_guard(guard: Guard, *, numbers: int = _NUMBERS) -> list[Property]:
 
 
 def _rows(guard: Guard, numbers: int) -> list[Row]:
-    functions = Functions(lambda: [_value(guard, numbers)])
-    table = rows([_no_jumps], lambda: [guard], _DRAWS, [_state_of(numbers)])
-    return [*component_rows(guard), *functions.rows(), *functions.guarded(table)]
+    found = rows([_no_jumps], lambda: [guard], _DRAWS, [_state_of(numbers)])
+    return all_rows(guard, lambda: [_value(guard, numbers)], found)
 
 
 def _state_of(numbers: int) -> Drawn:
@@ -57,7 +56,7 @@ def _value(guard: Guard, numbers: int) -> CheckedFunction:
 
 @claim(GIVEN)
 def _no_jumps(guard: Guard, case: Case) -> str:
-    """Its value is continuous where the state moves."""
+    """The value of the guard is continuous where the state moves."""
     call = plain_caller(guard.value, "guard", guard.parameters())
     found = jump(lambda dt: [call(*_state(case, dt))], -_WHILE, _WHILE)
     return "" if found is None else f"{found[0]:.6g} s after the input it jumps by {found[1][0]:g}"

@@ -1,23 +1,23 @@
-"""Properties of impact laws, processes and maps alike."""
+"""Properties of impact laws, of processes that the engine integrates and of maps from rates to impulses."""
 
 from __future__ import annotations
 
 import functools
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
-from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, claim, rows
-from nonsmooth.testing.component import accepted, component_rows, numbers_of, variants
-from nonsmooth.testing.functions import Functions, plain_caller, scalar_function
-from nonsmooth.testing.impact_map import MAP, is_alone, map_function
-from nonsmooth.testing.impact_process import PROCESS
-from nonsmooth.testing.inputs import number
+from nonsmooth.testing.claims import FEWEST, GIVEN, Claim, Claims, claim, rows, wrong_verdict
+from nonsmooth.testing.component import accepted, numbers_of, variants
+from nonsmooth.testing.functions import OLD, CheckedFunction, all_rows, plain_caller, scalar_function, written
+from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
 from nonsmooth.testing.property import Property, properties
-from nonsmooth.testing.reference import ImpactProblem, ImpactResponse, point, problem_of, respond
+from nonsmooth.testing.reference import ImpactProblem, ImpactResponse, point, problem_of, respond, vectors_of
+from nonsmooth.types import Array
 
 _MU = number("friction", 0.02, 0.6, 0.2)
 _ROUGH = number("friction", 0.02, 1.2, 0.2)
@@ -28,11 +28,19 @@ _TURN = number("turn", -3.1, 3.1, 1.0)
 _SPEED = number("speed", 1e-2, 1e2, 1.0, is_log=True)
 _ONE = problem_of(1)
 _DRAWS, _DRAWS_BY_KIND = 10, 6
-_AFTER = "the velocities after are"
 _NEAR = 1e-6
 """Agreement of velocities after impacts that should be the same, relative to the largest."""
 _INDENTATIONS = (0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
 _RATES = (*(-np.geomspace(1e-9, 1e2, 6)).tolist(), 0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
+_INDENTATION = number("indentation", 1e-6, 1e1, 1.0, is_log=True)
+_RATE = number("rate", 1e-6, 1e2, 1.0, is_log=True)
+_STORED = number("stored", 1e-3, 1e3, 1.0, is_log=True)
+_GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
+_ANY_MU = number("friction", 0.0, 0.6)
+_OF_FUNCTION = 0.3
+"""Friction coefficient with which the function is tried."""
+_SHARED, _PROCESS, _MAP = Claims(fewest=FEWEST), Claims(fewest=FEWEST), Claims()
+"""Claims about all impact laws, about processes and about maps."""
 
 
 def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> list[Property]:
@@ -50,28 +58,27 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
 
 
 def _rows(law: ImpactLaw, restitution: str) -> list[Row]:
-    functions = Functions(lambda: [f for one in variants(law) for f in _functions(one)])
-    most = _ONE if is_alone(law) else problem_of(2)
+    most = _ONE if _is_alone(law) else problem_of(2)
     table = functools.partial(rows, components=lambda: variants(law), given=[most])
     found = table(_SHARED, count=_DRAWS)
     if isinstance(law, ImpactProcess):
-        found += table(PROCESS, count=_DRAWS_BY_KIND)
+        found += table(_PROCESS, count=_DRAWS_BY_KIND)
     if isinstance(law, ImpactMap):
-        found += table(MAP, count=4)
+        found += table(_MAP, count=4)
     found += [
         Row("limit e -> 0", _plastic.says, lambda: _check_limit(law, restitution, 0.0, _plastic)),
         Row("limit e -> 1", _elastic.says, lambda: _check_limit(law, restitution, 1.0, _elastic)),
     ]
-    return [*component_rows(law), *functions.rows(), *functions.guarded(found)]
+    return all_rows(law, lambda: [f for one in variants(law) for f in _functions(one)], found)
 
 
-def _functions(law: ImpactLaw) -> list[Any]:
+def _functions(law: ImpactLaw) -> list[CheckedFunction]:
     if isinstance(law, ImpactProcess):
         return [
             scalar_function(law, "force", _INDENTATIONS, law.parameters()),
             scalar_function(law, "efficiency", _RATES, law.parameters()),
         ]
-    return [map_function(law)] if isinstance(law, ImpactMap) else []
+    return _map_functions(law) if isinstance(law, ImpactMap) else []
 
 
 def _check_limit(law: ImpactLaw, restitution: str, value: float, limit: Claim) -> None:
@@ -87,7 +94,7 @@ def _respond(law: ImpactLaw, p: ImpactProblem, mu: float) -> ImpactResponse:
     return respond([law] * p.n, [mu] * p.n, p)
 
 
-@claim(GIVEN, _MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU)
 def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """After the impact no contact approaches."""
     r = _respond(law, p, mu)
@@ -95,9 +102,9 @@ def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     return f"a gap closes at {-least:g} m/s afterwards" if least < -1e-7 * r.size else ""
 
 
-@claim(GIVEN, _MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU)
 def _cone(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """Normal impulses push, tangential ones lie in the cone of the friction coefficient."""
+    """Normal impulses push, and tangential impulses lie in the cone of the friction coefficient."""
     r = _respond(law, p, mu)
     small = 1e-8 * r.size
     for normal, *across in r.impulse:
@@ -116,39 +123,37 @@ def _gain(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     return f"the kinetic energy rises by {gain:g} J" if gain > 1e-7 * r.size**2 else ""
 
 
-@claim(GIVEN, fewest=FEWEST)
+@_SHARED.claim(GIVEN)
 def _dissipation(law: ImpactLaw, p: ImpactProblem) -> str:
     """Without friction no impact of approaching contacts gains energy."""
     return _gain(law, p, 0.0)
 
 
-@claim(GIVEN, _ROUGH, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _ROUGH)
 def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """Nor does an impact with friction gain energy."""
+    """With friction no impact of approaching contacts gains energy."""
     # one contact alone too, with slip in and against the lean of the body
-    one = ImpactProblem(p.mass, p.normal[:, :1], p.tangential[:, :1], p.velocity)
-    back = ImpactProblem(p.mass, one.normal, one.tangential, p.velocity * np.array([-1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
+    one = replace(p, normal=p.normal[:, :1], tangential=p.tangential[:, :1])
+    back = replace(one, velocity=p.velocity * np.array([-1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
     return _gain(law, one, mu) or _gain(law, back, mu) or _gain(law, p, mu)
 
 
-@claim(_ONE, _MU, _FACTOR, fewest=FEWEST)
+@_SHARED.claim(_ONE, _MU, _FACTOR)
 def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
-    """Masses times c: the same velocities, impulses times c."""
-    one, other = (_respond(law, q, mu) for q in (p, ImpactProblem(c * p.mass, p.normal, p.tangential, p.velocity)))
-    if _apart(one.velocity, other.velocity, one.size):
-        return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} with {c:g} times the mass"
+    """If all masses are c times as large, so are the impulses, and the velocities are the same."""
+    one, other = _respond(law, p, mu), _respond(law, replace(p, mass=c * p.mass), mu)
+    if fault := _difference(one, other.velocity, f"with {c:g} times the mass"):
+        return fault
     return "impulses are not proportional" if _apart(c * one.impulse, other.impulse, c * one.size) else ""
 
 
-@claim(GIVEN, _MU, _FACTOR, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _FACTOR)
 def _scaling_of_velocities(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
-    """Velocities times c before: times c after."""
+    """If all velocities before are c times as large, so are those after."""
     if isinstance(law, ImpactProcess) and not _is_homogeneous(law):
         raise NotChecked(f"{type(law).__name__}: its force is no power or its efficiency depends on the rate")
-    one, other = (_respond(law, q, mu) for q in (p, ImpactProblem(p.mass, p.normal, p.tangential, c * p.velocity)))
-    if not _apart(c * one.velocity, other.velocity, c * one.size):
-        return ""
-    return f"{_AFTER} {_list(one.velocity)}, and of {c:g} times those before {_list(other.velocity / c)} times {c:g}"
+    one, other = _respond(law, p, mu), _respond(law, replace(p, velocity=c * p.velocity), mu)
+    return _difference(one, other.velocity / c, f"times {c:g} with {c:g} times those before")
 
 
 def _is_homogeneous(law: ImpactProcess) -> bool:
@@ -158,30 +163,26 @@ def _is_homogeneous(law: ImpactProcess) -> bool:
     return max(powers) - min(powers) < 1e-9 and max(shares) - min(shares) < 1e-12
 
 
-@claim(GIVEN, _MU, _TURN, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _TURN)
 def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) -> str:
     """Turning the tangents of the contacts changes no velocity."""
     one, other = _respond(law, p, mu), _respond(law, p.turned(turn), mu)
-    if not _apart(one.velocity, other.velocity, one.size):
-        return ""
-    return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} in tangents turned by {turn:g} rad"
+    return _difference(one, other.velocity, f"in tangents turned by {turn:g} rad")
 
 
-@claim(GIVEN, _MU, _OTHER_MU, fewest=FEWEST)
+@_SHARED.claim(GIVEN, _MU, _OTHER_MU)
 def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -> str:
     """The order of the contacts does not matter."""
-    if is_alone(law):
+    if _is_alone(law):
         raise NotChecked(f"{type(law).__name__}: it is a law of one contact")
-    swapped = ImpactProblem(p.mass, p.normal[:, ::-1].copy(), p.tangential[:, ::-1].copy(), p.velocity)
+    swapped = replace(p, normal=p.normal[:, ::-1].copy(), tangential=p.tangential[:, ::-1].copy())
     one, other = respond([law] * 2, (mu, other_mu), p), respond([law] * 2, (other_mu, mu), swapped)
-    if not _apart(one.velocity, other.velocity, one.size):
-        return ""
-    return f"{_AFTER} {_list(one.velocity)}, and {_list(other.velocity)} in the other order"
+    return _difference(one, other.velocity, "in the other order")
 
 
-@claim(GIVEN, name="limit mu -> 0", fewest=FEWEST)
+@_SHARED.claim(GIVEN, name="limit mu -> 0")
 def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
-    """Without friction no tangential impulse; with next to none, next to none."""
+    """Without friction there is no tangential impulse, and with little friction little of it."""
     for mu in (0.0, 1e-8):
         r = _respond(law, p, mu)
         across = float(np.max(np.abs(r.impulse[:, 1:])))
@@ -190,9 +191,9 @@ def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
     return ""
 
 
-@claim(_MU, _HEADING, fewest=FEWEST)
+@_SHARED.claim(_MU, _HEADING)
 def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
-    """An impact too slight to end the slip rubs as sustained contact does."""
+    """In an impact too slight to end the slip, friction is that of sustained contact."""
     slip = np.array([math.cos(heading), math.sin(heading)])
     r = _respond(law, point((*slip, -1e-4)), mu)
     ratio = r.impulse[0, 1:] / r.impulse[0, 0]
@@ -201,26 +202,11 @@ def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
     return ""
 
 
-@claim()
+@_SHARED.claim()
 def _contact_time(law: ImpactLaw) -> str:
     """The contact time is a finite number >= 0."""
     time = law.contact_time
     return "" if math.isfinite(time) and time >= 0.0 else f"it is {time} s, and not a finite number >= 0"
-
-
-_SHARED = [
-    _no_approach_after,
-    _cone,
-    _dissipation,
-    _dissipation_with_friction,
-    _scaling_of_masses,
-    _scaling_of_velocities,
-    _frame_invariance,
-    _permutation,
-    _smooth,
-    _force_and_impact_level,
-    _contact_time,
-]
 
 
 @claim(_SPEED, _MU)
@@ -232,10 +218,17 @@ def _plastic(law: ImpactLaw, speed: float, mu: float) -> str:
 
 @claim(_SPEED, _MU)
 def _elastic(law: ImpactLaw, speed: float, mu: float) -> str:
-    """With full restitution a slow impact gives back all."""
+    """With full restitution a slow impact keeps the energy."""
     slow = 1e-9 * speed
     after = float(_respond(law, point((0.0, 0.0, -slow)), mu).after[0, 0])
     return f"of {slow:g} m/s it leaves {after:g} m/s" if abs(after - slow) > 1e-4 * slow else ""
+
+
+def _difference(one: ImpactResponse, other: Array, words: str) -> str:
+    """Return that the velocities after two impacts differ; "" if they are the same."""
+    if not _apart(one.velocity, other, one.size):
+        return ""
+    return f"the velocities after are {_list(one.velocity)}, and {_list(other)} {words}"
 
 
 def _apart(one: Any, other: Any, size: float) -> bool:
@@ -244,3 +237,101 @@ def _apart(one: Any, other: Any, size: float) -> bool:
 
 def _list(values: Any) -> str:
     return np.array2string(np.asarray(values), precision=6, separator=", ", suppress_small=True).replace("\n", "")
+
+
+@_PROCESS.claim(_INDENTATION)
+def _force(law: ImpactProcess, indentation: float) -> str:
+    """The force is zero without indentation and rises with it."""
+    force = plain_caller(law.force, "scalar", law.parameters())
+    if force(0.0) != 0.0:
+        return f"force(0) is {force(0.0):g}"
+    for less in (indentation, *_GRID):
+        low, high = force(less), force(1.5 * less)
+        if not high > low > 0.0:
+            return f"force({less:g}) is {low:g} and force({1.5 * less:g}) {high:g}"
+    return ""
+
+
+@_PROCESS.claim(_RATE)
+def _efficiency(law: ImpactProcess, drawn: float) -> str:
+    """The efficiency is 1 at negative rates, and between 0 and 1 at others."""
+    efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
+    for rate in (0.0, drawn, *_GRID):
+        if rate > 0.0 and efficiency(-rate) != 1.0:
+            return f"efficiency({-rate:g}) is {efficiency(-rate):g}"
+        if not 0.0 <= efficiency(rate) <= 1.0:
+            return f"efficiency({rate:g}) is {efficiency(rate):g}"
+    return ""
+
+
+@_PROCESS.claim(problem_of(2), _ANY_MU, name="certificate")
+def _certificate_of_energies(law: ImpactProcess, p: ImpactProblem, mu: float) -> str:
+    """Energies that the engine stores and gives back in an impact obey the law."""
+    r = respond([law] * 2, [mu] * 2, p)
+    size = float(np.max(r.stored, initial=0.0))
+    for stored, returned in zip(r.stored.tolist(), r.returned.tolist(), strict=True):
+        if not law.is_fulfilled(stored, returned, 1e-7 * size + 1e-12):
+            return f"is_fulfilled refuses {returned:g} J back of {stored:g} J"
+    return ""
+
+
+@_PROCESS.claim(_STORED)
+def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
+    """More energy back than was stored does not obey the law."""
+    if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
+        return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
+    return ""
+
+
+def _is_alone(law: ImpactLaw) -> bool:
+    """True for a law of a single contact."""
+    return isinstance(law, ImpactMap) and law.one_contact
+
+
+def _map_functions(law: ImpactMap) -> list[CheckedFunction]:
+    """Return the function of a map, with problems of one contact, and of two unless it is a law of a single one."""
+    return [_of_contacts(law, 1)] if _is_alone(law) else [_of_contacts(law, 1), _of_contacts(law, 2)]
+
+
+def _of_contacts(law: ImpactMap, n: int) -> CheckedFunction:
+    drawn, words = problem_of(n), f"{n} contact{'s' * (n > 1)}"
+    inputs = [(words, _given(drawn.made(case))) for case in draws([drawn], 3)]
+    return CheckedFunction(law, "impulses", "map", vectors_of([law] * n, [_OF_FUNCTION] * n), inputs, 3 * n)
+
+
+def _given(p: ImpactProblem) -> tuple[int, Array, Array]:
+    """Return the arguments of the function of a map."""
+    return p.n, np.ascontiguousarray(p.delassus).ravel(), p.rates
+
+
+def _impulses(law: ImpactMap, p: ImpactProblem, mu: float, old: float = 0.0) -> Array:
+    call = plain_caller(law.impulses, "map", vectors_of([law] * p.n, [mu] * p.n))
+    return written(lambda out: call(*_given(p), out), 3 * p.n, old)[: 3 * p.n]
+
+
+@_MAP.claim(GIVEN, _ANY_MU)
+def _writes_its_block(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
+    """It writes every impulse, whatever stood there, and nothing beyond."""
+    clean, used = (_impulses(law, p, mu, old) for old in (0.0, OLD))
+    return "" if np.allclose(clean, used, rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"
+
+
+@_MAP.claim(GIVEN, _ANY_MU, name="certificate")
+def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
+    """The impulses of the law obey it; larger ones, other friction and no impulse on closing contacts do not."""
+    obeying, delassus, before = _impulses(law, p, mu), p.delassus, p.rates
+    tolerance = _NEAR * float(np.max(np.abs(before)))
+    across = obeying * np.tile([0.0, 1.0, 1.0], p.n)
+    wrong = {
+        "1.1 times its impulses": 1.1 * obeying,
+        "1.2 times its friction": obeying + 0.2 * across,
+        "no impulses": 0.0 * obeying,
+    }
+    # impulses that change no velocity are the same solution
+    others = {k: v for k, v in wrong.items() if np.max(np.abs(delassus @ (v - obeying))) > 1e3 * tolerance}
+    friction = vectors_of([law] * p.n, [mu] * p.n)["friction"]
+    for words, impulses in {"its impulses": obeying, **others}.items():
+        is_accepted = law.is_fulfilled(delassus, before, impulses, friction, tolerance)
+        if verdict := wrong_verdict(is_accepted, impulses is obeying):
+            return f"{verdict} {words}"
+    return ""

@@ -1,4 +1,4 @@
-"""Inputs of the properties: drawn by hypothesis, made as simple as they fail; and the values of declared parameters.
+"""Inputs of the properties: drawn by hypothesis, made as simple as they fail.
 
 A number is one of a thousand steps between its simplest value and either bound. Hypothesis draws the steps and makes a
 failing input simpler step by step. So a message names numbers of a size that means something.
@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import functools
 import importlib.util
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, final
 
 from nonsmooth.errors import MissingPackagesError
-from nonsmooth.parameters import Rule
 
 Case = dict[str, float]
 """Numbers by name."""
@@ -172,43 +170,3 @@ def _run(sizes: tuple[int, ...], count: int, trial: Callable[[tuple[int, ...]], 
         trial(tuple(one - _ORIGIN for one in numbers))
 
     run()
-
-
-# values of declared parameters
-
-_FAR = 3.0
-"""Ratio of other values of a parameter to the given one."""
-_JUST = 1e-9
-"""Distance past a bound, relative to it, that a component must notice."""
-
-
-def inside(value: float | None, rule: Rule) -> tuple[float, ...]:
-    """Return values within the declared range of a parameter: bounds that belong to it and values between."""
-    low, high = max(rule.minimum, rule.above), rule.maximum
-    tried = [rule.minimum, rule.maximum]
-    if value is not None:
-        tried += [value, value / _FAR, value * _FAR]
-    if low > -math.inf and high < math.inf:
-        tried.append(0.5 * (low + high))
-    return tuple(x for x in dict.fromkeys(tried) if math.isfinite(x) and low <= x <= high and x > rule.above)
-
-
-def outside(rule: Rule) -> tuple[float, ...]:
-    """Return values outside of the declared range of a parameter, and those that are not finite."""
-    found = [math.nan, math.inf, -math.inf]
-    for bound, sign in ((rule.minimum, -1.0), (rule.maximum, 1.0)):
-        if math.isfinite(bound):
-            found += [bound + sign * (_JUST + _JUST * abs(bound)), bound + sign * (1.0 + abs(bound))]
-    if math.isfinite(rule.above):
-        found += [rule.above, rule.above - 1.0]
-    return tuple(found)
-
-
-def typical(rule: Rule) -> float:
-    """Return a value in the middle of the declared range of a parameter, or of its usual range."""
-    low, high = max(rule.minimum, rule.above), rule.maximum
-    if math.isfinite(low) and math.isfinite(high):
-        return 0.5 * (low + high)
-    if rule.usual[0] > 0.0 and math.isfinite(rule.usual[1]):
-        return math.sqrt(rule.usual[0] * rule.usual[1])
-    return low + 1.0 if math.isfinite(low) else high - 1.0 if math.isfinite(high) else 1.0

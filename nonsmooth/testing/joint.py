@@ -9,15 +9,15 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_A, POINT_B, RESIDUAL, ROW_BIAS
 from nonsmooth.interfaces import Joint
 from nonsmooth.rotations import rotation, turned
-from nonsmooth.testing.claims import claim, rows
-from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.claims import Claims, claim, rows
 from nonsmooth.testing.differences import slope
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws
-from nonsmooth.testing.movement import MOVEMENT, SHIFT, STEP, TURN, Array, Frames, Movement, moved
+from nonsmooth.testing.movement import MOVEMENT, SHIFT, STEP, TURN, Frames, Movement, moved
 from nonsmooth.testing.outcome import Broken, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_ends
+from nonsmooth.types import Array
 
 _DRAWS = 24
 _SAME, _ROUND_OFF = 1e-7, 1e-9
@@ -34,6 +34,7 @@ _MOST_ROWS = 6
 _TRIES, _STEPS = 12, 40
 _CLOSED = 1e-12
 _INDEPENDENT = 1e-9
+_JOINT = Claims()
 
 
 def check_joint(joint: Joint) -> list[Property]:
@@ -48,14 +49,8 @@ def check_joint(joint: Joint) -> list[Property]:
 
 
 def _rows(joint: Joint) -> list[Row]:
-    functions = Functions(lambda: [_evaluator(joint)])
     table = functools.partial(rows, components=lambda: [joint], count=_DRAWS)
-    return [
-        *component_rows(joint),
-        *table([_number_of_rows]),
-        *functions.rows(),
-        *functions.guarded(table(_JOINT)),
-    ]
+    return all_rows(joint, lambda: [_evaluator(joint)], table(_JOINT), table([_number_of_rows]))
 
 
 def _evaluator(joint: Joint) -> CheckedFunction:
@@ -84,14 +79,13 @@ def _rates(joint: Joint, at: Frames) -> Array:
 
 
 @claim()
-def _number_of_rows(joint: Joint) -> str:
-    """It takes one to six degrees of freedom."""
+def _number_of_rows(joint: Joint) -> None:
+    """The joint takes one to six degrees of freedom."""
     if joint.n_rows not in range(1, _MOST_ROWS + 1):
         raise Broken(f"it must be a whole number from 1 to {_MOST_ROWS}", "n_rows", joint.n_rows)
-    return ""
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _writes_its_block(joint: Joint, move: Movement) -> str:
     """It writes every number that can be non-zero, and nothing beyond its rows."""
     call, here, there = plain_caller(joint.evaluator, "pair", joint.parameters()), move.at(), move.mirrored.at()
@@ -107,21 +101,21 @@ def _unlike(name: str, given: Array, found: Array, known: float) -> str:
     return f"the {name} of row {worst} is {given[worst]:.9g}, the differences give {found[worst]:.9g}"
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _rate(joint: Joint, move: Movement) -> str:
-    """Axis and moment give the derivative of the residual, by differences."""
+    """Axis and moment give the derivative of the residual."""
     return _unlike("rate", _rates(joint, move.at()), *slope(lambda dt: _look(joint, move.at(dt))[:, RESIDUAL], STEP))
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _bias(joint: Joint, move: Movement) -> str:
-    """It is the derivative of the rate while u' = 0, by differences."""
+    """The bias of a row is the derivative of its rate while u' = 0."""
     # the frames' accelerations are those that their bodies have while u' = 0
     bias = _look(joint, move.at())[:, ROW_BIAS]
     return _unlike("bias", bias, *slope(lambda dt: _rates(joint, move.at(dt)), STEP))
 
 
-@claim(MOVEMENT)
+@_JOINT.claim(MOVEMENT)
 def _frame_invariance(joint: Joint, move: Movement) -> str:
     """If both bodies are moved together, residuals stay and axes turn with them."""
     here, there = _look(joint, move.at()), _look(joint, moved(move.at()))
@@ -159,22 +153,21 @@ def _closed(joint: Joint) -> list[Frames]:
     return found
 
 
-@claim()
+@_JOINT.claim()
 def _can_be_closed(joint: Joint) -> str:
-    """There are poses at which all residuals vanish."""
+    """There are poses of the bodies at which all residuals vanish."""
     return "" if _closed(joint) else f"Newton's method finds none from {_TRIES} places"
 
 
-@claim()
-def _ends(joint: Joint) -> str:
-    """It can be drawn where it holds."""
+@_JOINT.claim()
+def _ends(joint: Joint) -> None:
+    """The joint can be drawn where it holds."""
     require_ends(joint.ends)
-    return ""
 
 
-@claim()
-def _independent_rows(joint: Joint) -> str:
-    """If it is closed, no row follows from the others."""
+@_JOINT.claim()
+def _independent_rows(joint: Joint) -> None:
+    """Where the joint is closed, no row follows from the others."""
     ranks = []
     for at in _closed(joint):
         lines = np.array([_sides(row, at) for row in _look(joint, at)])
@@ -185,7 +178,3 @@ def _independent_rows(joint: Joint) -> str:
     # a single pose may be singular
     if ranks and max(ranks) < joint.n_rows:
         raise Broken(f"only {max(ranks)} of its rows are independent", "n_rows", joint.n_rows)
-    return ""
-
-
-_JOINT = [_writes_its_block, _rate, _bias, _frame_invariance, _can_be_closed, _ends, _independent_rows]

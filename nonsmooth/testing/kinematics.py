@@ -9,36 +9,21 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.blocks import (
-    FEATURE,
-    FRAME,
-    GAP,
-    NORMAL,
-    PAIR,
-    PAST_END,
-    POINT_A,
-    POINT_B,
-    POSITION,
-    ROTATION,
-    SIDE_A,
-    TANGENT,
-    VELOCITY,
-)
+from nonsmooth.engine.memory import blocks
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.rotations import rotation, turned
-from nonsmooth.testing.claims import GIVEN, Claim, claim, rows
-from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller
+from nonsmooth.testing.claims import GIVEN, Claim, Claims, Inapplicable, claim, rows
+from nonsmooth.testing.differences import slope
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
 from nonsmooth.testing.outcome import Broken, Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import ContactRig, Pose
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 _DRAWS, _MOST_DRAWS = 40, 400
 _STEP = 5e-4
 _PLACE = (0.31, -0.23, 0.37)
@@ -48,7 +33,9 @@ _DEEP = 0.1
 _RATE, _BIAS = 1e-7, 1e-5
 """Deviation from differences that counts as none, in units of the speeds and accelerations."""
 _UNIT = np.array([1.0, 0.0, 0.0, 0.0])
-_NORMAL, _TANGENT = slice(NORMAL, TANGENT), slice(TANGENT, POINT_A)
+_AT_PLACES, _MOVED = Claims(), Claims()
+"""Claims about the bodies at their places, and about bodies that are moved together."""
+_NORMAL, _TANGENT = slice(blocks.NORMAL, blocks.TANGENT), slice(blocks.TANGENT, blocks.POINT_A)
 
 
 def check_contact_kinematics(
@@ -85,20 +72,19 @@ def _rows(kinematics: ContactKinematics, shapes: tuple[Shape, Shape], reach: flo
     smooth: set[int] = set()
     rig = functools.cache(lambda: ContactRig(kinematics, shapes))
     bounded = all(math.isfinite(shape.extent) for shape in shapes)
-    placed = Drawn(_numbers(reach), lambda case: _Placed(case, rig(), reach, bounded, smooth))
-    functions = Functions(lambda: [_evaluator(kinematics, reach)])
+    placed = Drawn(_numbers(reach), lambda case: _Placed(case, rig(), reach, smooth).shallow(bounded))
     table = functools.partial(rows, components=lambda: [kinematics], count=_DRAWS, given=[placed])
     pair = "`between` gives it, for shapes of the classes in `pair`"
     found = [
         Row("pair", pair, lambda: _check_between(kinematics, shapes)),
-        *table([_writes_its_block, _axes, _witness_points, _feature]),
+        *table(_AT_PLACES),
         *(
             Row(one.name, one.says, functools.partial(_examine_where_smooth, one.at(placed), kinematics, smooth))
             for one in (_gap_rate, _second_order_terms)
         ),
-        *table([_tangent_follows_the_first_body, _frame_invariance]),
+        *table(_MOVED),
     ]
-    return [*component_rows(kinematics), *functions.rows(), *functions.guarded(found)]
+    return all_rows(kinematics, lambda: [_evaluator(kinematics, reach)], found)
 
 
 def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set[int]) -> None:
@@ -132,15 +118,16 @@ def _poses(case: Case, dt: float = 0.0) -> list[Pose]:
 
 
 def _frame(pose: Pose) -> Array:
-    block = np.zeros(FRAME)
-    block[POSITION:ROTATION], block[ROTATION:VELOCITY] = pose[0], rotation(pose[1]).ravel()
+    block = np.zeros(blocks.FRAME)
+    block[blocks.POSITION : blocks.ROTATION] = pose[0]
+    block[blocks.ROTATION : blocks.VELOCITY] = rotation(pose[1]).ravel()
     return block
 
 
 def _evaluator(kinematics: ContactKinematics, reach: float) -> CheckedFunction:
     cases = draws([Drawn(_numbers(reach), dict)], 8)
     inputs = [("a, b", tuple(map(_frame, _poses(case)))) for case in cases]
-    return CheckedFunction(kinematics, "evaluator", "pair", kinematics.parameters(), inputs, PAIR)
+    return CheckedFunction(kinematics, "evaluator", "pair", kinematics.parameters(), inputs, blocks.PAIR)
 
 
 @final
@@ -156,8 +143,6 @@ class _Placed:
         The rig, which all inputs share.
     reach : float
         Largest distance of the bodies [m].
-    is_bounded : bool
-        True if both shapes are.
     smooth : set of int
         Gets a number if the contact is smooth at the place.
     """
@@ -165,7 +150,6 @@ class _Placed:
     case: Case
     rig: ContactRig
     reach: float
-    is_bounded: bool
     smooth: set[int]
 
     def put(self, dt: float = 0.0) -> ContactRig:
@@ -174,28 +158,29 @@ class _Placed:
         self.rig.put(_poses(self.case, dt), np.concatenate(u))
         return self.rig
 
-    @property
-    def is_deep(self) -> bool:
-        """True if the cores of two bodies meet, where the normal has no value."""
-        return self.is_bounded and self.put().geometry[GAP] < -_DEEP * self.reach
+    def shallow(self, is_bounded: bool) -> _Placed:
+        """Return itself, unless the cores of two bounded bodies meet, where the normal has no value."""
+        if is_bounded and self.put().geometry[blocks.GAP] < -_DEEP * self.reach:
+            raise Inapplicable
+        return self
 
     def derivative(self, value: Callable[[ContactRig], Array]) -> Array | None:
         """Return the derivative in time while u' = 0, None if a feature changes or it is not smooth."""
-        feature = self.put().geometry[FEATURE]
-        if self.rig.geometry[PAST_END] > 0.0:
+        feature = self.put().geometry[blocks.FEATURE]
+        if self.rig.geometry[blocks.PAST_END] > 0.0:
             return None
-        at: dict[int, Array] = {}
-        for i in (-4, -2, -1, 1, 2, 4):
-            rig = self.put(i * _STEP)
-            if rig.geometry[FEATURE] != feature or rig.geometry[PAST_END] > 0.0:
-                return None
-            at[i] = np.array(value(rig))
-        fine = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * _STEP)
-        coarse = (8.0 * (at[2] - at[-2]) - (at[4] - at[-4])) / (24.0 * _STEP)
-        if np.max(np.abs(fine - coarse)) > 0.1 * _RATE * (1.0 + float(np.max(np.abs(fine)))):
+
+        def smooth_value(dt: float) -> Array:
+            rig = self.put(dt)
+            block, found = rig.geometry, np.array(value(rig))
+            is_smooth = block[blocks.FEATURE] == feature and block[blocks.PAST_END] <= 0.0
+            return found if is_smooth else np.full_like(found, math.nan)
+
+        found, error = slope(smooth_value, _STEP)
+        if not error <= 0.1 * _RATE * (1.0 + float(np.max(np.abs(found)))):
             return None
         self.smooth.add(1)
-        return np.asarray(fine)
+        return found
 
     def moved_together(self, turn: Array, part: slice, name: str) -> str:
         """Return the fault of a vector of the geometry that does not turn with both bodies; they stay moved."""
@@ -209,19 +194,6 @@ class _Placed:
         return ""
 
 
-def _shallow(name: str = "", n_inputs: int | None = None) -> Callable[[Callable[..., str]], Claim]:
-    """Make a claim that is tried only where the bodies are not deep in each other."""
-
-    def made(trial: Callable[..., str]) -> Claim:
-        @functools.wraps(trial)
-        def tried(kinematics: ContactKinematics, at: _Placed) -> str:
-            return "" if at.is_deep else trial(kinematics, at)
-
-        return claim(GIVEN, name=name, n_inputs=n_inputs)(tried)
-
-    return made
-
-
 def _check_between(kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
     owner = type(kinematics)
     if not all(isinstance(shape, kind) for shape, kind in zip(shapes, owner.pair, strict=True)):
@@ -232,7 +204,7 @@ def _check_between(kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -
         raise Broken("features must have names, each another", "features", kinematics.features)
 
 
-@_shallow(n_inputs=80)
+@_AT_PLACES.claim(GIVEN, n_inputs=80)
 def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
     """It writes every number that can be non-zero, and nothing beyond the block."""
     case, call = at.case, plain_caller(kinematics.evaluator, "pair", kinematics.parameters())
@@ -240,12 +212,12 @@ def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
     here = tuple(map(_frame, _poses(case)))
     for other in (turned_there, turned_there | {"place_y": case["place_y"] - at.reach}):
         there = tuple(map(_frame, _poses(other)))
-        if fault := left_over(lambda out: call(*here, out), lambda out, there=there: call(*there, out), PAIR):  # type: ignore[misc]
+        if fault := left_over(lambda out: call(*here, out), lambda out, there=there: call(*there, out), blocks.PAIR):  # type: ignore[misc]
             return fault
     return ""
 
 
-@_shallow()
+@_AT_PLACES.claim(GIVEN)
 def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
     """Normal and first tangent are unit vectors at right angles."""
     block = at.put().geometry
@@ -256,26 +228,27 @@ def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
     return ""
 
 
-@_shallow()
+@_AT_PLACES.claim(GIVEN)
 def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
-    """They are the gap apart, along the normal."""
+    """The witness points are the gap apart, along the normal."""
     block = at.put().geometry
-    gap, n, apart = block[GAP], block[_NORMAL], block[POINT_B:SIDE_A] - block[POINT_A:POINT_B]
+    gap, n = block[blocks.GAP], block[_NORMAL]
+    apart = block[blocks.POINT_B : blocks.SIDE_A] - block[blocks.POINT_A : blocks.POINT_B]
     if np.max(np.abs(apart - gap * n)) > 1e-9 * (at.reach + abs(gap)):
         return f"they are {apart} apart, the gap is {gap:g} m along {n}"
     return ""
 
 
-@_shallow()
+@_AT_PLACES.claim(GIVEN)
 def _feature(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The number of the feature is one of those named."""
-    found, n = float(at.put().geometry[FEATURE]), len(kinematics.features)
+    """The number of the feature is that of a named feature."""
+    found, n = float(at.put().geometry[blocks.FEATURE]), len(kinematics.features)
     return "" if found in range(n) else f"it is {found:g}, of {n} features"
 
 
-@_shallow()
+@claim(GIVEN)
 def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The rate of the gap is its derivative in time, by differences."""
+    """The rate of the gap is its derivative in time."""
     rate = float(at.put().rate[0])
     found = at.derivative(lambda rig: rig.geometry[:1])
     if found is None or abs(found[0] - rate) <= _RATE * (1.0 + at.reach):
@@ -283,9 +256,9 @@ def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
     return f"it is {rate:.9g} m/s, the differences give {found[0]:.9g}"
 
 
-@_shallow("second-order terms")
+@claim(GIVEN, name="second-order terms")
 def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
-    """Those of gap and slip are the derivatives of their rates while u' = 0, by differences."""
+    """The second-order terms of gap and slip are the derivatives of their rates while u' = 0."""
     rig = at.put()
     axes, rate, bias = rig.axes, rig.rate, rig.bias
     found = at.derivative(lambda r: np.append(r.rate[0], r.rate[1:] @ r.axes[1:]))
@@ -301,19 +274,19 @@ def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
     return f"that of {name} is {bias[worst]:.9g} m/s^2, the differences give {expected[worst]:.9g}"
 
 
-@_shallow()
+@_MOVED.claim(GIVEN)
 def _tangent_follows_the_first_body(kinematics: ContactKinematics, at: _Placed) -> str:
     """If both bodies turn together, so does the first tangent."""
     # a turn about the normal, so that a tangent fixed in space would show
     return at.moved_together(0.3 * at.put().geometry[_NORMAL], _TANGENT, "first tangent")
 
 
-@_shallow()
+@_MOVED.claim(GIVEN)
 def _frame_invariance(kinematics: ContactKinematics, at: _Placed) -> str:
     """If both bodies are moved together, the gap stays and the normal turns with them."""
-    before = float(at.put().geometry[GAP])
+    before = float(at.put().geometry[blocks.GAP])
     wrong = at.moved_together(np.array([0.4, -0.3, 0.5]), _NORMAL, "normal")
-    gap = float(at.rig.geometry[GAP])
+    gap = float(at.rig.geometry[blocks.GAP])
     if not wrong and abs(gap - before) > 1e-9 * (at.reach + abs(gap)):
         return f"the gap is {before:.9g} m, and {gap:.9g} m where both bodies are moved"
     return wrong

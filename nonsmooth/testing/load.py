@@ -7,15 +7,15 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import FORCE, LOAD, LOAD_MOMENT, LOAD_POINT
 from nonsmooth.interfaces import Load
 from nonsmooth.rotations import cross
-from nonsmooth.testing.claims import claim, rows
-from nonsmooth.testing.component import component_rows
+from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.differences import jump
-from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
+from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
-from nonsmooth.testing.movement import MOVEMENT, SHIFT, TURN, Array, Frames, Movement, moved, shared
+from nonsmooth.testing.movement import MOVEMENT, SHIFT, TURN, Frames, Movement, moved, shared
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_ends
+from nonsmooth.types import Array
 
 _DRAWS = 24
 _SAME = 1e-9
@@ -29,6 +29,8 @@ _PARTS = {
     "point": slice(LOAD_POINT, LOAD_MOMENT),
     "moment": slice(LOAD_MOMENT, LOAD),
 }
+_LOAD, _FREE = Claims(), Claims()
+"""Claims about every load, and about loads that are not tied to space."""
 
 
 def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
@@ -46,9 +48,8 @@ def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
 
 
 def _rows(load: Load, tied_to_space: bool) -> list[Row]:
-    functions = Functions(lambda: [_evaluator(load)])
-    claims = _LOAD if tied_to_space else [*_LOAD, _frame_invariance, _relative_motion]
-    return [*component_rows(load), *functions.rows(), *functions.guarded(rows(claims, lambda: [load], _DRAWS))]
+    claims = _LOAD if tied_to_space else [*_LOAD, *_FREE]
+    return all_rows(load, lambda: [_evaluator(load)], rows(claims, lambda: [load], _DRAWS))
 
 
 def _evaluator(load: Load) -> CheckedFunction:
@@ -61,14 +62,14 @@ def _look(load: Load, t: float, at: Frames) -> Array:
     return written(lambda out: call(t, *at, out), LOAD)[:LOAD]
 
 
-@claim(_TIME, MOVEMENT)
+@_LOAD.claim(_TIME, MOVEMENT)
 def _writes_its_block(load: Load, t: float, move: Movement) -> str:
     """It writes every number that can be non-zero, and nothing beyond the block."""
     call, here, there = plain_caller(load.evaluator, "load", load.parameters()), move.at(), move.mirrored.at()
     return left_over(lambda out: call(t, *here, out), lambda out: call(1.0 - t, *there, out), LOAD)
 
 
-@claim(_TIME, MOVEMENT)
+@_LOAD.claim(_TIME, MOVEMENT)
 def _no_jumps(load: Load, t: float, move: Movement) -> str:
     """Force and moment are continuous where the bodies move."""
     found = jump(lambda dt: _about_origin(_look(load, t + dt, move.at(dt))), -_WHILE, _WHILE)
@@ -81,7 +82,7 @@ def _about_origin(block: Array) -> Array:
     return np.concatenate([force, moment + cross(point, force)])
 
 
-@claim(_TIME, MOVEMENT, name="time")
+@_LOAD.claim(_TIME, MOVEMENT, name="time")
 def _depends_on_time(load: Load, t: float, move: Movement) -> str:
     """A load that says so does not depend on time."""
     later = t + _LATER
@@ -90,14 +91,10 @@ def _depends_on_time(load: Load, t: float, move: Movement) -> str:
     return f"it differs at t = {later:.3g}: `depends_on_time` must be True"
 
 
-@claim()
-def _ends(load: Load) -> str:
-    """It can be drawn where it acts."""
+@_LOAD.claim()
+def _ends(load: Load) -> None:
+    """The load can be drawn where it acts."""
     require_ends(load.ends)
-    return ""
-
-
-_LOAD = [_writes_its_block, _no_jumps, _depends_on_time, _ends]
 
 
 def _unlike(given: Array, wanted: Array, words: str) -> str:
@@ -108,7 +105,7 @@ def _unlike(given: Array, wanted: Array, words: str) -> str:
     return ""
 
 
-@claim(_TIME, MOVEMENT)
+@_FREE.claim(_TIME, MOVEMENT)
 def _frame_invariance(load: Load, t: float, move: Movement) -> str:
     """If both bodies are moved together, force and moment turn with them."""
     wanted = (_look(load, t, move.at()).reshape(3, 3) @ TURN.T).ravel()
@@ -116,8 +113,8 @@ def _frame_invariance(load: Load, t: float, move: Movement) -> str:
     return _unlike(_look(load, t, moved(move.at())), wanted, "moved with the bodies")
 
 
-@claim(_TIME, MOVEMENT)
+@_FREE.claim(_TIME, MOVEMENT)
 def _relative_motion(load: Load, t: float, move: Movement) -> str:
-    """It does not feel a motion that both bodies share."""
+    """A motion that both bodies share changes neither force nor moment."""
     there = shared(move.at(), np.array([0.7, -1.1, 0.4]), np.array([-0.5, 0.9, 1.3]))
     return _unlike(_look(load, t, there), _look(load, t, move.at()), "without the shared motion")

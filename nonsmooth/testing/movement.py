@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.blocks import ACCELERATION, FRAME, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.rotations import cross, rotation, turned
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber
+from nonsmooth.types import Array
 
-Array = NDArray[np.float64]
 Frames = tuple[Array, Array]
 """The blocks of the first and of the second body's frame."""
 _UNIT = (1.0, 0.0, 0.0, 0.0)

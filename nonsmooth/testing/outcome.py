@@ -46,6 +46,16 @@ class Row(NamedTuple):
     check: Callable[[], None]
 
 
+def name_of(check: Callable[..., Any]) -> str:
+    """Return the name of a property: that of the function that checks it, with blanks."""
+    return check.__name__.strip("_").replace("_", " ")
+
+
+def says_of(check: Callable[..., Any]) -> str:
+    """Return the statement of a property: the docstring of the function that checks it."""
+    return " ".join(inspect.cleandoc(check.__doc__ or "").split()).rstrip(".")
+
+
 class Outcome(NamedTuple):
     """The result of a check: ``kind`` is "holds", "broken" or "not checked"; the rest says why."""
 

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory import owners
@@ -44,40 +43,35 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.materials import ContactLaws
 from nonsmooth.system.system import System
-from nonsmooth.testing.body_block import BlockPlaces
 from nonsmooth.testing.reference import ReferenceContact, ReferenceFriction, ReferenceImpact
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
 
-Array = NDArray[np.float64]
 Numbers = tuple[float, ...]
 Pose = tuple[Array, Array]
 """Position [m] and unit quaternion, scalar first."""
 _UNTURNED = (1.0, 0.0, 0.0, 0.0)
-_PLACES = BlockPlaces(n_frames=1, n_q=7, n_u=6)
-_RATES, _FORCE, _INVERSE_MASS, _ENERGY = _PLACES.rates, _PLACES.force, _PLACES.inverse_mass, _PLACES.energy
+_RATES = JACOBIAN + 36
+_FORCE = _RATES + 7
+_INVERSE_MASS = _FORCE + 6
+_ENERGY = _INVERSE_MASS + 36
+"""Positions of the parts after the Jacobian of the block of a body with 7 coordinates and 6 velocities."""
 _FINE = 1e-9
 """Tolerances of gap, velocity and time, in units of the puck's length and speed."""
+_STEP = 1e-10
+"""Tolerance of a step. Where the force ends, the error of the velocity goes into the place while the puck coasts.
 
-
-@compiled
-def _write_vector(out: Floats, place: int, x: float, y: float, z: float) -> None:
-    out[place], out[place + 1], out[place + 2] = x, y, z
-
-
-@compiled
-def _write_diagonal(out: Floats, place: int, first: float, last: float) -> None:
-    """Write the diagonal of a matrix of six rows: three numbers ``first``, then three ``last``."""
-    for i in range(3):
-        out[place + 7 * i], out[place + 21 + 7 * i] = first, last
+In the longest impact, an overdamped one, 1e-9 leaves an error of 1.2e-6 of the depth, and 1e-10 one of 8e-8: the checks
+allow 1e-6.
+"""
 
 
 @compiled
 def _write_rotation(out: Floats, a: float, b: float, c: float, d: float) -> None:
     """Write the rotation matrix of a unit quaternion."""
     xx, yy, zz = a * a + b * b - c * c - d * d, a * a - b * b + c * c - d * d, a * a - b * b - c * c + d * d
-    _write_vector(out, ROTATION, xx, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c))
-    _write_vector(out, ROTATION + 3, 2.0 * (b * c + a * d), yy, 2.0 * (c * d - a * b))
-    _write_vector(out, ROTATION + 6, 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), zz)
+    out[ROTATION], out[ROTATION + 1], out[ROTATION + 2] = xx, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    out[ROTATION + 3], out[ROTATION + 4], out[ROTATION + 5] = 2.0 * (b * c + a * d), yy, 2.0 * (c * d - a * b)
+    out[ROTATION + 6], out[ROTATION + 7], out[ROTATION + 8] = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), zz
 
 
 def _evaluate_slab(t: float, q: Floats, u: Floats, out: Floats, turn: Floats) -> None:
@@ -87,17 +81,17 @@ def _evaluate_slab(t: float, q: Floats, u: Floats, out: Floats, turn: Floats) ->
 def _evaluate_puck(
     t: float, q: Floats, u: Floats, out: Floats, mass: float, inertia: float, push: Floats, gravity_z: float
 ) -> None:
-    _write_vector(out, POSITION, q[0], q[1], q[2])
     _write_rotation(out, q[3], q[4], q[5], q[6])
-    _write_vector(out, VELOCITY, u[0], u[1], u[2])
-    _write_vector(out, SPIN, u[3], u[4], u[5])
-    _write_diagonal(out, JACOBIAN, 1.0, 1.0)
-    _write_vector(out, _RATES, u[0], u[1], u[2])
-    _write_vector(out, _FORCE, push[0], push[1], push[2] + mass * gravity_z)
-    _write_diagonal(out, _INVERSE_MASS, 1.0 / mass, 1.0 / inertia)
-    square, spin = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], u[3] * u[3] + u[4] * u[4] + u[5] * u[5]
-    out[_ENERGY] = 0.5 * (mass * square + inertia * spin)
-    out[_ENERGY + 1] = -mass * gravity_z * q[2] - push[0] * q[0] - push[1] * q[1] - push[2] * q[2]
+    kinetic, potential = 0.0, -mass * gravity_z * q[2]
+    for i in range(3):
+        out[POSITION + i], out[VELOCITY + i], out[SPIN + i] = q[i], u[i], u[3 + i]
+        out[JACOBIAN + 7 * i] = out[JACOBIAN + 21 + 7 * i] = 1.0
+        out[_RATES + i], out[_FORCE + i] = u[i], push[i]
+        out[_INVERSE_MASS + 7 * i], out[_INVERSE_MASS + 21 + 7 * i] = 1.0 / mass, 1.0 / inertia
+        kinetic += 0.5 * (mass * u[i] * u[i] + inertia * u[3 + i] * u[3 + i])
+        potential -= push[i] * q[i]
+    out[_FORCE + 2] = push[2] + mass * gravity_z
+    out[_ENERGY], out[_ENERGY + 1] = kinetic, potential
 
 
 def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: Floats) -> None:
@@ -228,6 +222,7 @@ def run(
         Those of :func:`over_slab`.
     """
     engine = EventDriven(
+        tolerance=_STEP,
         gap_tolerance=min(1e-12, _FINE * puck.length),
         velocity_tolerance=min(2e-8, _FINE * puck.speed),
         time_tolerance=min(1e-12, _FINE * puck.length / puck.speed),

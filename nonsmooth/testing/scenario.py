@@ -27,7 +27,7 @@ from nonsmooth.solution.csv_tables import save_events
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from nonsmooth.testing.child import about_to
-from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.functions import place_of_function
 from nonsmooth.testing.outcome import Broken, NotChecked, Row
@@ -35,6 +35,7 @@ from nonsmooth.testing.property import Property, properties
 
 _RESIDUAL = 1e-6
 _SAMPLES = 20
+_SCENARIO = Claims()
 
 
 def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Property]:
@@ -123,18 +124,17 @@ class _Trial:
         return json.dumps(dict(found), default=lambda value: np.asarray(value).tolist(), sort_keys=True)
 
 
-@claim()
-def _times(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _times(trial: _Trial) -> None:
     """End time and sample interval are positive and finite."""
     for name in ("t_end", "sample_interval"):
         value = float(getattr(trial.scenario, name))
         if not (math.isfinite(value) and value > 0.0):
             raise Broken("it must be positive and finite [s]", name, value)
-    return ""
 
 
-@claim()
-def _resolved(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _resolved(trial: _Trial) -> None:
     """`resolved` gives every parameter the value that the run uses."""
     found = trial.scenario.resolved()
     for name, (_, rule) in rules(type(trial.scenario)).items():
@@ -145,11 +145,10 @@ def _resolved(trial: _Trial) -> str:
             raise Broken(f"`resolved` gives it the value {found[name]!r}", name, given)
         if rule.unit != "" and found[name] is not None and not math.isfinite(found[name]):
             raise Broken("`resolved` gives it no finite number", name, found[name])
-    return ""
 
 
-@claim()
-def _builds_twice(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _builds_twice(trial: _Trial) -> None:
     """`build` returns a new system each time, with equal parts and starts."""
     one, other = trial.scenario.build(), trial.scenario.build()
     build = place_of_function(type(trial.scenario).build)
@@ -160,50 +159,45 @@ def _builds_twice(trial: _Trial) -> str:
     for name, a, b in zip(_PARTS, _parts(one), _parts(other), strict=True):
         if a != b:
             raise Broken(f"two builds differ: {build}", name, f"{a} and {b}")
-    return ""
 
 
-@claim()
-def _runs(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _runs(trial: _Trial) -> None:
     """It runs for a short time."""
     if isinstance(trial.found, Exception):
         raise Broken(f"until {trial.end:g} s: {trial.found}") from trial.found
     if trial.found.status != "done" or not np.all(np.isfinite(trial.found.q_end)):
         raise Broken(f"it ends with {trial.found.status}: {trial.found.message}")
-    return ""
 
 
-@claim()
-def _energy(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _energy(trial: _Trial) -> None:
     """The energy account of the run closes."""
     residual = trial.solution.energy.residual
     if not residual <= _RESIDUAL:
         raise Broken(f"{residual:g} of the energy is not explained", "residual", residual)
-    return ""
 
 
-@claim()
-def _repeatable(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _repeatable(trial: _Trial) -> None:
     """A second run is the same to the last bit."""
     again, _ = trial.again
     for name in ("t", "q", "u", "q_end", "u_end"):
         one, other = getattr(trial.solution, name), getattr(again, name)
         if not np.array_equal(one, other, equal_nan=True):
             raise Broken("two runs differ", name, _first_difference(one, other))
-    return ""
 
 
-@claim()
-def _summary(trial: _Trial) -> str:
-    """`summarise` returns numbers and words by name, the same each time, `units` theirs."""
+@_SCENARIO.claim()
+def _summary(trial: _Trial) -> None:
+    """`summarise` returns the same numbers and words each time, and `units` gives their units."""
     one, other = trial.summary(), trial.summary()
     if one != other:
         raise Broken("a second call gives another one", "summarise", other)
-    return ""
 
 
-@claim()
-def _coordinates(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _coordinates(trial: _Trial) -> None:
     """`coordinates` returns an array over the samples for each name."""
     found = trial.scenario.coordinates(trial.solution)
     if without := [name for name in found if not trial.scenario.unit_of(name)]:
@@ -212,23 +206,21 @@ def _coordinates(trial: _Trial) -> str:
     for name, values in found.items():
         if np.shape(values) != (n,):
             raise Broken(f"it must have one value for each of {n} samples", name, np.shape(values))
-    return ""
 
 
-@claim()
-def _final_state(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _final_state(trial: _Trial) -> None:
     """`final` returns finite lists q and u."""
     found = dict(trial.scenario.final(trial.solution))
     for name in ("q", "u"):
         values = found.get(name)
         if not isinstance(values, list) or not values or not np.all(np.isfinite(values)):
             raise Broken("it must be a list of finite numbers", name, values)
-    return ""
 
 
-@claim()
-def _acceptance(trial: _Trial) -> str:
-    """A full run is not suspect; it has criteria, each with a finite number, and fulfils all."""
+@_SCENARIO.claim()
+def _acceptance(trial: _Trial) -> None:
+    """A full run is not suspect and fulfils its criteria."""
     scenario, _ = trial.scenario, trial.solution
     solution = trial.run(scenario.t_end, scenario.sample_interval)
     if solution.status == "suspect":
@@ -244,11 +236,10 @@ def _acceptance(trial: _Trial) -> str:
         if not one.fulfilled:
             reason = f"it must lie between {one.lower:.9g} and {one.upper:.9g}: {one.source}"
             raise Broken(reason, one.name, one.value)
-    return ""
 
 
-@claim()
-def _figures(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _figures(trial: _Trial) -> None:
     """`figures` returns figures by file name, and they can be drawn."""
     if importlib.util.find_spec("matplotlib") is None:
         raise NotChecked("not checked, as matplotlib is not installed")
@@ -261,20 +252,18 @@ def _figures(trial: _Trial) -> str:
         for name, figure in found.items():
             if not isinstance(name, str) or not isinstance(figure, Figure) or not figure.axes:
                 raise Broken("it must be a matplotlib figure with axes", str(name), figure)
-    return ""
 
 
-@claim()
-def _results_can_be_saved(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _results_can_be_saved(trial: _Trial) -> None:
     """Solution and coordinates can be written to files."""
     _, trouble = trial.again
     if trouble is not None:
         raise Broken(f"saving it fails: {trouble}") from trouble
-    return ""
 
 
-@claim()
-def _only_reads(trial: _Trial) -> str:
+@_SCENARIO.claim()
+def _only_reads(trial: _Trial) -> None:
     """Summary, coordinates and criteria leave the solution as it is."""
     solution, scenario = trial.solution, trial.scenario
     before = copy.deepcopy((solution.t, solution.q, solution.u))
@@ -283,24 +272,6 @@ def _only_reads(trial: _Trial) -> str:
     for name, then, now in zip("tqu", before, (solution.t, solution.q, solution.u), strict=True):
         if not np.array_equal(then, now, equal_nan=True):
             raise Broken("the solution is changed", name, "")
-    return ""
-
-
-_SCENARIO = [
-    _times,
-    _resolved,
-    _builds_twice,
-    _runs,
-    _energy,
-    _repeatable,
-    _summary,
-    _coordinates,
-    _final_state,
-    _acceptance,
-    _figures,
-    _results_can_be_saved,
-    _only_reads,
-]
 
 
 def _first_difference(one: NDArray[np.float64], other: NDArray[np.float64]) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.solid import Vector
-from nonsmooth.testing.claims import claim, rows
+from nonsmooth.testing.claims import Claims, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.outcome import Broken, Row
 from nonsmooth.testing.property import Property, properties
@@ -17,6 +17,7 @@ from nonsmooth.testing.property import Property, properties
 _DIRECTIONS = np.random.default_rng(0).normal(size=(60, 3))
 """Directions along which a solid is checked."""
 _ROUND_OFF = 1e-9
+_SHAPE = Claims()
 
 
 def check_shape(shape: Shape) -> list[Property]:
@@ -34,43 +35,40 @@ def _rows(shape: Shape) -> list[Row]:
     return [*component_rows(shape), *rows(_SHAPE, lambda: [shape], 1)]
 
 
-@claim()
-def _length(shape: Shape) -> str:
-    """Its length is finite and not negative."""
+@_SHAPE.claim()
+def _length(shape: Shape) -> None:
+    """The length is finite and not negative."""
     if not (math.isfinite(shape.length) and shape.length >= 0.0):
         raise Broken("it must be finite and not negative [m]", "length", shape.length)
-    return ""
 
 
-@claim()
-def _extent(shape: Shape) -> str:
-    """A ball of its extent holds a point as far away as its length."""
+@_SHAPE.claim()
+def _extent(shape: Shape) -> None:
+    """The extent is not below the length."""
     if not shape.extent >= shape.length:
         raise Broken(f"it must not be below the length {shape.length:g} m", "extent", shape.extent)
-    return ""
 
 
-@claim()
-def _ceiling(shape: Shape) -> str:
-    """No point of its solid is above its ceiling."""
+@_SHAPE.claim()
+def _ceiling(shape: Shape) -> None:
+    """No point of the solid is above the ceiling."""
     if math.isnan(shape.ceiling):
         raise Broken("it must be a height [m], or infinite", "ceiling", shape.ceiling)
     if shape.solid is not None:
         top = float(shape.solid.support(np.array([0.0, 0.0, 1.0]))[2])
         if top > shape.ceiling + _ROUND_OFF * shape.length:
             raise Broken(f"a point of the solid is at the height {top:g} m", "ceiling", shape.ceiling)
-    return ""
 
 
-@claim()
-def _solid(shape: Shape) -> str:
-    """No point of its solid is farther along a direction than the support point.
+@_SHAPE.claim()
+def _solid(shape: Shape) -> None:
+    """No point of the solid is farther along a direction than the support point.
 
     All points are within its bounds and its extent, and its inner point lies inside.
     """
     solid = shape.solid
     if solid is None:
-        return ""
+        return
     points = np.array([solid.support(n) for n in _DIRECTIONS])
     if points.shape != _DIRECTIONS.shape or not np.all(np.isfinite(points)):
         raise Broken("a point must be three finite numbers [m]", "support", points.tolist())
@@ -90,12 +88,11 @@ def _solid(shape: Shape) -> str:
     farthest = float(np.max(np.linalg.norm(points, axis=1)))
     if farthest > shape.extent + none + solid.set_back:
         raise Broken(f"a point of the solid is {farthest:g} m away", "extent", shape.extent)
-    return ""
 
 
-@claim()
-def _parts(shape: Shape) -> str:
-    """Its convex parts lie within its solid, or as far beyond it as contacts may see its surface."""
+@_SHAPE.claim()
+def _parts(shape: Shape) -> None:
+    """Convex parts lie within the solid, or as far beyond it as contacts may see its surface."""
     solid = shape.solid
     for part in shape.parts:
         if solid is None or part.function or part.is_half_space:
@@ -105,17 +102,12 @@ def _parts(shape: Shape) -> str:
             beyond = part.height(n) / size - float(n @ solid.support(n)) / size
             if not beyond <= _ROUND_OFF * (shape.extent + part.radius) + solid.set_back:
                 raise Broken(f"a part must not reach {beyond:.3g} m out of the solid along {n.tolist()}", "parts", part)
-    return ""
 
 
-@claim()
-def _look(shape: Shape) -> str:
-    """It can be drawn."""
+@_SHAPE.claim()
+def _look(shape: Shape) -> None:
+    """The shape can be drawn."""
     require_look("look", shape.look)
-    return ""
-
-
-_SHAPE = [_length, _extent, _ceiling, _solid, _parts, _look]
 
 
 def require_look(name: str, look: Look) -> None:

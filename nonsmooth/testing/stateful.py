@@ -9,13 +9,14 @@ import numpy as np
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.interfaces import StatefulFrictionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, claim
+from nonsmooth.testing.claims import FEWEST, Claims, claim, wrong_verdict
 from nonsmooth.testing.coefficient import FORCE, HEADING, SPEED, along, mu
 from nonsmooth.testing.functions import CheckedFunction, plain_caller, written
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
-from nonsmooth.testing.puck import Array, Puck, run
-from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact
-from nonsmooth.testing.reference_motion import (
+from nonsmooth.testing.puck import Puck, run
+from nonsmooth.testing.reference import (
+    ReferenceContact,
+    ReferenceImpact,
     fastest,
     followed,
     is_same_motion,
@@ -24,29 +25,29 @@ from nonsmooth.testing.reference_motion import (
     start_of,
     writing_fault,
 )
+from nonsmooth.types import Array
 
 _TRIED = (0.0, 1e-9, 1e-3, 1.0, 1e2)
 _MOVED = number("moved", -1.0, 1.0, 1.0)
 _SPEEDS = [DrawnNumber(f"speed_{i}", 1e-9, 1.0, 0.1, is_log=True) for i in (1, 2)]
 _DURATIONS = [DrawnNumber(f"duration_{i}", 1e-3, 1e2, 1.0, is_log=True) for i in (1, 2, 3)]
-_STAGES = Drawn((*_SPEEDS, *_DURATIONS), lambda case: _stages(**case))
+_STAGES = Drawn(
+    (*_SPEEDS, *_DURATIONS),
+    lambda c: [(c["speed_1"], c["duration_1"]), (0.0, c["duration_2"]), (c["speed_2"], c["duration_3"])],
+)
+"""Speeds and how long they last: a speed, a rest, and another speed."""
 _PERIODS = 20.0
 """How long motions are compared, in units of the fastest time of the states."""
 _SLOWED = 0.3
 """Part of the slip velocity that friction takes in this time, if the load can be so large."""
 _LARGEST_LOAD = 1e3
-
-
-def _stages(
-    speed_1: float, speed_2: float, duration_1: float, duration_2: float, duration_3: float
-) -> list[tuple[float, float]]:
-    """Return speeds and how long they last: a speed, a rest, and another speed."""
-    return [(speed_1, duration_1), (0.0, duration_2), (speed_2, duration_3)]
+STATES = Claims()
+"""The claims about laws with inner states."""
 
 
 def rates_function(law: StatefulFrictionLaw) -> CheckedFunction:
     """Return the rates with speeds and states to try."""
-    require(_initial_state.fault(law, {}))
+    require(initial_state.fault(law, {}))
     start, scale = start_of(law)
     states = [start + share * scale for share in (0.0, 0.3, 1.0, 30.0)]
     inputs = [(f"{speed:g}, {state.tolist()}", (speed, state)) for speed in _TRIED for state in states]
@@ -64,24 +65,24 @@ def _mu(law: StatefulFrictionLaw, speed: float, state: Array) -> float:
 
 
 @claim()
-def _initial_state(law: StatefulFrictionLaw) -> str:
-    """Initial states and scales are as many, finite, the scales positive, and the coefficient takes `state`."""
+def initial_state(law: StatefulFrictionLaw) -> str:
+    """There are as many initial states as scales, all finite, the scales positive, and `state` is an argument."""
     names = parameter_names(law.coefficient, "scalar")
     if "state" not in names:
         return f"coefficient takes {', '.join(names) or 'nothing'} beside the speed"
     return start_fault(law)
 
 
-@claim(SPEED)
+@STATES.claim(SPEED)
 def _writes_its_block(law: StatefulFrictionLaw, speed: float) -> str:
     """It writes the rate of every state and nothing else."""
     call, (state, _) = plain_caller(law.rates, "rates", law.parameters()), start_of(law)
     return writing_fault(lambda state, out: call(speed, state, out), [state], len(state))
 
 
-@claim(_STAGES)
+@STATES.claim(_STAGES)
 def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float, float]]) -> str:
-    """Through two speeds and a rest the states stay finite, and the coefficient with them not negative."""
+    """Through two speeds and a rest the states stay finite and the coefficient does not become negative."""
     state, scale = start_of(law)
     fast_speed = stages[0][0]
     for speed, duration in stages:
@@ -96,23 +97,22 @@ def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float,
     return ""
 
 
-@claim(SPEED, HEADING, FORCE, _MOVED)
+@STATES.claim(SPEED, HEADING, FORCE, _MOVED)
 def _certificate_with_states(law: StatefulFrictionLaw, speed: float, heading: float, load: float, moved: float) -> str:
-    """It takes the states: a force on the edge of the disc that they give obeys it, one off it does not."""
+    """A force on the bound that the states give obeys the law, and a force off the bound does not."""
     start, scale = start_of(law)
     state = start + 10.0**moved * scale
     slip, bound = along(speed, heading), _mu(law, speed, state) * load
     for share in (-1.0, *((1.0, -1.001, -0.999) if bound > 1e-5 * load else ())):
         force, known = along(share * bound, heading), tuple(state.tolist())
-        if bool(law.is_fulfilled(slip, load, force, 1e-9 * load, known)) is not (share == -1.0):
-            word = "refuses" if share == -1.0 else "accepts"
-            return f"is_fulfilled {word} {share:g} of the bound {bound:g} N along the slip, states {state.tolist()}"
+        if verdict := wrong_verdict(law.is_fulfilled(slip, load, force, 1e-9 * load, known), share == -1.0):
+            return f"{verdict} {share:g} of the bound {bound:g} N along the slip, states {state.tolist()}"
     return ""
 
 
-@claim(SPEED, fewest=FEWEST)
+@STATES.claim(SPEED, fewest=FEWEST)
 def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
-    """A mass that slides in the engine is slowed as an independent integration of motion and states has it."""
+    """A mass that slides slows down in the engine as in an independent integration of motion and states."""
     state, state_scale = start_of(law)
     start, scale = np.append(state, speed), np.append(state_scale, speed)
     quick = fastest(lambda z: _rates(law, speed, z), state, state_scale)
@@ -135,8 +135,3 @@ def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
         f"after {duration:g} s under {load:g} N a mass of 1 kg has {given:.9g} m/s, "
         f"by an independent integration {wanted:.9g} m/s"
     )
-
-
-START = [_initial_state]
-"""The claim without which nothing else is checked."""
-STATES = [_writes_its_block, _states_that_are_reached, _certificate_with_states, _sustained_motion]

@@ -11,23 +11,16 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT
 from nonsmooth.interfaces import TractionLaw
 from nonsmooth.system.materials import ContactLaws
-from nonsmooth.testing.claims import FEWEST, claim, rows
-from nonsmooth.testing.component import component_rows, variants
+from nonsmooth.testing.claims import FEWEST, Claims, claim, rows, wrong_verdict
+from nonsmooth.testing.component import variants
 from nonsmooth.testing.differences import jump
-from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller, written
+from nonsmooth.testing.functions import CheckedFunction, all_rows, plain_caller, written
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws, number
 from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.property import Property, properties
-from nonsmooth.testing.puck import Array, ConstantLoad, Puck, run
-from nonsmooth.testing.reference_motion import (
-    fastest,
-    followed,
-    is_same_motion,
-    require,
-    start_fault,
-    start_of,
-    writing_fault,
-)
+from nonsmooth.testing.puck import ConstantLoad, Puck, run
+from nonsmooth.testing.reference import fastest, followed, is_same_motion, require, start_fault, start_of, writing_fault
+from nonsmooth.types import Array
 
 _DRAWS = 8
 _LOAD = number("normal_force", 1e-2, 1e2, 1.0, is_log=True)
@@ -46,6 +39,7 @@ _LONG, _SHORT = 40.0, 0.5
 _SAMPLES = 20
 _TIMES, _TURNS = 5.0, 60.0
 """How long a mass is followed: in the time that fills the states, and in the fastest time of the motion at most."""
+_TRACTION = Claims()
 
 
 def check_traction_law(law: TractionLaw) -> list[Property]:
@@ -60,9 +54,8 @@ def check_traction_law(law: TractionLaw) -> list[Property]:
 
 
 def _rows(law: TractionLaw) -> list[Row]:
-    functions = Functions(lambda: [_traction(one) for one in variants(law)])
     table = functools.partial(rows, components=lambda: variants(law), count=_DRAWS)
-    return [*component_rows(law), *table([_initial_state]), *functions.rows(), *functions.guarded(table(_TRACTION))]
+    return all_rows(law, lambda: [_traction(one) for one in variants(law)], table(_TRACTION), table([_initial_state]))
 
 
 def _motion(case: Case) -> Array:
@@ -109,11 +102,11 @@ def _bent(law: TractionLaw, bent: float) -> Array:
 
 @claim()
 def _initial_state(law: TractionLaw) -> str:
-    """Initial states and scales are as many, finite, the scales positive."""
+    """There are as many initial states as scales, all finite, and the scales are positive."""
     return start_fault(law)
 
 
-@claim(_LOAD, _MOTION)
+@_TRACTION.claim(_LOAD, _MOTION)
 def _writes_its_block(law: TractionLaw, load: float, motion: Array) -> str:
     """It writes force, moment and the rate of every state, and nothing else."""
     call, (state, _) = plain_caller(law.traction, "traction", law.parameters()), start_of(law)
@@ -123,7 +116,7 @@ def _writes_its_block(law: TractionLaw, load: float, motion: Array) -> str:
     return ""
 
 
-@claim(_LOAD, _MOTION, _BENT)
+@_TRACTION.claim(_LOAD, _MOTION, _BENT)
 def _no_jumps(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
     """Force, moment and rates are continuous in load, motion and states."""
     state, (_, scale) = _bent(law, bent), start_of(law)
@@ -141,7 +134,7 @@ def _no_jumps(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
     return ""
 
 
-@claim(_MOTION, _BENT)
+@_TRACTION.claim(_MOTION, _BENT)
 def _nothing_without_load(law: TractionLaw, motion: Array, bent: float) -> str:
     """Without normal force there is no traction."""
     wrench, _ = _look(law, 0.0, motion, _bent(law, bent))
@@ -164,9 +157,9 @@ def _through(law: TractionLaw, load: float, motion: Array, times: list[float]) -
     return [_look(law, load, motion, state)[0] for state in states]
 
 
-@claim(_LOAD, _MOTION)
+@_TRACTION.claim(_LOAD, _MOTION)
 def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
-    """In a steady motion it takes energy out, or none."""
+    """Traction gives no energy to a steady motion."""
     times = _filling(law, load, motion) * np.linspace(0.5 * _LONG, _LONG, _SAMPLES)
     wrenches = _through(law, load, motion, times.tolist())
     mean = float(np.mean([wrench @ motion for wrench in wrenches]))
@@ -174,7 +167,7 @@ def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
     return f"in the long run it gives {mean:g} W" if mean > 1e-9 * gross else ""
 
 
-@claim(_LOAD, _MOTION, _TURN)
+@_TRACTION.claim(_LOAD, _MOTION, _TURN)
 def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float) -> str:
     """Force and moment turn with the motion, from the closing of the contact on."""
     unit, turn = _filling(law, load, motion), _turn_of(angle)
@@ -186,9 +179,9 @@ def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float
     return ""
 
 
-@claim(_LOAD, _MOTION, _BENT)
+@_TRACTION.claim(_LOAD, _MOTION, _BENT)
 def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
-    """It accepts force and moment of the law, and none that differ by a hundredth."""
+    """Force and moment of the law obey it, and those that differ by a hundredth do not."""
     state = _bent(law, bent)
     wrench, _ = _look(law, load, motion, state)
     off = 0.01 * float(np.max(np.abs(wrench))) + 1e-9 * load
@@ -196,15 +189,14 @@ def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> s
     tried = [(wrench, True)] + [(wrench + off * axis, False) for axis in (*axes, *-axes)]
     for given, expected in tried:
         arguments: Any = tuple(motion.tolist()), tuple(state.tolist()), load, tuple(given.tolist()), 0.1 * off
-        if bool(law.is_fulfilled(*arguments)) is not expected:
-            word = "refuses" if expected else "accepts"
-            return f"is_fulfilled {word} {given.tolist()}, where the law has {wrench.tolist()}"
+        if verdict := wrong_verdict(law.is_fulfilled(*arguments), expected):
+            return f"{verdict} {given.tolist()}, where the law has {wrench.tolist()}"
     return ""
 
 
-@claim(_LOAD, _MOTION, fewest=FEWEST)
+@_TRACTION.claim(_LOAD, _MOTION, fewest=FEWEST)
 def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
-    """A body that slides, rolls and drills in the engine goes as an independent integration has it."""
+    """A body that slides, rolls and drills moves in the engine as in an independent integration."""
     state, state_scale = start_of(law)
     start, size = np.concatenate([motion, state]), float(np.max(np.abs(motion)))
     scale = np.concatenate([np.full(FORCE_AND_MOMENT, size), state_scale])
@@ -223,14 +215,3 @@ def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
     if is_same_motion(given, wanted, motion, size):
         return ""
     return f"after {duration:g} s it moves at {given.tolist()}, by an independent integration {wanted.tolist()}"
-
-
-_TRACTION = [
-    _writes_its_block,
-    _no_jumps,
-    _nothing_without_load,
-    _dissipation,
-    _frame_invariance,
-    _certificate,
-    _sustained_motion,
-]

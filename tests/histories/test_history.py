@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -115,13 +116,13 @@ def test_parts_are_chosen_by_object_name_or_number(run: ns.Solution) -> None:
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda run: run.history("gapp"), r"Solution\.history: variable .*Did you mean 'gap'\?.*variables\(\) lists"),
+        (lambda run: run.history("gapp"), r"Solution\.history: variable .*Did you mean 'gap'\?.*variables\(\)\) lists"),
         (lambda run: run.history(), "must be at least one.*Known: q, u"),
         (lambda run: run.history("gap", "normal_impulse"), "Ask for each kind in its own call"),
         (lambda run: run.history("normal_impulse", times=0.1), "times must be left out.*times of their events"),
         (
             lambda run: run.history(Variable("all", "m", (), "gaps", NearContacts.of, lambda near: near.gap)),
-            r"values of the variable 'all' must have the axes time, but it is \(51, 1\)",
+            r"values of the variable 'all' must have the axes time \(51\), but it is \(51, 1\)",
         ),
         (lambda run: run.history("gap", of="plat - ball"), "of: contact .*Did you mean 'plate - ball'"),
         (lambda run: run.history("gap", of=1), "of: contact must be below 1, the number of contacts"),
@@ -157,3 +158,31 @@ def test_the_page_lists_all_variables() -> None:
     page = (Path(__file__).parents[2] / "docs" / "pages" / "howto" / "over_time.md").read_text(encoding="utf-8")
     assert [line.split()[0] for line in variables().splitlines()] == list(VARIABLES)
     assert [name for name in VARIABLES if f"`{name}`" not in page] == []
+
+
+def _own(name: str = "doubled_gap", axes: Any = ("contact",), reading: Any = NearContacts.of, **more: Any) -> Variable:
+    return Variable(name, "m", axes, "a variable of the test", reading, more.get("values", lambda near: 2.0 * near.gap))
+
+
+def test_a_variable_of_ones_own_stands_beside_others(run: ns.Solution) -> None:
+    for own in (_own(), _own(values=lambda near: (2.0 * near.gap).tolist())):
+        history = run.history("gap", own, times=[0.0, 0.5])
+        np.testing.assert_array_equal(history["doubled_gap"], 2.0 * history["gap"])
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: ["gap", "gap"], "names must differ"),
+        (lambda: [_own(), _own()], "names must differ"),
+        (lambda: [_own("gap")], "must have a name of its own, but it is 'gap'"),
+        (lambda: [_own(values=lambda near: near.gap[:, 0])], r"must have the axes time \(2\), contact \(1\).*spread"),
+        (lambda: [_own(values=lambda near: near.gap[:1])], r"must have the axes time \(2\), contact \(1\).*\(1, 1\)"),
+        (lambda: [_own(axes=("axis",))], r"must have the axes time \(2\), axis \(3\)"),
+        (lambda: [_own(axes="contact")], "axes must be of the kind tuple"),
+        (lambda: [_own(reading=NearContacts)], "reading must be a function of a request.*Take `of`"),
+    ],
+)
+def test_a_variable_that_does_not_fit_is_refused(run: ns.Solution, ask: Callable[[], list[Any]], message: str) -> None:
+    with pytest.raises(ns.InvalidInput, match=message):
+        run.history(*ask(), times=[0.0, 0.5])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from laws import MoreauImpact, PoissonImpact
 from laws.impact.cone import cone_deviation
 from nonsmooth.interfaces import ImpactMap
-from nonsmooth.testing.functions import compiled_map
+from nonsmooth.testing.functions import compiled_caller
 
 Array = NDArray[np.float64]
 
@@ -39,8 +39,9 @@ def _balls(random: Any) -> tuple[Array, Array]:
 
 def _impulses(delassus: Array, rates: Array, friction: Array, e: float) -> Array:
     n = len(friction)
-    call = compiled_map(
+    call = compiled_caller(
         MoreauImpact(0.5).impulses,
+        "map",
         {"friction": friction, "restitution": np.full(n, e), "tangential_restitution": np.full(n, e)},
         "MoreauImpact",
     )
@@ -95,7 +96,7 @@ def test_a_ball_wedged_in_a_corner_gets_no_internal_impulses(law: ImpactMap) -> 
     given = {"friction": np.full(2, 1.04), "restitution": np.full(2, law.restitution)}  # type: ignore[attr-defined]
     if isinstance(law, MoreauImpact):
         given["tangential_restitution"] = np.zeros(2)
-    call = compiled_map(law.impulses, given, type(law).__name__)
+    call = compiled_caller(law.impulses, "map", given, type(law).__name__)
     for seed in range(500):
         random = np.random.default_rng(seed)
         velocity = random.normal(size=6) * np.array([1.0, 1.0, 1.0, 100.0, 100.0, 100.0])

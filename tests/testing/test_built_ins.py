@@ -114,7 +114,8 @@ from nonsmooth.testing import (
     check_shape,
     check_traction_law,
 )
-from nonsmooth.testing.registered import check_class, make
+from nonsmooth.testing.component import make
+from nonsmooth.testing.registered import check_class
 from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
 from tests.bodies.meshes import parts

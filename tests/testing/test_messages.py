@@ -22,9 +22,10 @@ from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.testing import check_body, check_friction_law, check_normal_law, check_scenario, inputs
 from nonsmooth.testing.claims import claim
+from nonsmooth.testing.component import make
 from nonsmooth.testing.inputs import number, simplified
 from nonsmooth.testing.outcome import Broken as Fault
-from nonsmooth.testing.registered import check_class, make
+from nonsmooth.testing.registered import check_class
 from tests.testing import compliant_dummies, friction_dummies, scenario_dummies, stateful_dummies
 from tests.testing.caught import failures
 

@@ -26,7 +26,7 @@ def say(text: str) -> None:
     Raises
     ------
     FileError
-        If it cannot be written: a full disk, a closed pipe.
+        If it cannot be written: a full disk.
     """
     try:
         print(_printable(text), flush=True)
@@ -36,6 +36,9 @@ def say(text: str) -> None:
 
         with contextlib.suppress(OSError):  # else the interpreter tries, and fails, once more when it ends
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            # the reader has what it wanted, as `head` does
+            return
         raise FileError("standard output", error) from error
 
 
