@@ -53,6 +53,12 @@ def is_finite(value: Any) -> bool:
         return False
 
 
+def check_count(thing: str, value: Any, rule: str, remedy: str, least: int = 1) -> None:
+    """Raise InvalidInput unless a value is a whole number of at least ``least``."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+        raise InvalidInput(thing, rule, value, remedy)
+
+
 def floats(thing: str, value: Any) -> NDArray[np.float64]:
     """Array of numbers of its own; InvalidInput if they are none, as texts and truth values are."""
     try:

@@ -38,7 +38,11 @@ def lazy_names(package: str, file: str) -> Names:
         """Import a name from its module. It is set as an attribute, so that Python does not ask for it again."""
         if name not in modules:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
-        value = getattr(importlib.import_module(modules[name]), name)
+        module = modules[name]
+        # a stub may name modules of its own package, too
+        if module == package:
+            return importlib.import_module(f"{module}.{name}")
+        value = getattr(importlib.import_module(module), name)
         setattr(sys.modules[package], name, value)
         return value
 

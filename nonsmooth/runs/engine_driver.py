@@ -23,6 +23,8 @@ _STATUSES = tuple(status for status in REASONS if status != Status.CONDITION_MET
 _CALL_COUNTERS = places("request.n_work", "request.work_budget", "run.n_calls")
 """Scalars that a call changes even if the engine does nothing."""
 (_N_CALLS,) = places("run.n_calls").tolist()
+UNLIMITED = 1 << 62
+"""Steps of a run without a limit."""
 
 
 @final
@@ -37,14 +39,16 @@ class EngineDriver:
         The model that runs.
     call : callable
         Calls an entry point by its name; ``advance`` gets it.
+    most_steps : int
+        Steps of the run after which it is stopped.
     """
 
-    def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
+    def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any], most_steps: int = UNLIMITED) -> None:
         """Drive an engine on the memory of a model. ``call`` calls an entry point of the compiled code by name.
 
         The engine may return the common statuses and the codes of its own causes.
         """
-        self._engine, self._memory, self._call = engine, model.memory, call
+        self._engine, self._memory, self._call, self._most_steps = engine, model.memory, call, most_steps
         self._name = f"{type(engine).__name__}.advance"
         self._statuses = {*_STATUSES, *(cause.code for cause in engine.causes)}
 
@@ -61,8 +65,9 @@ class EngineDriver:
         """
         # the scalars as integers; records are filed under the number of the call
         self._memory.cells[1][_N_CALLS] += 1
+        left = self._most_steps - int(self._memory[owners.Totals.n_steps])
         try:
-            status = self._engine.advance(self._call, self._memory, most_steps, pauses_before_end)
+            status = self._engine.advance(self._call, self._memory, min(most_steps, left), pauses_before_end)
         except UnknownName as error:
             # the engine called an entry point that does not exist: the message shall name the engine
             raise InvalidInput(f"{self._name}: {error.thing}", error.rule, error.value, error.remedy) from error
@@ -76,7 +81,8 @@ class EngineDriver:
             rule = f"must be the end time {t_end:.9g} s if the status is DONE"
             remedy = "Return PAUSED to be called again, or set it to ws.request.t_end."
             raise InvalidInput(f"{self._name}: ws.island.time", rule, t, remedy)
-        return int(status)
+        is_spent = status == Status.PAUSED and int(self._memory[owners.Totals.n_steps]) >= self._most_steps
+        return int(Status.CONDITION_MET if is_spent else status)
 
     def advance_past(self, checkpoint: Checkpoint, most_steps: int) -> int:
         """Advance a run past a checkpoint that its memory holds now, with empty buffers; the result is the status.

@@ -20,7 +20,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.engine_driver import EngineDriver
+from nonsmooth.runs.engine_driver import UNLIMITED, EngineDriver
 from nonsmooth.runs.folder_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import RunSoFar, Until
@@ -35,7 +35,7 @@ Progress = Callable[[float, float], None]
 
 
 class Callbacks(NamedTuple):
-    """Functions of the user that a run calls. None if the user gives none.
+    """Functions of the user that a run calls, None if the user gives none; and its most steps.
 
     Attributes
     ----------
@@ -43,10 +43,13 @@ class Callbacks(NamedTuple):
         ``progress(time, t_end)`` [s], called repeatedly.
     until : callable
         The condition that ends the run.
+    most_steps : int
+        Steps after which the run is stopped.
     """
 
     progress: Progress | None
     until: Until | None
+    most_steps: int = UNLIMITED
 
 
 class LoopEnd(NamedTuple):
@@ -165,7 +168,7 @@ class EngineLoop:
         report = None if progress is None else lambda t: progress(t, t_end)
         status: int = Status.PAUSED
         with self.model.watch.reporting(report) as watch:
-            driver = EngineDriver(self.engine, self.model, watch.call)
+            driver = EngineDriver(self.engine, self.model, watch.call, self.callbacks.most_steps)
             while status == Status.PAUSED:
                 status = self._advance(driver)
                 if status == Status.PAUSED and self._is_condition_met():

@@ -16,7 +16,7 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn, final
 
-from nonsmooth.checks import check_kind
+from nonsmooth.checks import check_count, check_kind
 from nonsmooth.engine.memory import owners
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
@@ -37,6 +37,7 @@ from nonsmooth.runs.checks import (
     check_times,
     checked_request,
 )
+from nonsmooth.runs.engine_driver import UNLIMITED
 from nonsmooth.runs.final_state import FinalState, FixedPlaces, UnreadEnd
 from nonsmooth.runs.folder_sink import FolderSink, OutputSink
 from nonsmooth.runs.identity import digest
@@ -190,6 +191,7 @@ class Model:
         start: State | None = None,
         sample_interval: float | None = None,
         until: Until | None = None,
+        most_steps: int | None = None,
         progress: Progress | None = None,
         output: Output | Path | str | None = None,
     ) -> Solution:
@@ -210,6 +212,8 @@ class Model:
             ``until(run)``, called after each step and each event with a
             :class:`~nonsmooth.runs.so_far.RunSoFar`.  True ends the run there; an exception ends the run and is
             raised.  To end a run exactly at a zero of a function of time and state, declare a guard.
+        most_steps : int, optional
+            Accepted steps of the flow after which the run is stopped, at the same step on every machine.
         progress : callable, optional
             ``progress(time, t_end)`` [s], called repeatedly.  An exception ends the run and is raised.
         output : Output, Path or str, optional
@@ -235,6 +239,8 @@ class Model:
         state = self._start if start is None else start
         check_kind("run: start", state, State, "Give the state of a solution, or State.at(system, ...).")
         check_calls("run", until, progress)
+        if most_steps is not None:
+            check_count("run: most_steps", most_steps, "must be a positive whole number of steps", "Leave it out.")
         # the default start is valid; a state that continues a run gives the memory of that run, not its arrays
         if state is not self._start:
             check_arrays(self._laid, state)
@@ -245,7 +251,7 @@ class Model:
         request = RunRequest(t_end, state.time, interval, sample_interval is None, until is not None)
         folder = None if output is None else Output.to(output)
         with self._reserved("run"):
-            return self._run(request, state, folder, Callbacks(progress, until))
+            return self._run(request, state, folder, Callbacks(progress, until, most_steps or UNLIMITED))
 
     def contact_rates(self, state: State) -> tuple[Floats, Floats]:
         """Gaps and relative velocities of all contacts in a state; nan for bodies that are far apart.

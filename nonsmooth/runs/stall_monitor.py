@@ -94,7 +94,7 @@ class StallMonitor:
             self._n_short, self._short_time, self._n_limited_before = 0, 0.0, n_limited
             self._last_events.clear()
         # the events of a call that ended in a failure are counted in any case, for the hint
-        if not passes or status not in (Status.PAUSED, Status.DONE, Status.STOPPED):
+        if not passes or status not in (Status.PAUSED, Status.DONE, Status.STOPPED, Status.CONDITION_MET):
             self._last_events.extend(self._new_events())
             self._n_short, self._short_time = self._n_short + n_steps, self._short_time + t - t_before
         if self._n_short >= _MANY_STEPS and not self._has_warned:

@@ -1,53 +1,5 @@
 """Studies: many runs over parameters, attractors, periodic orbits, derivatives, and fits."""
 
-from nonsmooth.studies.attractors import (
-    Along,
-    basin_fractions,
-    basin_stability,
-    features,
-    recurrences,
-    uncertainty_exponent,
-)
-from nonsmooth.studies.derivatives import Family, fit, sensitivity
-from nonsmooth.studies.drawing import draw_study
-from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
-from nonsmooth.studies.opening import open_study
-from nonsmooth.studies.orbits import bifurcation, continuation, hysteresis, lyapunov, orbit
-from nonsmooth.studies.records import Stroboscope, Trajectory
-from nonsmooth.studies.sampling import Sampling, columns, grid, latin_hypercube, listed, random, sobol
-from nonsmooth.studies.status import RunStatus
-from nonsmooth.studies.study import Study
+from nonsmooth.lazy_names import lazy_names
 
-__all__ = [
-    "Along",
-    "Dask",
-    "Executor",
-    "Family",
-    "RunStatus",
-    "Sampling",
-    "Serial",
-    "Stroboscope",
-    "Study",
-    "Threads",
-    "Trajectory",
-    "basin_fractions",
-    "basin_stability",
-    "bifurcation",
-    "columns",
-    "continuation",
-    "draw_study",
-    "features",
-    "fit",
-    "grid",
-    "hysteresis",
-    "latin_hypercube",
-    "listed",
-    "lyapunov",
-    "open_study",
-    "orbit",
-    "random",
-    "recurrences",
-    "sensitivity",
-    "sobol",
-    "uncertainty_exponent",
-]
+__getattr__, __dir__, __all__ = lazy_names(__name__, __file__)

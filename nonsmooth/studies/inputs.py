@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.checks import check_kind, floats, is_finite
+from nonsmooth.checks import check_count, check_kind, floats, is_finite
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.progress import Display, ProgressMeter, on_standard_error
 from nonsmooth.types import Array
@@ -21,11 +21,6 @@ def require(what: str, *packages: str) -> None:
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     if missing:
         raise MissingPackagesError(f"{what} needs {', '.join(missing)}: {_REMEDY}")
-
-
-def require_store() -> None:
-    """Raise MissingPackagesError unless xarray is installed."""
-    require("a study", "xarray")
 
 
 def meter(display: Display | None) -> ProgressMeter:
@@ -45,12 +40,6 @@ def meter(display: Display | None) -> ProgressMeter:
 def check_positive(thing: str, value: Any, remedy: str, rule: str = "must be positive and finite") -> None:
     """Raise InvalidInput unless a number is positive and finite."""
     if not (is_finite(value) and value > 0.0):
-        raise InvalidInput(thing, rule, value, remedy)
-
-
-def check_count(thing: str, value: Any, rule: str, remedy: str, least: int = 1) -> None:
-    """Raise InvalidInput unless a value is a whole number of at least ``least``."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
         raise InvalidInput(thing, rule, value, remedy)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 from nonsmooth.charts import COLOURS
-from nonsmooth.plot.arguments import axes_of, beside
+from nonsmooth.plot.arguments import beside
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -30,11 +30,6 @@ MOST_CLASSES = 12
 """Classes that one picture distinguishes."""
 _TITLE, _TICKS = 10, 6
 """Size of a title [pt], and ticks of an axis at most: labels of eight characters fit."""
-
-__all__ = [
-    "BLUE", "COLOURS", "DOTTED", "GREEN", "HATCHED", "MARKS", "MOST_CLASSES", "VERMILION", "axes_of",
-    "class_colours", "dotted", "few_ticks", "finish", "with_unit",
-]  # fmt: skip
 
 
 def finish(

@@ -10,9 +10,8 @@ from typing import Any, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nonsmooth.checks import check_pair, is_finite
+from nonsmooth.checks import check_count, check_pair, is_finite
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.inputs import check_count
 from nonsmooth.types import Array
 
 Value: TypeAlias = float | str

@@ -18,7 +18,7 @@ ALWAYS = ("status", "reason")
 """Records of every study."""
 
 
-class RunStatus(StrEnum):
+class CaseStatus(StrEnum):
     """How a run of a study ended; a store keeps its ``code``."""
 
     NOT_RUN = "not_run"
@@ -37,10 +37,10 @@ class RunStatus(StrEnum):
     @property
     def code(self) -> int:
         """Place among the statuses."""
-        return list(RunStatus).index(self)
+        return list(CaseStatus).index(self)
 
 
-VALUED = (RunStatus.DONE.code, RunStatus.SUSPECT.code)
+VALUED = (CaseStatus.DONE.code, CaseStatus.SUSPECT.code)
 """Codes of runs that have records."""
 WORKER_DIED, RAISED, UNKNOWN = -2, -1, 0
 """Reasons beyond those of the engine: the process died, an exception was raised, the run has not begun."""
@@ -68,7 +68,7 @@ def summary(study: xarray.Dataset) -> str:
 
 def ends(status: NDArray[Any]) -> str:
     """Return the number of runs by status."""
-    counts = ((word.replace("_", " "), (status == word.code).sum()) for word in RunStatus)
+    counts = ((word.replace("_", " "), (status == word.code).sum()) for word in CaseStatus)
     return ", ".join(f"{count} {word}" for word, count in counts if count)
 
 

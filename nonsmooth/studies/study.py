@@ -11,24 +11,21 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
-from nonsmooth.checks import check_kind, path_of
+from nonsmooth.checks import check_count, check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.progress import Display, RunsDone
 from nonsmooth.results.output import OtherVersions
-from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.case import case_factory
-from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
-from nonsmooth.studies.inputs import check_count, meter, require_store
-from nonsmooth.studies.layout import coordinates, variables
-from nonsmooth.studies.opening import open_study
+from nonsmooth.studies.dask import Dask
+from nonsmooth.studies.executors import Executor, Serial, Threads
+from nonsmooth.studies.inputs import meter, require
 from nonsmooth.studies.provenance import differing, provenance
-from nonsmooth.studies.records.record import RunResult
-from nonsmooth.studies.records.recorders import Requested, records
+from nonsmooth.studies.records import Requested, RunResult, records
 from nonsmooth.studies.sampling import Sampling
 from nonsmooth.studies.status import VALUED
-from nonsmooth.studies.study_folder import StudyFolder, is_study
+from nonsmooth.studies.study_folder import StudyFolder, is_study, open_study
 from nonsmooth.studies.work import Chunk, Work
 from nonsmooth.system.system import System
 
@@ -38,7 +35,6 @@ if TYPE_CHECKING:
 EXECUTORS: Mapping[str, Callable[[], Executor]] = {"serial": Serial, "threads": Threads, "dask": Dask}
 _CHUNKS, _LARGEST = 40, 1000
 """Default number of chunks, and most runs in one of them."""
-_UNLIMITED = 1 << 62
 _FIRST_SAMPLES = 2
 """Samples of the first run, from which the records are made."""
 
@@ -90,13 +86,12 @@ class Study:
         check_kind("Study: engine", integrates, Engine, "Give nonsmooth.EventDriven(), or another one.")
         if budget is not None:
             check_count("Study: budget", budget, "must be a positive whole number of steps", "Leave it out.")
-        self._work = Work(self._cases, Budgeted(integrates, budget or _UNLIMITED))
+        self._work = Work(self._cases, integrates, budget)
         self._work = dataclasses.replace(self._work, records=records(record, self._first()))
         for name in self.records:
             if name in self._sampling.columns:
                 rule = "must not be a varied parameter, which is kept anyway"
                 raise InvalidInput(f"record {name}", rule, list(self._sampling.columns), "Leave it out.")
-        self._budget = budget
 
     def __len__(self) -> int:
         return len(self._sampling)
@@ -129,8 +124,8 @@ class Study:
             "runs": dict(self._cases.described()),
             "sampling": dict(self._sampling.description),
             "points": self._sampling.digest,
-            "engine": {"type": type(self._work.engine.engine).__name__, **vars(self._work.engine.engine)},
-            "budget": self._budget,
+            "engine": {"type": type(self._work.engine).__name__, **vars(self._work.engine)},
+            "budget": self._work.budget,
             "records": [
                 {"name": one.name, "dtype": one.dtype, "axes": dict(one.axes), "how": one.how}
                 for one in self._work.records
@@ -176,7 +171,7 @@ class Study:
         FileError
             If it cannot be written; complete chunks stay.
         """
-        require_store()
+        require("a study", "xarray")
         check_chunk(chunk)
         does = executor_of(executor)
         place = path_of("study", path)
@@ -203,27 +198,20 @@ class Study:
 
     def _chunk(self, store: StudyFolder, number: int) -> Chunk:
         runs = range(number * store.chunk, min(len(self), (number + 1) * store.chunk))
-        return Chunk(number, runs.start, tuple(map(self._sampling.at, runs)))
+        return Chunk(runs.start, tuple(map(self._sampling.at, runs)))
 
     def _create(self, path: Path, chunk: int | None, request: Mapping[str, Any]) -> None:
         size = max(1, min(_LARGEST, -(-len(self) // _CHUNKS))) if chunk is None else chunk
-        spec, records_of = self.spec, self._work.records
-        made = variables(records_of, len(self), size)
-        layout = {
-            "parameters": list(self._sampling.columns),
-            "dims": dict(self._sampling.dims),
-            "variables": list(made),
-        }
+        spec = self.spec
         attributes = {
             "Conventions": "CF-1.11",
             "title": f"{len(self)} runs of {self._cases.name}",
             "spec": spec,
             "sha256": hashlib.sha256(spec.encode()).hexdigest(),
-            "layout": json.dumps(layout),
             "provenance": json.dumps([dict(provenance())]),
             "request": json.dumps(dict(request)),
         }
-        StudyFolder.create(path, made, coordinates(records_of, self._sampling, self._cases), attributes)
+        StudyFolder.create(path, self._work.records, self._sampling, self._cases, size, attributes)
 
     def _check_same(self, store: StudyFolder, chunk: int | None) -> None:
         """Refuse the store of another study; add versions and processor to its provenance.

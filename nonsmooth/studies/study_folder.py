@@ -1,4 +1,6 @@
-"""StudyFolder: a study on disk. An array for each record over the runs; the status commits a chunk of runs.
+"""StudyFolder: a study on disk, and the dataset of a stored study.
+
+The folder has an array for each record over the runs; the status commits a chunk of runs.
 
 One process writes.  Of a chunk of runs the records and the messages of runs without records come first, the status
 last, as :mod:`nonsmooth.storage.array_folder` says: a chunk with a status is complete, any other is written anew.
@@ -9,20 +11,29 @@ from __future__ import annotations
 import contextlib
 import json
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.checks import path_of
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.history import LabelledArray
 from nonsmooth.storage.array_folder import ArrayFolder
 from nonsmooth.storage.chunks import TEXT, ArrayLayout
 from nonsmooth.storage.files import writing
 from nonsmooth.storage.lock import LOCK, WRITER, check_no_links, locked
+from nonsmooth.studies.case import CaseFactory
+from nonsmooth.studies.inputs import require
+from nonsmooth.studies.records import StudyRecord
+from nonsmooth.studies.sampling import Sampling
+from nonsmooth.studies.status import UNKNOWN, CaseStatus, reason_attributes
 from nonsmooth.studies.work import ChunkResult
+
+if TYPE_CHECKING:
+    import xarray
 
 _STATUS, _FAILURE = "status", "failure"
 """Arrays of the status, and of the messages of runs without records."""
@@ -58,13 +69,28 @@ class StudyFolder:
     def create(
         cls,
         path: Path,
-        variables: Mapping[str, ArrayLayout],
-        coordinates: list[LabelledArray],
+        records: Sequence[StudyRecord],
+        sampling: Sampling,
+        cases: CaseFactory,
+        chunk: int,
         attributes: Mapping[str, Any],
     ) -> None:
         """Make the folder of a study that begins; it is one when its metadata are there, which come last.
 
         A study that another process has made meanwhile stays as it is.
+
+        Parameters
+        ----------
+        path : Path
+            The folder.
+        records : sequence of StudyRecord
+            The records of each run.
+        sampling, cases : Sampling, CaseFactory
+            The parameters of the runs, with their units and descriptions.
+        chunk : int
+            Runs that are stored together.
+        attributes : mapping
+            Attributes of the study; the names of its arrays are added.
 
         Raises
         ------
@@ -80,14 +106,15 @@ class StudyFolder:
             if is_study(path):
                 return
             _clear(path)
-            arrays = ArrayFolder(path, dict(attributes))
+            variables, n = _variables(records, len(sampling), chunk), len(sampling)
+            parts = {"parameters": list(sampling.columns), "dims": dict(sampling.dims), "variables": list(variables)}
+            arrays = ArrayFolder(path, {**attributes, "layout": json.dumps(parts)})
             arrays.mark()
             for name, layout in variables.items():
                 arrays.declare(name, layout)
-            status = variables[_STATUS]
             messages = {"long_name": "why a run has no records"}
-            arrays.declare(_FAILURE, ArrayLayout(("run",), TEXT, status.shape, status.chunk, "", messages))
-            for one in coordinates:
+            arrays.declare(_FAILURE, ArrayLayout(("run",), TEXT, (n,), chunk, "", messages))
+            for one in _coordinates(records, sampling, cases):
                 arrays.add(one.name, one.dimensions, one.values, one.attributes, grows=False)
             arrays.spell_out(arrays.names)
             arrays.commit(safely=True)
@@ -203,6 +230,86 @@ class StudyFolder:
 def is_study(path: Path) -> bool:
     """True if a folder holds a study that has begun, or other arrays; a study without its metadata has not begun."""
     return (path / "zarr.json").exists()
+
+
+def open_study(path: Path | str) -> xarray.Dataset:
+    """Open a study, finished or not.
+
+    Parameters
+    ----------
+    path : Path or str
+        Its folder.
+
+    Returns
+    -------
+    xarray.Dataset
+        The records: of a grid over its axes, else over ``run`` with the parameters as coordinates.  Runs that have
+        not come to their end have NaN, or -1 in place of a count or a word; ``status`` and ``reason`` tell why.
+
+    Raises
+    ------
+    InvalidInput
+        If there is none, another version wrote it, or it is damaged.
+    """
+    import xarray
+
+    require("a study", "xarray")
+    folder = StudyFolder(path_of("study", path))
+
+    def read(name: str) -> tuple[tuple[str, ...], Any, dict[str, Any]]:
+        layout = folder.layout(name)
+        return layout.dimensions, folder.read(name), dict(layout.attributes)
+
+    variables, coordinates = ({name: read(name) for name in names} for names in (folder.variables, folder.coordinates))
+    flat, dims = xarray.Dataset(variables, coordinates, dict(folder.attributes)), folder.parts["dims"]
+    return _on_grid(flat, dims) if dims else flat
+
+
+def _on_grid(flat: xarray.Dataset, dims: dict[str, int]) -> xarray.Dataset:
+    import xarray
+
+    sizes = tuple(dims.values())
+    variables: dict[str, Any] = {}
+    for name, one in flat.data_vars.items():
+        if "run" in one.dims:
+            values = one.values.reshape(sizes + one.shape[1:])
+            variables[str(name)] = ((*dims, *one.dims[1:]), values, one.attrs)
+    coordinates: dict[str, Any] = {str(name): one for name, one in flat.coords.items() if "run" not in one.dims}
+    for place, name in enumerate(dims):
+        at = tuple(slice(None) if i == place else 0 for i in range(len(sizes)))
+        coordinates[name] = (name, flat[name].values.reshape(sizes)[at], flat[name].attrs)
+    return xarray.Dataset(variables, coordinates, flat.attrs)
+
+
+def _classes(words: Sequence[str]) -> dict[str, Any]:
+    """Values and names of classes, as the CF conventions have them."""
+    return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(word.replace(" ", "_") for word in words)}
+
+
+def _variables(records: Sequence[StudyRecord], n_runs: int, chunk: int) -> dict[str, ArrayLayout]:
+    """Arrays of the records, of the reason and of the status, over the runs."""
+    found = {}
+    for one in records:
+        attributes = {**one.attributes, **(_classes(one.words) if one.words else {})}
+        shape = (n_runs, *map(len, one.axes.values()))
+        found[one.name] = ArrayLayout(
+            ("run", *one.axes), np.dtype(one.dtype).name, shape, chunk, np.array(one.none, one.dtype).item(), attributes
+        )
+    ended = {"long_name": "how it ended", **_classes(list(CaseStatus))}
+    found["reason"] = ArrayLayout(("run",), "int8", (n_runs,), chunk, UNKNOWN, reason_attributes())
+    return found | {"status": ArrayLayout(("run",), "int8", (n_runs,), chunk, CaseStatus.NOT_RUN.code, ended)}
+
+
+def _coordinates(records: Sequence[StudyRecord], sampling: Sampling, cases: CaseFactory) -> list[LabelledArray]:
+    """The parameters over the runs, and the axes of records."""
+    found = {
+        name: LabelledArray(name, ("run",), values, cases.attributes(name)) for name, values in sampling.columns.items()
+    }
+    for one in records:
+        for axis, labels in one.axes.items():
+            attributes = {"units": "s", "long_name": "time"} if axis == "time" else {"long_name": axis}
+            found[axis] = LabelledArray(axis, (axis,), np.asarray(labels), attributes)
+    return list(found.values())
 
 
 @contextlib.contextmanager

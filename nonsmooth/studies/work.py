@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory.modes import REASONS, Status
 from nonsmooth.errors import RunFailed
+from nonsmooth.interfaces import Engine
 from nonsmooth.runs.simulate import assemble
-from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.case import Case, CaseFactory
-from nonsmooth.studies.records.record import RunResult, StudyRecord
+from nonsmooth.studies.records import RunResult, StudyRecord
 from nonsmooth.studies.sampling import Value
-from nonsmooth.studies.status import RAISED, WORKER_DIED, RunStatus, reason_of
+from nonsmooth.studies.status import RAISED, WORKER_DIED, CaseStatus, reason_of
 
 
 @final
@@ -25,23 +26,18 @@ class Chunk:
 
     Attributes
     ----------
-    number : int
-        Number of the chunk.
     first : int
         Number of its first run.
     parameters : tuple of dict
         Parameters of each run.
     """
 
-    number: int
     first: int
     parameters: tuple[dict[str, Value], ...]
 
-    def halves(self) -> tuple[Chunk, Chunk]:
-        """Return its two halves, with the same number."""
-        middle = len(self.parameters) // 2
-        one, other = self.parameters[:middle], self.parameters[middle:]
-        return Chunk(self.number, self.first, one), Chunk(self.number, self.first + middle, other)
+    def runs(self) -> list[Chunk]:
+        """Return its runs, each as a chunk of one."""
+        return [Chunk(self.first + i, (one,)) for i, one in enumerate(self.parameters)]
 
 
 @final
@@ -63,24 +59,21 @@ class ChunkResult:
     arrays: Mapping[str, NDArray[Any]]
     texts: Mapping[int, str]
 
-    def joined(self, other: ChunkResult) -> ChunkResult:
-        """Return this result and the one of the following chunk as one."""
-        chunk = Chunk(self.chunk.number, self.chunk.first, self.chunk.parameters + other.chunk.parameters)
-        arrays = {name: np.concatenate([values, other.arrays[name]]) for name, values in self.arrays.items()}
-        return ChunkResult(chunk, arrays, {**self.texts, **other.texts})
+    @classmethod
+    def joined(cls, parts: Sequence[ChunkResult]) -> ChunkResult:
+        """Return the results of successive parts of a chunk as one."""
+        chunk = Chunk(parts[0].chunk.first, tuple(one for part in parts for one in part.chunk.parameters))
+        arrays = {name: np.concatenate([part.arrays[name] for part in parts]) for name in parts[0].arrays}
+        return cls(chunk, arrays, {run: text for part in parts for run, text in part.texts.items()})
 
 
 class RunRow(NamedTuple):
     """Status and reason of a run, the reason in words if it has no records, values by record."""
 
-    status: RunStatus
+    status: CaseStatus
     reason: int
     text: str = ""
     values: Mapping[str, Any] = {}
-
-
-def _nothing() -> None:
-    """Do nothing."""
 
 
 @final
@@ -92,17 +85,20 @@ class Work:
     ----------
     cases : CaseFactory
         Builds the runs.
-    engine : Budgeted
-        Integrates them, up to a number of steps.
+    engine : Engine
+        Integrates them.
+    budget : int or None
+        Steps after which a run is given up.
     records : tuple of StudyRecord
         What is kept of each run.
     """
 
     cases: CaseFactory
-    engine: Budgeted
+    engine: Engine
+    budget: int | None
     records: tuple[StudyRecord, ...] = field(default=())
 
-    def chunk(self, chunk: Chunk, before_each: Callable[[], None] = _nothing) -> ChunkResult:
+    def chunk(self, chunk: Chunk, before_each: Callable[[], object] = lambda: None) -> ChunkResult:
         """Return the result of a chunk; an exception of ``before_each`` ends it."""
         rows = []
         for parameters in chunk.parameters:
@@ -112,7 +108,7 @@ class Work:
 
     def crashed(self, chunk: Chunk, text: str) -> ChunkResult:
         """Return the result of runs whose process died."""
-        return self._result(chunk, [RunRow(RunStatus.CRASHED, WORKER_DIED, text) for _ in chunk.parameters])
+        return self._result(chunk, [RunRow(CaseStatus.CRASHED, WORKER_DIED, text) for _ in chunk.parameters])
 
     def row(self, parameters: Mapping[str, Value]) -> RunRow:
         """Return the row of a run; an exception gives a row with status "failed".
@@ -126,28 +122,29 @@ class Work:
             case = self.cases.case(parameters)
             result = self.result(case, case.t_end)
         except RunFailed as error:
-            return RunRow(RunStatus.FAILED, reason_of(str(error)), str(error))
+            return RunRow(CaseStatus.FAILED, reason_of(str(error)), str(error))
         except Exception as error:
-            return RunRow(RunStatus.FAILED, RAISED, f"{type(error).__name__}: {error}")
+            return RunRow(CaseStatus.FAILED, RAISED, f"{type(error).__name__}: {error}")
         solution, values = result.solution, dict[str, Any]()
         if solution.status == "interrupted":
             raise KeyboardInterrupt
         reason = reason_of(solution.message)
-        if self.engine.spent(solution):
-            text = f"At t = {solution.t_end:.9g} s its {self.engine.steps} steps were used up."
-            return RunRow(RunStatus.BUDGET, reason, text)
+        # a run of a study has no other condition
+        if solution.message == REASONS[Status.CONDITION_MET]:
+            text = f"At t = {solution.t_end:.9g} s its {self.budget} steps were used up."
+            return RunRow(CaseStatus.BUDGET, reason, text)
         for record in self.records:
             try:
                 values[record.name] = record.of(result)
             except Exception as error:
-                return RunRow(RunStatus.FAILED, RAISED, f"record {record.name}: {type(error).__name__}: {error}")
-        status = RunStatus.SUSPECT if solution.status == "suspect" else RunStatus.DONE
+                return RunRow(CaseStatus.FAILED, RAISED, f"record {record.name}: {type(error).__name__}: {error}")
+        status = CaseStatus.SUSPECT if solution.status == "suspect" else CaseStatus.DONE
         return RunRow(status, reason, "", values)
 
     def result(self, case: Case, t_end: float) -> RunResult:
         """Simulate a case up to a time [s]."""
         model = assemble(case.system, self.engine)
-        solution = model.run(t_end, sample_interval=case.sample_interval)
+        solution = model.run(t_end, sample_interval=case.sample_interval, most_steps=self.budget)
         return RunResult(case.scenario, model, solution, case.t_end)
 
     def _result(self, chunk: Chunk, rows: list[RunRow]) -> ChunkResult:

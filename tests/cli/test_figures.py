@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.cli.commands import figures
+from nonsmooth.cli.execute import perform
 
 Call = Callable[..., tuple[int, str, str]]
 
@@ -25,7 +25,7 @@ def test_after_ctrl_c_no_figure_of_half_a_run(call: Call, tmp_path: Path, monkey
     def impatient(t: float, t_end: float) -> None:
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(figures, "TimeReached", lambda _: impatient)
+    monkeypatch.setattr(perform, "TimeReached", lambda _: impatient)
     status, _, errors = call("figures", "tiny", "--out", str(tmp_path))
     assert status == 1
     assert "error: interrupted: no figure was saved\n" in errors

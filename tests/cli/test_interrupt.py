@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from nonsmooth.cli.execute import obtain, perform
-from nonsmooth.cli.execute.interrupt import Interrupt
+from nonsmooth.cli.execute.perform import Interrupt
 
 Call = Callable[..., tuple[int, str, str]]
 

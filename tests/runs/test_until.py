@@ -56,6 +56,17 @@ def test_a_condition_sees_what_there_is(model: ns.Model, whole: ns.Solution) -> 
     assert run.u_end[2] > 0.0
 
 
+@pytest.mark.parametrize("n", [1, 60])
+def test_a_limit_of_steps_stops_a_run_that_continues_to_the_last_bit(
+    model: ns.Model, whole: ns.Solution, n: int
+) -> None:
+    before = model.run(T_END, most_steps=n)
+    assert (before.status, before.message) == ("done", "the condition that was given was met")
+    assert n <= before.counters.steps < whole.counters.steps
+    assert lost_by_stopping(whole, before, model.run(T_END, start=before.state)) == []
+    assert differences(whole, model.run(T_END, most_steps=whole.counters.steps + 1)) == []
+
+
 def test_what_a_condition_raises_is_raised(model: ns.Model) -> None:
     """And the model runs again."""
     with pytest.raises(ZeroDivisionError):

@@ -21,8 +21,8 @@ from nonsmooth import studies
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plugins import file
 from nonsmooth.studies import status
-from nonsmooth.studies.executors.dask import Parcel, SchedulerLost
-from nonsmooth.studies.status import RunStatus
+from nonsmooth.studies.dask import Parcel, SchedulerLost
+from nonsmooth.studies.status import CaseStatus
 from nonsmooth.studies.study_folder import StudyFolder
 from tests.studies import ball
 
@@ -97,7 +97,7 @@ def test_the_run_that_kills_its_worker_is_found(
     heights = [0.01, 0.02, 0.03, 0.05, 0.06]
     study = studies.Study(ball.deadly, studies.grid(height=heights), ball.RECORD, t_end=ball.T_END)
     found = study.run(tmp_path / "s.zarr", executor=studies.Dask(mortal_cluster.scheduler_address), chunk=4)
-    ends = [RunStatus.CRASHED.code if height == 0.05 else RunStatus.DONE.code for height in heights]
+    ends = [CaseStatus.CRASHED.code if height == 0.05 else CaseStatus.DONE.code for height in heights]
     assert found.status.values.tolist() == ends
     assert found.reason.values[3] == status.WORKER_DIED
     assert "died" in StudyFolder(tmp_path / "s.zarr").texts()[3]
@@ -158,7 +158,7 @@ def test_workers_without_the_module_are_refused(tmp_path: Path, cluster: Any, mo
     )
     with pytest.raises(ns.InvalidInput, match=r"must find what the study runs.*only_here.*PYTHONPATH"):
         study.run(tmp_path / "s.zarr", executor=studies.Dask(cluster.scheduler_address))
-    assert (studies.open_study(tmp_path / "s.zarr").status == RunStatus.NOT_RUN.code).all()
+    assert (studies.open_study(tmp_path / "s.zarr").status == CaseStatus.NOT_RUN.code).all()
 
 
 def test_a_scheduler_that_ends_is_told_and_the_study_goes_on(tmp_path: Path) -> None:

@@ -17,8 +17,8 @@ from nonsmooth.engine.memory.modes import Status
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.studies import status
-from nonsmooth.studies.records.recorders import Requested
-from nonsmooth.studies.status import RunStatus
+from nonsmooth.studies.records import Requested
+from nonsmooth.studies.status import CaseStatus
 from nonsmooth.studies.study_folder import StudyFolder
 from scenarios.bouncing_ball import BouncingBall
 from scenarios.dumbbell import DumbbellScenario
@@ -120,7 +120,7 @@ def test_chunks_without_a_value_are_whole(tmp_path: Path) -> None:
 def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
     study = studies.Study(drop, studies.grid(height=[0.01, -1.0, 0.05]), [*RECORD, _raises], t_end=T_END)
     found = study.run(tmp_path / "s.zarr", executor="serial", chunk=2)
-    assert found.status.values.tolist() == [RunStatus.FAILED.code] * 3
+    assert found.status.values.tolist() == [CaseStatus.FAILED.code] * 3
     assert found.reason.values.tolist() == [status.RAISED] * 3
     texts = StudyFolder(tmp_path / "s.zarr").texts()
     assert texts[1] == "ArithmeticError: no ball at -1.0"
@@ -144,7 +144,7 @@ def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     free = studies.Study(drop, studies.grid(restitution=[0.2, 0.9], height=[0.05]), RECORD, t_end=2.0)
     whole = free.run(tmp_path / "free.zarr", executor="serial")
     assert (whole.steps.values.ravel() <= 60).tolist() == [True, False]
-    assert found.status.values.ravel().tolist() == [RunStatus.DONE.code, RunStatus.BUDGET.code]
+    assert found.status.values.ravel().tolist() == [CaseStatus.DONE.code, CaseStatus.BUDGET.code]
     assert found.q_end.values[0].tobytes() == whole.q_end.values[0].tobytes()
     assert "its 60 steps were used up" in StudyFolder(tmp_path / "s.zarr").texts()[1]
 

@@ -1,4 +1,4 @@
-"""``nonsmooth export``: a run as a file for other programs."""
+"""``nonsmooth view`` and ``export``, which show a run or write it to a file, and ``save``, which writes a scenario."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from nonsmooth.cli.execute import obtain
-from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.execute import obtain, outputs
 from nonsmooth.cli.parse.options import Command, Option
+from nonsmooth.cli.parse.request import ENGINE, LAW, SCENARIO, SET, TRUST, job
 from nonsmooth.cli.report.messages import tell
+from nonsmooth.files import formats
+from nonsmooth.files.writing import save_system
 from nonsmooth.solution.exports import FORMATS, exporter
+from nonsmooth.solution.solution import Solution
 
 
 def _options_of_formats() -> tuple[Option, ...]:
@@ -33,10 +36,34 @@ def _options_of_formats() -> tuple[Option, ...]:
 
 
 _FORMATS = _options_of_formats()
-_FILE = Option("file", f"the file to write; its suffix is the format: {', '.join(FORMATS)}", metavar="FILE")
+_HTML = Option("--html", "write the page there and open nothing", metavar="FILE", kind=Path)
+_EXPORT = Option("file", f"the file to write; its suffix is the format: {', '.join(FORMATS)}", metavar="FILE")
+_SAVE = Option("file", "the file to write, .toml or .yaml", metavar="FILE", kind=Path)
 
 
-def _execute(arguments: argparse.Namespace) -> bool:
+def in_browser(title: str, solution: Solution) -> None:
+    """Play a run in the browser and print the path of its page."""
+    # imported on use: the other commands start faster without it
+    from nonsmooth.solution.pages import MOST_KNOTS, not_opened, show
+
+    path, opened = show(solution, title, MOST_KNOTS)
+    tell(f"the run plays in the browser, from {path}" if opened else not_opened(path))
+
+
+def _view(arguments: argparse.Namespace) -> bool:
+    """Write the page and open it; return whether the run reached its end."""
+    if arguments.html is not None:
+        outputs.prepare_file(arguments.html, arguments.overwrite)
+    with contextlib.redirect_stdout(sys.stderr):
+        run = obtain.obtain("view", arguments)
+        if run.solution is not None and arguments.html is None:
+            in_browser(run.title, run.solution)
+        elif run.solution is not None:
+            tell(f"the page is {run.solution.to_html(arguments.html, title=run.title)}")
+    return run.is_complete
+
+
+def _export(arguments: argparse.Namespace) -> bool:
     """Write the file; return whether the run reached its end."""
     given = {one.place: getattr(arguments, one.place) for one in _FORMATS}
     with contextlib.redirect_stdout(sys.stderr):
@@ -48,4 +75,19 @@ def _execute(arguments: argparse.Namespace) -> bool:
     return run.is_complete
 
 
-COMMANDS = {"export": Command(_execute, (*obtain.OPTIONS, _FILE, *_FORMATS, outputs.OVERWRITE))}
+def _save(arguments: argparse.Namespace) -> bool:
+    made = job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
+    one, path = made.scenario, arguments.file
+    formats.of(path)
+    outputs.prepare_file(path, arguments.overwrite)
+    system, title = made.build(), made.title
+    save_system(system, path, t_end=one.t_end, sample_interval=one.sample_interval, engine=made.engine, title=title)
+    tell(f"the system is in {path}")
+    return True
+
+
+COMMANDS = {
+    "view": Command(_view, (*obtain.OPTIONS, _HTML, outputs.OVERWRITE)),
+    "export": Command(_export, (*obtain.OPTIONS, _EXPORT, *_FORMATS, outputs.OVERWRITE)),
+    "save": Command(_save, (SCENARIO, _SAVE, SET, LAW, ENGINE, TRUST, outputs.OVERWRITE)),
+}

@@ -12,7 +12,7 @@ from importlib import metadata, resources
 from pathlib import Path
 from string import Template
 
-from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.execute import outputs
 from nonsmooth.cli.parse.options import Command, CommandGroup, Option
 from nonsmooth.cli.report.messages import say
 from nonsmooth.errors import InvalidInput
@@ -58,11 +58,9 @@ def _check_name(name: str) -> None:
     remedy = "Take small letters, digits and underscores, a letter first: rubber_friction."
     if re.fullmatch(r"[a-z][a-z0-9_]*[a-z0-9]", name) is None or keyword.iskeyword(name):
         raise InvalidInput("new plugin: name", "must be that of a Python package", name, remedy)
-    holder = _holder(name)
-    if holder:
-        raise InvalidInput(
-            "new plugin: name", "must not be taken already", name, f"It is that of {holder}: take another."
-        )
+    if holder := _holder(name):
+        remedy = f"It is that of {holder}: take another."
+        raise InvalidInput("new plugin: name", "must not be taken already", name, remedy)
 
 
 def _holder(name: str) -> str:

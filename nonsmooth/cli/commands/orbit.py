@@ -1,121 +1,127 @@
-"""``nonsmooth orbit`` and ``continue``: a periodic orbit of a scenario, and its branch along a parameter."""
+"""``nonsmooth orbit``, ``continue`` and ``bifurcation``: periodic orbits, and motions along a parameter."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from nonsmooth.checks import is_finite
 from nonsmooth.cli.docstrings import first_line
-from nonsmooth.cli.execute import saving
-from nonsmooth.cli.parse import outputs, values
+from nonsmooth.cli.execute.outputs import OVERWRITE, Saver
+from nonsmooth.cli.parse import values
 from nonsmooth.cli.parse.options import Command, Option, flag, given, names
 from nonsmooth.cli.parse.request import SCENARIO, SET, TRUST, job
-from nonsmooth.cli.report.messages import say
-from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.cli.report.messages import say, tell
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Scenario
+from nonsmooth.studies import Family, orbits
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit, values_of
-from nonsmooth.studies.orbits import Branch, Orbit, PoincareSection, Spin, Turn, continuation, orbit, pictures
 
 
-def _section(word: str) -> PoincareSection:
+def _section(word: str) -> orbits.PoincareSection:
     name, equals, rest = word.partition("=")
     level, colon, way = rest.partition(":")
     try:
         if name and equals and (way == "falling" if colon else True):
-            return PoincareSection(name.strip(), float(level), rising=not colon)
+            return orbits.PoincareSection(name.strip(), float(level), rising=not colon)
     except ValueError:
         pass
     remedy = "For example --section phi_m=0, or --section vz=0:falling."
     raise InvalidInput("--section", "must have the form NAME=LEVEL or NAME=LEVEL:falling", word, remedy)
 
 
-def _spin(word: str) -> Spin:
+def _spin(word: str) -> orbits.Spin:
     body, dot, axis = word.rpartition(".")
     if not dot:
         raise InvalidInput("--spin", "must have the form BODY.AXIS", word, "For example --spin dumbbell.x.")
-    return Spin(body, axis)
+    return orbits.Spin(body, axis)
 
 
-PICTURE = Option("--out", "folder of a picture and its numbers", metavar="DIR", kind=Path)
+_required = partial(Option.of, is_required=True)
+_N_VALUES = "the parameter and N values from LOW to HIGH"
+_PICTURE = Option("--out", "folder of a picture and its numbers", metavar="DIR", kind=Path)
 _SECTION = "NAME=LEVEL where it rises to the level, NAME=LEVEL:falling where it falls"
 _ORBIT = (
-    Option.of(orbit, "section", form=_SECTION, metavar="NAME=LEVEL", convert=_section),
-    Option.of(orbit, "at", metavar="SECONDS"),
-    Option.of(orbit, "settle", metavar="SECONDS"),
-    Option.of(orbit, "within", form="NAME,NAME,...", metavar="NAMES", convert=names),
-    flag("--turn", f"symmetry: {first_line(Turn)}"),
-    Option("--spin", f"symmetry: {first_line(Spin)}", metavar="BODY.AXIS", repeats=True),
-    PICTURE,
-    outputs.OVERWRITE,
+    Option.of(orbits.orbit, "section", form=_SECTION, metavar="NAME=LEVEL", convert=_section),
+    Option.of(orbits.orbit, "at", metavar="SECONDS"),
+    Option.of(orbits.orbit, "settle", metavar="SECONDS"),
+    Option.of(orbits.orbit, "within", form="NAME,NAME,...", metavar="NAMES", convert=names),
+    flag("--turn", f"symmetry: {first_line(orbits.Turn)}"),
+    Option("--spin", f"symmetry: {first_line(orbits.Spin)}", metavar="BODY.AXIS", repeats=True),
+    _PICTURE,
+    OVERWRITE,
 )
-_PERIOD = Option.of(orbit, "period", metavar="SECONDS")
+_PERIOD = Option.of(orbits.orbit, "period", metavar="SECONDS")
 _BRANCH = (
-    Option.of(continuation, "period", form=values.PERIOD, metavar="SECONDS"),
-    Option.of(
-        continuation, "span", name="over", form="the parameter and its ends", metavar="NAME=LOW:HIGH", is_required=True
-    ),
+    Option.of(orbits.continuation, "period", form=values.PERIOD, metavar="SECONDS"),
+    _required(orbits.continuation, "span", name="over", form="the parameter and its ends", metavar="NAME=LOW:HIGH"),
     Option("--show", "coordinate of the picture; the first of --within by default", metavar="NAME"),
 )
 
 
+_SAMPLES = (
+    _required(orbits.bifurcation, "coordinate", name="show"),
+    Option.of(orbits.bifurcation, "at", metavar="SECONDS"),
+    Option.of(orbits.bifurcation, "settle"),
+    Option.of(orbits.bifurcation, "keep"),
+)
+_BIFURCATION = (
+    SCENARIO,
+    SET,
+    TRUST,
+    _required(orbits.bifurcation, "values", name="over", form=_N_VALUES, metavar="NAME=LOW:HIGH:N"),
+    _required(orbits.bifurcation, "period", form=values.PERIOD, metavar="SECONDS"),
+    *_SAMPLES,
+    flag("--follow", f"hysteresis: {first_line(orbits.hysteresis)}"),
+    _PICTURE,
+    OVERWRITE,
+)
+
+
 def _orbit(arguments: argparse.Namespace) -> bool:
+    saver = Saver.of_pictures(arguments.out, arguments.overwrite)
     found = _found(arguments, lambda _: arguments.period)
     say(str(found))
-    if arguments.out is None:
-        return True
-    return save(arguments.out, "multipliers", pictures.multipliers(found), "\n".join(map(str, found.multipliers)))
+    numbers = "\n".join(map(str, found.multipliers))
+    return saver.diagram("multipliers", lambda: orbits.pictures.multipliers(found), numbers)
 
 
 def _continue(arguments: argparse.Namespace) -> bool:
     name, span = values.span(arguments.over)
     period = None if arguments.period is None else values.period(arguments.period, name)
-    found = _found(arguments, lambda known: period(_value(known, name)) if callable(period) else period)
+    saver = Saver.of_pictures(arguments.out, arguments.overwrite)
+    found = _found(arguments, lambda scenario: period(Family.of(scenario)[name]) if callable(period) else period)
     if not found.map.chart.names:
         remedy = "Choose another --section or --at, or name more of what repeats by --within."
         raise InvalidInput("orbit", "must leave something free at the section", arguments.within, remedy)
     shown, system = arguments.show or found.map.chart.names[0], found.family.model().system
     number = coordinate_number(system, shown)
-    branch = continuation(found, name, span, period=period if callable(period) else None)
+    branch = orbits.continuation(found, name, span, period=period if callable(period) else None)
     say(f"{len(branch.orbits)} orbits, {name} from {branch.values.min():.9g} to {branch.values.max():.9g}")
     say(f"ends by {branch.ending}")
     for one in branch.special:
         say(f"{one.kind} at {name} = {one.value:.12g}")
-    if arguments.out is None:
-        return True
     label = f"{shown} [{unit(system, number)}]"
-    axes = pictures.branch(branch, lambda orbit: float(values_of(orbit.state)[number]), label)
-    return save(arguments.out, "branch", axes, _table(branch))
+    return saver.diagram(
+        "branch",
+        lambda: orbits.pictures.branch(branch, lambda orbit: float(values_of(orbit.state)[number]), label),
+        _table(branch),
+    )
 
 
-def prepare(arguments: argparse.Namespace) -> None:
-    """Check and create the folder of the picture, if there is one."""
-    if arguments.out is not None:
-        outputs.require_matplotlib()
-        outputs.prepare_folder(arguments.out, arguments.overwrite)
-        saving.without_display()
-
-
-def _found(arguments: argparse.Namespace, period_of: Callable[[Mapping[str, Any]], float | None]) -> Orbit:
+def _found(arguments: argparse.Namespace, period_of: Callable[[Scenario], float | None]) -> orbits.Orbit:
     """Return the orbit of a request; its period may follow from the values of the scenario."""
-    prepare(arguments)
     scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
-    symmetries = (*([Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
-    return orbit(scenario, period_of(scenario.values), **given(orbit, _ORBIT, arguments), symmetries=symmetries)
+    symmetries = (*([orbits.Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
+    words = given(orbits.orbit, _ORBIT, arguments)
+    return orbits.orbit(scenario, period_of(scenario), **words, symmetries=symmetries)
 
 
-def _value(known: Mapping[str, Any], name: str) -> float:
-    """Return the value of a parameter of the scenario."""
-    numbers = {word: float(value) for word, value in known.items() if is_finite(value)}
-    if name not in numbers:
-        raise UnknownName("parameter", name, numbers)
-    return numbers[name]
-
-
-def _table(branch: Branch) -> str:
+def _table(branch: orbits.Branch) -> str:
     """Return values, largest multipliers and stability of a branch as CSV."""
     rows = [f"{branch.name},largest_multiplier,stable"]
     for value, one in zip(branch.values.tolist(), branch.orbits, strict=True):
@@ -123,16 +129,49 @@ def _table(branch: Branch) -> str:
     return "\n".join(rows)
 
 
-def save(folder: Path, name: str, axes: Any, text: str) -> bool:
-    """Save a picture and its numbers; return whether both could be written."""
-    troubles: list[str] = []
-    paths = saving.save_figures({name: axes.figure}, folder, troubles)
-    saving.save_text(text, folder / f"{name}.csv", troubles)
-    say("\n".join(map(str, [*paths, folder / f"{name}.csv"])))
-    return not troubles
+def _bifurcation(arguments: argparse.Namespace) -> bool:
+    """Run all values, print how many repeat after how many periods, save; return whether all succeeded."""
+    values.check_not_set([arguments.over], arguments.set)
+    name, row = values.axis(arguments.over)
+    saver = Saver.of_pictures(arguments.out, arguments.overwrite)
+    scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
+    period, samples = values.period(arguments.period, name), given(orbits.bifurcation, _SAMPLES, arguments)
+    ways: dict[str, orbits.Diagram]
+    found: orbits.Diagram | orbits.Hysteresis
+    if arguments.follow:
+        found = orbits.hysteresis(scenario, name, row, period, **samples)
+        ways = {"up": found.up, "down": found.down}
+        say(f"{found.apart.sum()} of {len(row)} values have two motions")
+    else:
+        found = orbits.bifurcation(scenario, name, row, period, **samples)
+        ways = {"": found}
+    for way, diagram in ways.items():
+        head = f"{way}: " if way else ""
+        for after, count in sorted(Counter(diagram.periods.tolist()).items()):
+            words = {-1: "failed", 0: "do not repeat"}.get(after, f"repeat after {after} periods")
+            say(f"{head}{count} {words}")
+        if count := int(diagram.settling.sum()):
+            say(f"{head}{count} still settle: take a larger --settle")
+    failed = [text for diagram in ways.values() for text in diagram.failures if text]
+    for text in failed[:3]:
+        tell(f"failed: {text}")
+    return saver.diagram("bifurcation", found.draw, _samples_table(name, arguments.show, ways)) and not failed
+
+
+def _samples_table(name: str, coordinate: str, ways: dict[str, orbits.Diagram]) -> str:
+    """Return the samples as CSV, a row for each value."""
+    is_single = list(ways) == [""]
+    keep = next(iter(ways.values())).points.shape[1]
+    samples = ",".join(f"{coordinate}_{i + 1}" for i in range(keep))
+    rows = [f"{'' if is_single else 'way,'}{name},{samples}"]
+    for way, diagram in ways.items():
+        for value, row in zip(diagram.values.tolist(), diagram.points.tolist(), strict=True):
+            rows.append(",".join([*([] if is_single else [way]), repr(value), *map(repr, row)]))
+    return "\n".join(rows)
 
 
 COMMANDS = {
     "orbit": Command(_orbit, (SCENARIO, SET, TRUST, _PERIOD, *_ORBIT)),
     "continue": Command(_continue, (SCENARIO, SET, TRUST, *_BRANCH, *_ORBIT)),
+    "bifurcation": Command(_bifurcation, _BIFURCATION),
 }

@@ -6,12 +6,14 @@ import argparse
 import contextlib
 import json
 import sys
+from functools import partial
 from pathlib import Path
 
-from nonsmooth.cli.commands import view
-from nonsmooth.cli.execute.obtain import computation, job_of, title_of
+from nonsmooth.cli.commands.export import in_browser
+from nonsmooth.cli.execute import outputs
+from nonsmooth.cli.execute.obtain import computation, job_of
+from nonsmooth.cli.execute.outputs import Saver
 from nonsmooth.cli.execute.perform import Progress, check_acceptance, is_accepted, perform
-from nonsmooth.cli.parse import outputs
 from nonsmooth.cli.parse.options import Command, Option, flag
 from nonsmooth.cli.parse.request import ENGINE, JSON, LAW, SCENARIO, SET, TRUST, job
 from nonsmooth.cli.report import run_report
@@ -38,57 +40,50 @@ _RESUME = (Option("folder", "the folder that `run --out` was given", metavar="DI
 
 
 def _run(arguments: argparse.Namespace) -> bool:
-    troubles: list[str] = []
+    saver = Saver(None if arguments.out is None else Output.to(arguments.out).folder)
     with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in: standard output is for the result
-        report = _performed(arguments, troubles)
+        report = _performed(arguments, saver)
     accepted = not arguments.accept or is_accepted(report)
-    return _said(report, troubles, arguments.json) and accepted
+    return _said(report, saver, arguments.json) and accepted
 
 
-def _performed(arguments: argparse.Namespace, troubles: list[str]) -> run_report.Report:
+def _performed(arguments: argparse.Namespace, saver: Saver) -> run_report.Report:
     made = job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
-    title = title_of(made.scenario)
     if arguments.accept:
         check_acceptance(made)
-    head, folder, output = {"scenario": arguments.scenario, **made.head()}, None, None
-    if arguments.out is not None:
+    head, output = {"scenario": arguments.scenario, **made.head()}, None
+    if saver.folder is not None:
         outputs.require_matplotlib()
         words = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
-        folder = Output.to(arguments.out).folder
-        output = Output(folder, title, words, json.loads(run_report.as_json(head)), arguments.overwrite)
+        output = Output(saver.folder, made.title, words, json.loads(run_report.as_json(head)), arguments.overwrite)
     compute = computation(made, output)
     if output is not None:
         check_free(output)
         outputs.prepare_folder(output.folder, arguments.overwrite)
-    further = [view.in_browser(title)] if arguments.view else []
-    return perform(made, head, compute, folder, arguments.accept, troubles, further)
+    show = partial(in_browser, made.title) if arguments.view else None
+    return perform(made, head, compute, saver, is_judged=arguments.accept, show=show)
 
 
 def _resume(arguments: argparse.Namespace) -> bool:
-    troubles: list[str] = []
+    saver, output = Saver(arguments.folder), Output(arguments.folder)
     with contextlib.redirect_stdout(sys.stderr):
-        report = _continued(Output(arguments.folder), arguments.trust, troubles)
-    return _said(report, troubles, arguments.json)
+        outputs.require_matplotlib()
+        name, made = job_of(output, SolutionFolder.opened(output), arguments.trust)
+        system = made.build()
+        check_resumable(output)
+
+        def compute(progress: Progress) -> Solution:
+            model = assemble(system, made.engine)
+            return model.resume(output, progress=lambda t, t_end: progress(t, t_end, model.n_events))
+
+        report = perform(made, {"scenario": name, **made.head()}, compute, saver)
+    return _said(report, saver, arguments.json)
 
 
-def _continued(output: Output, is_trusted: bool, troubles: list[str]) -> run_report.Report:
-    outputs.require_matplotlib()
-    folder = SolutionFolder.opened(output)
-    name, made = job_of(output, folder, is_trusted)
-    system = made.build()
-    check_resumable(output)
-
-    def compute(progress: Progress) -> Solution:
-        model = assemble(system, made.engine)
-        return model.resume(output, progress=lambda t, t_end: progress(t, t_end, model.n_events))
-
-    return perform(made, {"scenario": name, **made.head()}, compute, output.folder, False, troubles)
-
-
-def _said(report: run_report.Report, troubles: list[str], as_json: bool) -> bool:
+def _said(report: run_report.Report, saver: Saver, as_json: bool) -> bool:
     """Print a report; return whether the run reached its end and all was saved."""
     say(run_report.as_json(report) if as_json else run_report.as_text(report))
-    return report["status"] == "done" and not troubles
+    return report["status"] == "done" and not saver.troubles
 
 
 COMMANDS = {"run": Command(_run, _RUN), "resume": Command(_resume, _RESUME)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nonsmooth.cli.docstrings import first_line
 from nonsmooth.cli.parse.components import ROLES
@@ -15,9 +15,6 @@ from nonsmooth.cli.report.table import ASSUMED, HEAD, folded, lines, parameter_r
 from nonsmooth.files.formats import SUFFIXES
 from nonsmooth.files.reading import read
 from nonsmooth.plugins import file, registry
-
-if TYPE_CHECKING:
-    from nonsmooth.queries.proximity import NearPair
 
 GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws", "engines")
 _NEAR = ("gap [m]", "", "bodies", "found by", "contact")
@@ -91,16 +88,11 @@ def _near_bodies(name: str, trust: bool) -> str:
             pair.state,
             " and ".join(names[number] for number in pair.numbers),
             pair.distance.how,
-            _contact(pair),
+            ", ".join(word for word in ("declared", "joined", "excluded") if getattr(pair, word)) or "none",
         )
         for pair in pairs
     ]
     return "\n".join([f"{name}: bodies near each other at the start", "", *lines([_NEAR, *rows])])
-
-
-def _contact(pair: NearPair) -> str:
-    words = {"declared": pair.declared, "joined": pair.joined, "excluded": pair.excluded}
-    return ", ".join(word for word, holds in words.items() if holds) or "none"
 
 
 COMMANDS = {"list": Command(_list, (_GROUP,)), "show": Command(_show, _SHOW)}

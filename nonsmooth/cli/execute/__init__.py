@@ -1,1 +1,1 @@
-"""Execute: compute, judge and save runs and studies, and stop at Ctrl-C."""
+"""Execute: compute, judge and save runs, and stop at Ctrl-C."""

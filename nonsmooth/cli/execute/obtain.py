@@ -13,7 +13,6 @@ from nonsmooth.cli.parse.request import ENGINE, LAW, RUN_WORDS, SET, TRUST, Job,
 from nonsmooth.cli.report.messages import tell
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.scenario import FileScenario
-from nonsmooth.interfaces import Scenario
 from nonsmooth.plugins import file, registry
 from nonsmooth.results.opening import open_solution, stored_setup
 from nonsmooth.results.output import Output
@@ -54,11 +53,6 @@ class Obtained:
 def obtain(command: str, arguments: argparse.Namespace) -> Obtained:
     """Return the run that a request names."""
     return _stored(command, arguments) if Path(arguments.run).is_dir() else _computed(arguments)
-
-
-def title_of(scenario: Scenario) -> str:
-    """Return the title of a scenario, or of its file."""
-    return str(scenario.resolved().get("title", type(scenario).title))
 
 
 def job_of(output: Output, folder: SolutionFolder, is_trusted: bool) -> tuple[str, Job]:
@@ -112,4 +106,4 @@ def _stored(command: str, arguments: argparse.Namespace) -> Obtained:
 def _computed(arguments: argparse.Namespace) -> Obtained:
     made = job(arguments.run, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
     solution, status, _ = computed(computation(made))
-    return Obtained(title_of(made.scenario), solution, status == "done")
+    return Obtained(made.title, solution, status == "done")

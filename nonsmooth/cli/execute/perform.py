@@ -1,14 +1,15 @@
-"""The course of ``run`` and ``resume``: compute, judge, save, report."""
+"""The course of ``run`` and ``resume``: compute, judge, save, report; Ctrl-C stops a run at the next safe point."""
 
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Sequence
+import signal
+from collections.abc import Callable
 from pathlib import Path
+from types import FrameType
 from typing import Any, cast
 
-from nonsmooth.cli.execute import saving
-from nonsmooth.cli.execute.interrupt import Interrupt
+from nonsmooth.cli.execute.outputs import Saver, without_display
 from nonsmooth.cli.parse.request import Job
 from nonsmooth.cli.report import run_report
 from nonsmooth.cli.report.messages import complain, tell
@@ -30,14 +31,54 @@ Compute = Callable[[Progress], Solution]
 """Computes a solution, and reports its progress."""
 
 
+class Interrupt:
+    """While entered, the first Ctrl-C stops the run in :meth:`check`, a second one at once.
+
+    Without it an interrupt could divide a record.  A background process of a script ignores Ctrl-C from the start;
+    ``kill -INT`` stops its run, too, and keeps the results.
+    """
+
+    def __init__(self) -> None:
+        self.asked = False
+
+    def __enter__(self) -> Interrupt:
+        self._previous = signal.signal(signal.SIGINT, self._ask)
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        signal.signal(signal.SIGINT, self._previous)
+
+    def _ask(self, number: int, frame: FrameType | None) -> None:
+        if self.asked:
+            raise KeyboardInterrupt
+        self.asked = True
+        tell("\ninterrupt: stopping at the next safe point; once more stops at once")
+
+    def check(self) -> None:
+        """Raise KeyboardInterrupt after a first Ctrl-C."""
+        if self.asked:
+            raise KeyboardInterrupt
+
+    def progress(self, meter: ProgressMeter) -> Callable[..., None]:
+        """Return the progress of a run ``(t, t_end, *n_events)``, which is shown and stops the run before its end."""
+        shown = TimeReached(meter)
+
+        def after_steps(t: float, t_end: float, *n_events: int) -> None:
+            shown(t, t_end, *n_events)
+            if t < t_end:
+                self.check()
+
+        return after_steps
+
+
 def perform(
     job: Job,
     head: run_report.Report,
     compute: Compute,
-    folder: Path | None,
-    accept: bool,
-    troubles: list[str],
-    further: Sequence[Callable[[Solution], None]] = (),
+    saver: Saver,
+    *,
+    is_judged: bool = False,
+    show: Callable[[Solution], None] | None = None,
 ) -> run_report.Report:
     """Compute a solution, save it, and return the report.
 
@@ -49,14 +90,12 @@ def perform(
         Beginning of the report.
     compute : callable
         Computes the solution.
-    folder : Path or None
-        Where it is saved.
-    accept : bool
+    saver : Saver
+        Saves it, if there is a folder; notes failures.
+    is_judged : bool
         Whether the scenario's criteria judge it.
-    troubles : list of str
-        Failures are appended.
-    further : sequence of callable
-        Called with the solution at the end.
+    show : callable, optional
+        Shows the solution at the end.
     """
     scenario = job.scenario
     owner = type(scenario).__name__
@@ -65,38 +104,31 @@ def perform(
     report |= {"final": None, "summary": None, "units": {**run_report.UNITS, **scenario.units}}
     if solution is None:
         return report
-    if folder is not None:
-        _save_solution(scenario, solution, folder, troubles)
-    with saving.noting(troubles, f"{owner}.final"):
+    if saver.folder is not None:
+        _save_solution(scenario, solution, saver, saver.folder)
+    with saver.noting(f"{owner}.final"):
         report["final"] = dict(scenario.final(solution))
-    with saving.noting(troubles, f"{owner}.summarise"):
+    with saver.noting(f"{owner}.summarise"):
         report["summary"] = dict(scenario.summarise(solution))
-    if accept:
-        with saving.noting(troubles, f"{owner}.acceptance"):
+    if is_judged:
+        with saver.noting(f"{owner}.acceptance"):
             report["acceptance"] = judged(scenario, solution)
-    if folder is not None:
-        saving.save_text(run_report.as_json(report), folder / "summary.json", troubles)
-        _save_figures(job, solution, folder, troubles)
-        if not troubles:
-            tell(f"results are in {folder}")
-    for step in further:
-        with saving.noting(troubles, "the view"):
-            step(solution)
+    if saver.folder is not None:
+        saver.text(run_report.as_json(report), "summary.json")
+        _save_figures(job, solution, saver)
+        if not saver.troubles:
+            tell(f"results are in {saver.folder}")
+    if show is not None:
+        with saver.noting("the view"):
+            show(solution)
     return report
 
 
 def computed(compute: Compute) -> tuple[Solution | None, str, str]:
     """Return the solution as far as it was computed, the status, and the reason of the end."""
-
-    def after_steps(t: float, t_end: float, n_events: int) -> None:
-        progress(t, t_end, n_events)
-        if t < t_end:
-            interrupt.check()
-
     try:
         with ProgressMeter(on_standard_error()) as meter, Interrupt() as interrupt:
-            progress = TimeReached(meter)
-            solution = compute(after_steps)
+            solution = compute(interrupt.progress(meter))
     except RunFailed as error:
         kept = cast("Solution | None", error.solution)
         message = kept.message if kept else str(error)
@@ -139,29 +171,29 @@ def is_accepted(report: dict[str, Any]) -> bool:
     return bool(rows) and all(row["fulfilled"] for row in rows)
 
 
-def _save_solution(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
+def _save_solution(scenario: Scenario, solution: Solution, saver: Saver, folder: Path) -> None:
     """Add coordinates of the scenario and a table of events to the samples that the run has written."""
-    with saving.noting(troubles, f"{type(scenario).__name__}.coordinates"):
+    with saver.noting(f"{type(scenario).__name__}.coordinates"):
         written = SolutionFolder.held(Output(folder))
         with contextlib.closing(written):
             # after a full disk there are fewer samples than in the solution
             if written.status != UNFINISHED:
                 written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
-    with saving.noting(troubles, "saving the events"):
+    with saver.noting("saving the events"):
         save_events(solution, folder / "events.csv")
 
 
-def _save_figures(job: Job, solution: Solution, folder: Path, troubles: list[str]) -> None:
-    saving.without_display()
+def _save_figures(job: Job, solution: Solution, saver: Saver) -> None:
+    without_display()
     graph = transition_graph(solution) if are_recorded(solution) else None
     if graph is None:
         tell("no picture of transitions: the engine records no modes")
     elif len(graph.shares) > 1:
-        with saving.noting(troubles, "drawing the transitions"):
-            saving.save_figures({"transitions": draw(graph)}, folder, troubles)
+        with saver.noting("drawing the transitions"):
+            saver.figures({"transitions": draw(graph)})
     else:
         tell("no picture of transitions: the run has one mode")
-    with saving.noting(troubles, f"{type(job.scenario).__name__}.figures"):
+    with saver.noting(f"{type(job.scenario).__name__}.figures"):
         # titles and captions may mention the laws that were replaced
         note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""
-        saving.save_figures(job.scenario.figures(solution), folder, troubles, note)
+        saver.figures(job.scenario.figures(solution), note)

@@ -89,9 +89,6 @@ def check_not_ignored(owner: type, given: Iterable[str], laws: Mapping[str, Any]
     for name in given:
         if name in known and known[name][1].law in replaced:
             role = replaced[known[name][1].law]
-            raise InvalidInput(
-                f"--set {name}",
-                f"must not be given with --law {role}, which replaces the law that it belongs to",
-                name,
-                f"Leave it out; give the new law its parameters as in --law {role}=LAW,NAME=VALUE.",
-            )
+            rule = f"must not be given with --law {role}, which replaces the law that it belongs to"
+            remedy = f"Leave it out; give the new law its parameters as in --law {role}=LAW,NAME=VALUE."
+            raise InvalidInput(f"--set {name}", rule, name, remedy)

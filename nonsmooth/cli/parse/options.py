@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import NoneType
-from typing import Any, TypeAlias, final
+from typing import Any, final
 
 from nonsmooth.cli.docstrings import described_parameters
 
@@ -61,18 +61,7 @@ class Option:
     source: tuple[Callable[..., Any], str] | None = None
 
     @classmethod
-    def of(
-        cls,
-        function: Callable[..., Any],
-        parameter: str,
-        *,
-        name: str = "",
-        form: str = "",
-        metavar: str = "",
-        repeats: bool = False,
-        is_required: bool = False,
-        convert: Callable[[Any], Any] | None = None,
-    ) -> Option:
+    def of(cls, function: Callable[..., Any], parameter: str, *, name: str = "", form: str = "", **more: Any) -> Option:
         """Return the option of a parameter of a function: type and default of its signature, help of its docstring.
 
         Parameters
@@ -85,24 +74,17 @@ class Option:
             Name of the option, if it is another one.
         form : str
             Form of the word, if it is not a plain value.
-        metavar, repeats, is_required, convert
-            As of the class.
+        **more
+            Further attributes: metavar, repeats, is_required, convert.
         """
         known = inspect.signature(function).parameters[parameter]
         default = None if known.default is known.empty else known.default
         kind, placeholder = _KINDS.get(str(known.annotation).partition(" |")[0], (str, "WORD"))
-        parts = [help_of(function, parameter), form, "" if default is None else f"{_word(default)} by default"]
-        return cls(
-            f"--{(name or parameter).replace('_', '-')}",
-            "; ".join(filter(None, parts)),
-            default,
-            metavar or placeholder,
-            str if form else kind,
-            repeats,
-            is_required,
-            convert=convert,
-            source=(function, parameter),
-        )
+        text = _SHAPE.sub("", described_parameters(function)[parameter]).rstrip(".")
+        parts = [text[:1].lower() + text[1:], form, "" if default is None else f"{_word(default)} by default"]
+        named, text = f"--{(name or parameter).replace('_', '-')}", "; ".join(filter(None, parts))
+        more = {"metavar": placeholder, "kind": str if form else kind, "source": (function, parameter)} | more
+        return cls(named, text, default, **more)
 
     @property
     def place(self) -> str:
@@ -136,12 +118,6 @@ class Option:
 def flag(name: str, text: str) -> Option:
     """Return an option without a value."""
     return Option(name, text, False, kind=None)
-
-
-def help_of(function: Callable[..., Any], parameter: str) -> str:
-    """Return the description of a parameter in the docstring of its function, as the help of an option."""
-    text = _SHAPE.sub("", described_parameters(function)[parameter]).rstrip(".")
-    return text[:1].lower() + text[1:]
 
 
 def given(function: Callable[..., Any], options: Iterable[Option], arguments: argparse.Namespace) -> dict[str, Any]:
@@ -191,9 +167,6 @@ class CommandGroup:
         parts = parser.add_subparsers(title=self.title, required=True, metavar=self.metavar)
         for name, part in self.parts.items():
             part.fill(parts.add_parser(name, help=part.text, allow_abbrev=False))
-
-
-AnyCommand: TypeAlias = Command | CommandGroup
 
 
 def names(word: str) -> tuple[str, ...]:

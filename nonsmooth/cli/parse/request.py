@@ -22,15 +22,10 @@ from nonsmooth.system.replacing import with_laws
 from nonsmooth.system.system import System
 
 SCENARIO = Option(
-    "scenario",
-    "a name of `nonsmooth list scenarios`, a FILE.toml or FILE.yaml, or FILE.py:CLASS",
-    metavar="SCENARIO",
+    "scenario", "a name of `nonsmooth list scenarios`, a FILE.toml or FILE.yaml, or FILE.py:CLASS", metavar="SCENARIO"
 )
 SET = Option(
-    "--set",
-    "a parameter of `nonsmooth show SCENARIO`, in SI units; may come often",
-    metavar="NAME=VALUE",
-    repeats=True,
+    "--set", "a parameter of `nonsmooth show SCENARIO`, in SI units; may come often", metavar="NAME=VALUE", repeats=True
 )
 LAW = Option(
     "--law",
@@ -74,6 +69,11 @@ class Job:
     scenario: Scenario
     engine: Engine
     laws: dict[str, Any]
+
+    @property
+    def title(self) -> str:
+        """Title of the scenario, or of its file."""
+        return str(self.scenario.resolved().get("title", type(self.scenario).title))
 
     def build(self) -> System:
         """Return the system with these laws."""

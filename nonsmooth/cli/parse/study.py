@@ -14,7 +14,7 @@ from nonsmooth.cli.parse.request import ENGINE, SCENARIO, SET, TRUST, job
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies import Dask, Stroboscope, Study, grid, random
 from nonsmooth.studies.executors import Executor
-from nonsmooth.studies.records.recorders import Requested
+from nonsmooth.studies.records import Requested
 from nonsmooth.studies.study import EXECUTORS, check_chunk, executor_of
 
 RECORD = ("t_end", "impacts", "events", "steps", "energy_residual")
@@ -37,18 +37,7 @@ _DRAWN = (
     Option.of(random, "seed"),
 )
 _BUDGET = Option.of(Study, "budget", metavar="STEPS")
-OPTIONS = (
-    SCENARIO,
-    *_DRAWN,
-    SET,
-    ENGINE,
-    *STROBOSCOPE,
-    _BUDGET,
-    Option.of(Study.run, "chunk"),
-    *EXECUTOR,
-    TRUST,
-    OUT,
-)
+OPTIONS = (SCENARIO, *_DRAWN, SET, ENGINE, *STROBOSCOPE, _BUDGET, Option.of(Study.run, "chunk"), *EXECUTOR, TRUST, OUT)
 """Options of all commands that run a study."""
 RECORD_OPTION = Option.of(
     Study,

@@ -45,7 +45,7 @@ def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
     kind, _, count = sample.partition(":")
     if kind not in _DRAWS:
         raise UnknownName("--sample", kind, _DRAWS)
-    ranges = {name: _range(name, word) for name, word in named.items()}
+    ranges = {name: _numbers(name, word.split(":"), _RANGE) for name, word in named.items()}
     return _DRAWS[kind](_count("--sample", count), seed, **ranges)
 
 
@@ -61,7 +61,7 @@ def axis(word: str) -> tuple[str, list[float]]:
 def span(word: str) -> tuple[str, tuple[float, float]]:
     """Return a parameter and its range."""
     name, values = _cut(word)
-    return name, _range(name, values)
+    return name, _numbers(name, values.split(":"), _RANGE)
 
 
 def check_not_set(words: Iterable[str], given: Iterable[str]) -> None:
@@ -132,10 +132,6 @@ def _values(name: str, word: str) -> NDArray[Any]:
         return np.array([float(part) for part in parts])
     except ValueError:
         return np.array(parts)
-
-
-def _range(name: str, word: str) -> tuple[float, float]:
-    return _numbers(name, word.split(":"), _RANGE)
 
 
 def _numbers(name: str, words: list[str], form: str) -> tuple[float, float]:

@@ -28,6 +28,13 @@ _ROUND_OFF = 1e-15
 """Numbers below it in SI units are printed as 0."""
 _NOTHING = 1e-9
 """Numbers below this part of the largest of their list are printed as 0."""
+
+
+def _verdict(solution: Solution) -> dict[str, Any]:
+    measured = solution.end.verdict.items()
+    return {one.name: {"value": value, "unit": one.unit, "meaning": one.meaning} for one, value in measured}
+
+
 _NUMBERS: Mapping[str, Callable[[Solution], Any]] = {
     "t_end": attrgetter("t_end"),
     "wall_seconds": attrgetter("counters.wall_seconds"),
@@ -43,7 +50,7 @@ _NUMBERS: Mapping[str, Callable[[Solution], Any]] = {
     "mode_words": lambda solution: mode_shares(solution) if are_recorded(solution) else None,
     "energy_residual": attrgetter("energy.residual"),
     "cause": attrgetter("end.cause"),
-    "verdict": lambda solution: _verdict(solution),
+    "verdict": _verdict,
 }
 """Entries that a report takes from the solution."""
 UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J"}
@@ -53,11 +60,6 @@ UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J"}
 def of_solution(solution: Solution | None) -> Report:
     """Return the entries of a solution; None for all of them without one."""
     return {name: None if solution is None else find(solution) for name, find in _NUMBERS.items()}
-
-
-def _verdict(solution: Solution) -> dict[str, Any]:
-    measured = solution.end.verdict.items()
-    return {one.name: {"value": value, "unit": one.unit, "meaning": one.meaning} for one, value in measured}
 
 
 def as_json(report: Report) -> str:

@@ -35,7 +35,7 @@ def linked(points: Array) -> Integers:
     members = np.split(points[order], np.searchsorted(of_points[order], np.arange(1, len(cells))))
     groups = DisjointSet(range(len(cells)))
     for one, two in cKDTree(cells).query_pairs(1.5, p=np.inf, output_type="ndarray").tolist():
-        if not groups.connected(one, two) and distance_between(members[one], members[two]) <= 1.0:
+        if not groups.connected(one, two) and nearest(members[one], members[two]).min() <= 1.0:
             groups.merge(one, two)
     roots = np.array([groups[cell] for cell in range(len(cells))])[of_points]
     _, first, found = np.unique(roots, return_index=True, return_inverse=True)
@@ -47,11 +47,6 @@ def nearest(points: Array, others: Array) -> Array:
     from scipy.spatial import cKDTree
 
     return np.asarray(cKDTree(others).query(points, p=np.inf)[0])
-
-
-def distance_between(one: Array, other: Array) -> float:
-    """Return the distance of two sets: that of their nearest points."""
-    return float(nearest(one, other).min())
 
 
 def hausdorff(one: Array, other: Array) -> float:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.studies.attractors.boundary import Boundary
-from nonsmooth.studies.attractors.shares import basin_stability
+from nonsmooth.plot.arguments import axes_of
+from nonsmooth.studies.attractors.basins import Boundary, basin_stability
 from nonsmooth.studies.drawing import draw_study, label_of
-from nonsmooth.studies.plotting import BLUE, MOST_CLASSES, axes_of, class_colours, finish
+from nonsmooth.studies.plotting import BLUE, MOST_CLASSES, class_colours, finish
 
 if TYPE_CHECKING:
     import xarray

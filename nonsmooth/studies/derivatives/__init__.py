@@ -1,7 +1,5 @@
 """How motions change with parameters and starts, and parameters fitted to measurements."""
 
-from nonsmooth.studies.derivatives.family import EXACT, Family
-from nonsmooth.studies.derivatives.forward import NotDifferentiable, Sensitivity, sensitivity
-from nonsmooth.studies.derivatives.least_squares import Fit, fit
+from nonsmooth.lazy_names import lazy_names
 
-__all__ = ["EXACT", "Family", "Fit", "NotDifferentiable", "Sensitivity", "fit", "sensitivity"]
+__getattr__, __dir__, __all__ = lazy_names(__name__, __file__)

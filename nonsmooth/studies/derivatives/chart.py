@@ -38,7 +38,7 @@ _MOST = 20
 
 @final
 @dataclass(frozen=True)
-class ClosedContacts:
+class ClosedConstraints:
     """Contacts of rigid bodies that are closed in a state.
 
     Attributes
@@ -51,7 +51,7 @@ class ClosedContacts:
     stuck: NDArray[np.int64]
 
     @classmethod
-    def at(cls, model: Model, state: State) -> ClosedContacts:
+    def at(cls, model: Model, state: State) -> ClosedConstraints:
         """Return the closed contacts of a state.
 
         Raises
@@ -62,12 +62,9 @@ class ClosedContacts:
         contacts = model.system.contacts
         for number in np.flatnonzero(state.modes != Mode.OPEN).tolist():
             if isinstance(contacts[number].friction, (StatefulFrictionLaw, TractionLaw)):
-                raise InvalidInput(
-                    f"section: the {contacts[number]}",
-                    "must be open there, as its law has inner states",
-                    "closed",
-                    "Choose a section where it is open, or a law without inner states.",
-                )
+                rule = "must be open there, as its law has inner states"
+                remedy = "Choose a section where it is open, or a law without inner states."
+                raise InvalidInput(f"section: the {contacts[number]}", rule, "closed", remedy)
         rigid = np.array([isinstance(contact.normal, RigidNormalLaw) for contact in contacts], dtype=bool)
         closed = rigid & (state.modes != Mode.OPEN)
         return cls(np.flatnonzero(closed), np.flatnonzero(closed & (state.modes == Mode.STICK)))
@@ -94,7 +91,7 @@ class Chart:
         The coordinate, velocity or turn of a body that each direction changes.
     quaternions : tuple of int
         Where the quaternions begin.
-    contacts : ClosedContacts
+    contacts : ClosedConstraints
         The closed contacts.
     following : array
         The eliminated directions, shape [n_q + n_u, k].
@@ -107,7 +104,7 @@ class Chart:
     basis: Array
     names: tuple[str, ...]
     quaternions: tuple[int, ...]
-    contacts: ClosedContacts
+    contacts: ClosedConstraints
     following: Array
     inverse: Array
     ignored: Array
@@ -144,7 +141,7 @@ class Chart:
         InvalidInput
             If the law of a closed contact has inner states, or closed contacts leave no direction free.
         """
-        contacts, quaternions = ClosedContacts.at(model, state), tuple(quaternions_of(model.system).values())
+        contacts, quaternions = ClosedConstraints.at(model, state), tuple(quaternions_of(model.system).values())
         columns, names = _columns(model.system, state, within, without)
         # a direction is ignored only as far as coordinates that may change have a part in it
         changes = np.any(columns, axis=1)[:, None]
@@ -252,12 +249,8 @@ def _columns(
     system: System, state: State, within: Collection[str] | None, without: Collection[str]
 ) -> tuple[Array, tuple[str, ...]]:
     """Return all directions about a state that may change, shape [n_q + n_u, m], and their names."""
-    chosen, scale, y, quaternions = (
-        labels_within(system, within),
-        scales_of(system),
-        values_of(state),
-        quaternions_of(system),
-    )
+    chosen, scale = labels_within(system, within), scales_of(system)
+    y, quaternions = values_of(state), quaternions_of(system)
     columns, names = list[Array](), list[str]()
     for i, (body, label, _) in enumerate(labels_of(system)):
         name = f"{body}.{label}"

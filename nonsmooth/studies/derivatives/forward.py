@@ -95,17 +95,9 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
     found = [_steady(family, name, times, expected) for name in parameters]
     n_q = len(family.model().start.q)
     by = np.stack([column for column, _ in found], axis=-1) if found else np.zeros((*states.shape, 0))
-    return Sensitivity(
-        family,
-        times,
-        tuple(parameters),
-        states[:, :n_q],
-        states[:, n_q:],
-        by[:, :n_q],
-        by[:, n_q:],
-        np.array([error for _, error in found]),
-        events,
-    )
+    parts = states[:, :n_q], states[:, n_q:], by[:, :n_q], by[:, n_q:]
+    errors = np.array([error for _, error in found])
+    return Sensitivity(family, times, tuple(parameters), *parts, errors, events)
 
 
 def _states(model: Model, times: Array) -> tuple[Array, Signature, Array]:

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.charts import line
-from nonsmooth.plot.arguments import pyplot
+from nonsmooth.charts import COLOURS, line
+from nonsmooth.plot.arguments import axes_of, pyplot
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
 from nonsmooth.studies.derivatives.forward import Sensitivity
 from nonsmooth.studies.derivatives.least_squares import Fit, observed
-from nonsmooth.studies.plotting import COLOURS, VERMILION, axes_of, finish
+from nonsmooth.studies.plotting import VERMILION, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

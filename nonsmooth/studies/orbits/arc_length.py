@@ -14,7 +14,7 @@ from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.differences import SECOND, OrderOfEvents, Sampled, derivative, slope
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.flow import Signature
-from nonsmooth.studies.orbits.linear import smooth
+from nonsmooth.studies.orbits.linear import linear
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
 from nonsmooth.studies.orbits.sections import Section
 from nonsmooth.types import Array
@@ -95,7 +95,7 @@ class Path:
         family = self.family.at(**{self.name: value})
         section = self.section(value)
         near = before if is_quick else None
-        found = smooth(family.model(), state, section, self.within, near and near.orbit.map.step)
+        found = linear(family.model(), state, section, self.within, near and near.orbit.map.step, is_smooth=True)
 
         def changed(change: float) -> tuple[Array, Signature]:
             there = value + change

@@ -1,26 +1,32 @@
-"""Bifurcation diagrams: a coordinate once a period, over a parameter, after the motion has settled."""
+"""Bifurcation diagrams: a coordinate once a period, over a parameter, after the motion has settled.
+
+In a hysteresis diagram the values rise, then fall, and each run starts from the one before.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.chart import Chart
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, scales_of, unit
 from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.flow import completed
 from nonsmooth.studies.inputs import check_periods, check_phase
 from nonsmooth.studies.orbits.scan import Period, check_period, period_at, scan
-from nonsmooth.studies.orbits.sections import state_at_phase
+from nonsmooth.studies.orbits.sections import clearest_state, state_at_phase
 from nonsmooth.studies.periods import alike, periods, settling
-from nonsmooth.studies.plotting import axes_of, dotted, few_ticks
+from nonsmooth.studies.plotting import BLUE, GREEN, dotted, few_ticks, finish
 from nonsmooth.types import Array
 
 if TYPE_CHECKING:
@@ -144,19 +150,15 @@ def bifurcation(
         If a number is not valid, or no value gives a system.
     """
     row = np.atleast_1d(floats("bifurcation: values", values))
-
-    def sampling(value: float) -> PeriodicSampling:
-        lasts = period_at(period, value, "bifurcation: period")
-        return PeriodicSampling(lasts, coordinate, at, settle, keep, "bifurcation")
-
+    sampling = PeriodicSampling(period, coordinate, at, settle, keep, "bifurcation")
     family = Family.of(what, EventDriven())
-    unit, scale = sampling(family[name]).unit_and_scale(family.model())
+    blank = sampling.diagram(family, name, row)
 
     def points_of(model: Model, value: float) -> Array:
-        return sampling(value).settled(model, model.start)[0]
+        return sampling.settled(model, model.start, value)[0]
 
     points, failures = scan(family, name, row.tolist(), points_of, np.full(keep, np.nan), display)
-    return Diagram(name, family.label(name), row, coordinate, unit, np.array(points), failures, scale)
+    return replace(blank, points=np.array(points), failures=failures)
 
 
 @final
@@ -166,8 +168,8 @@ class PeriodicSampling:
 
     Attributes
     ----------
-    period : float
-        The period [s].
+    period : float or callable
+        The period [s], or a function from the value of the parameter to the period.
     coordinate : str
         The coordinate or velocity, "vz" or "ball.vz".
     at : float
@@ -183,7 +185,7 @@ class PeriodicSampling:
         If a number is not valid.
     """
 
-    period: float
+    period: Period
     coordinate: str
     at: float
     settle: int
@@ -192,21 +194,37 @@ class PeriodicSampling:
 
     def __post_init__(self) -> None:
         check_periods(self.study, settle=self.settle, keep=self.keep)
-        check_phase(f"{self.study}: at", self.at, self.period)
 
-    def unit_and_scale(self, model: Model) -> tuple[str, float]:
-        """Return the unit of the coordinate, and its scale by the size of its body.
+    def lasts(self, value: float) -> float:
+        """Return the period at a value of the parameter [s].
+
+        Raises
+        ------
+        InvalidInput
+            If it is not positive, or the time of the sample is not within it.
+        """
+        period = period_at(self.period, value, f"{self.study}: period")
+        check_phase(f"{self.study}: at", self.at, period)
+        return period
+
+    def diagram(self, family: Family, name: str, values: Array) -> Diagram:
+        """Return the diagram of a parameter before any run, without points.
 
         Raises
         ------
         UnknownName
-            If there is no such coordinate.
+            If there is no such parameter or coordinate.
+        InvalidInput
+            If the period is not valid.
         """
-        number = coordinate_number(model.system, self.coordinate)
-        return unit(model.system, number), float(scales_of(model.system)[number])
+        self.lasts(family[name])
+        system = family.model().system
+        number = coordinate_number(system, self.coordinate)
+        scale, points = float(scales_of(system)[number]), np.zeros((0, self.keep))
+        return Diagram(name, family.label(name), values, self.coordinate, unit(system, number), points, (), scale)
 
-    def settled(self, model: Model, start: State) -> tuple[Array, State]:
-        """Return the samples, shape [keep], and the state at the end of the run.
+    def settled(self, model: Model, start: State, value: float) -> tuple[Array, State]:
+        """Return the samples at a value of the parameter, shape [keep], and the state at the end of the run.
 
         Raises
         ------
@@ -215,10 +233,110 @@ class PeriodicSampling:
         InvalidInput
             If the system does not have the period.
         """
-        begin = state_at_phase(model, start, self.period, self.at)
+        period = self.lasts(value)
+        begin = state_at_phase(model, start, period, self.at)
         number = coordinate_number(model.system, self.coordinate)
-        last = begin.time + (self.settle + self.keep) * self.period
-        run = completed(model.run(last, start=begin, sample_interval=self.period))
+        last = begin.time + (self.settle + self.keep) * period
+        run = completed(model.run(last, start=begin, sample_interval=period))
         kept = slice(self.settle + 1, self.settle + 1 + self.keep)
-        check_period(model, run.state, self.period, f"{self.study}: period")
+        check_period(model, run.state, period, f"{self.study}: period")
         return np.concatenate([run.q, run.u], axis=1)[kept, number], run.state
+
+
+@final
+@dataclass(frozen=True)
+class Hysteresis:
+    """Bifurcation diagrams of a motion as a parameter rises, and as it falls again.
+
+    Attributes
+    ----------
+    up, down : Diagram
+        Both ways, each with its values rising.
+    """
+
+    up: Diagram
+    down: Diagram
+
+    @property
+    def apart(self) -> NDArray[np.bool_]:
+        """True if both ways lead to different motions, of which at least one repeats; shape [n]."""
+        both = np.array([self.up.points, self.down.points])
+        differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > alike(both, self.up.scale)
+        periodic = np.array([self.up.periods, self.down.periods]) > 0
+        others = (periodic[0] != periodic[1]) | (periodic.all(axis=0) & differ)
+        return np.asarray(others & np.isfinite(both).all(axis=(0, 2)))
+
+    def draw(self, ax: Axes | None = None) -> Axes:
+        """Draw both ways with their own marks and colours, on axes or in a new figure."""
+        ax = self.up.draw(axes_of(ax), colour=BLUE, mark="^", label=f"{self.up.name} rises")
+        self.down.draw(ax, colour=GREEN, mark="v", label=f"{self.down.name} falls")
+        failed = self.up.failed + self.down.failed
+        words = f"; {failed} runs failed (dotted)" if failed else ""
+        title = f"{np.sum(self.apart)} of {len(self.up.values)} values have two motions{words}"
+        return finish(ax, "", "", title, grid="")
+
+
+def hysteresis(
+    what: Varied,
+    name: str,
+    values: ArrayLike,
+    period: Period,
+    coordinate: str,
+    *,
+    at: float = 0.0,
+    settle: int = 200,
+    keep: int = 64,
+    display: Display | None = None,
+) -> Hysteresis:
+    """Sample a motion once a period for rising, then falling values of a parameter.
+
+    At the first value either way, and after a failed run, the system starts as it is placed.  At each other value the
+    motion continues from a state of its neighbour with few closed contacts.  Closed contacts stay closed, and bodies
+    that would overlap touch.
+
+    Parameters
+    ----------
+    what, name, values, period, coordinate, at, settle, keep
+        As of :func:`bifurcation`; the values are sorted.
+    display : Display, optional
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such parameter or coordinate.
+    InvalidInput
+        If a number is not valid, or no value gives a system.
+    """
+    row = np.unique(floats("hysteresis: values", values))
+    sampling = PeriodicSampling(period, coordinate, at, settle, keep, "hysteresis")
+    family = Family.of(what, EventDriven())
+    blank = sampling.diagram(family, name, row)
+    last = dict[int, tuple[Model, State, float]]()
+    """Model, last state and period of the run before, by the place of its value."""
+
+    def points_of(model: Model, value: float) -> Array:
+        i, lasts = int(np.searchsorted(row, value)), sampling.lasts(value)
+        neighbour = last.pop(i - 1, None) or last.pop(i + 1, None)
+        last.clear()
+        start = model.start if neighbour is None else _carried(model, lasts, *neighbour)
+        points, end = sampling.settled(model, start, value)
+        last[i] = model, end, lasts
+        return points
+
+    n, both_ways = len(row), [*row.tolist(), *row[::-1].tolist()]
+    points, failures = scan(family, name, both_ways, points_of, np.full(keep, np.nan), display)
+    return Hysteresis(
+        replace(blank, points=np.array(points[:n]), failures=failures[:n]),
+        replace(blank, points=np.array(points[: n - 1 : -1]), failures=failures[: n - 1 : -1]),
+    )
+
+
+def _carried(model: Model, period: float, last: Model, state: State, last_period: float) -> State:
+    """Return the state in which a motion of another model continues in a model, at the same phase of the drive."""
+    there = clearest_state(last, state, last_period)
+    there = replace(there, time=there.time % last_period * (period / last_period))
+    # a body in low flight that a faster plate would reach is placed on it
+    reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == Mode.OPEN)
+    there = replace(there, modes=np.where(reached, Mode.SLIDE, there.modes))
+    return Chart.at(model, there).held_in(model, there)

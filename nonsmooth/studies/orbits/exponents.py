@@ -42,12 +42,7 @@ class Lyapunov:
 
 
 def lyapunov(
-    what: Varied,
-    period: float,
-    n_periods: int,
-    *,
-    settle: float = 0.0,
-    within: Sequence[str] | None = None,
+    what: Varied, period: float, n_periods: int, *, settle: float = 0.0, within: Sequence[str] | None = None
 ) -> Lyapunov:
     """Return the Lyapunov exponents of a motion.
 

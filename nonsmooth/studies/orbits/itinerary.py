@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from nonsmooth.charts import COLOURS
 from nonsmooth.checks import floats, is_finite
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.solution import Solution
@@ -20,7 +22,7 @@ from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.flow import Signature, completed, events_of, named
 from nonsmooth.studies.inputs import check_periods
 from nonsmooth.studies.orbits.scan import Period, check_period, period_at, scan
-from nonsmooth.studies.plotting import COLOURS, axes_of, finish
+from nonsmooth.studies.plotting import finish
 from nonsmooth.types import Array
 
 if TYPE_CHECKING:

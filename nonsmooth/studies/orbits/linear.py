@@ -90,7 +90,13 @@ class Linear:
 
 
 def linear(
-    model: Model, state: State, section: Section, within: Sequence[str] | None, step: float | None = None
+    model: Model,
+    state: State,
+    section: Section,
+    within: Sequence[str] | None,
+    step: float | None = None,
+    *,
+    is_smooth: bool = False,
 ) -> Linear:
     """Return the map from a state to its next return to a section, along the coordinates of ``within``.
 
@@ -105,30 +111,23 @@ def linear(
         If a run cannot continue.
     InvalidInput
         If a motion does not return to the section, or the law of a closed contact has inner states.
+    OrderOfEvents
+        If the map must be smooth and lacks a derivative.
     """
     chart, end, maps = _maps(model, state, section, within)
-    columns, points = list[Derivative](), list[NonDifferentiablePoint]()
+    columns, points, m = list[Derivative](), list[NonDifferentiablePoint](), len(chart.names)
     for name, sampled in zip(chart.names, maps, strict=True):
         try:
             columns.append(_column(sampled, end.signature, step))
         except OrderOfEvents:
-            columns.append(Derivative(np.full(len(chart.names), np.nan), np.inf, _FIRST))
+            if is_smooth:
+                raise
+            columns.append(Derivative(np.full(m, np.nan), np.inf, _FIRST))
             points.append(_one_sided(name, sampled))
-    return _joined(chart, state, end, columns, tuple(points))
-
-
-def smooth(
-    model: Model, state: State, section: Section, within: Sequence[str] | None, step: float | None = None
-) -> Linear:
-    """Return the same of a map that has all derivatives.
-
-    Raises
-    ------
-    OrderOfEvents
-        If it lacks one.
-    """
-    chart, end, maps = _maps(model, state, section, within)
-    return _joined(chart, state, end, [_column(sampled, end.signature, step) for sampled in maps], ())
+    matrix = np.array([one.value for one in columns]).reshape(m, m).T
+    error = np.tile([one.error for one in columns], (m, 1)).reshape(m, m)
+    least = min((one.step for one in columns), default=_FIRST)
+    return Linear(chart, end, chart.between(state, end.state), matrix, tuple(points), error, least)
 
 
 def _chart_at(model: Model, state: State, section: Section, within: Sequence[str] | None) -> Chart:
@@ -160,20 +159,6 @@ def _column(sampled: Sampled, expected: Signature, step: float | None) -> Deriva
         with contextlib.suppress(OrderOfEvents, InvalidInput):
             return Derivative(slope(sampled, step, expected), np.inf, step)
     return derivative(sampled, _FIRST, expected)
-
-
-def _joined(
-    chart: Chart,
-    state: State,
-    end: FlowSegment,
-    columns: list[Derivative],
-    points: tuple[NonDifferentiablePoint, ...],
-) -> Linear:
-    m = len(columns)
-    matrix = np.array([one.value for one in columns]).reshape(m, m).T
-    error = np.tile([one.error for one in columns], (m, 1)).reshape(m, m)
-    step = min((one.step for one in columns), default=_FIRST)
-    return Linear(chart, end, chart.between(state, end.state), matrix, points, error, step)
 
 
 def _one_sided(name: str, sampled: Sampled) -> NonDifferentiablePoint:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.studies.orbits.continuation import Branch
+from nonsmooth.plot.arguments import axes_of
+from nonsmooth.studies.orbits.branch import Branch
 from nonsmooth.studies.orbits.periodic import Orbit
-from nonsmooth.studies.plotting import BLUE, MARKS, VERMILION, axes_of, few_ticks, finish
+from nonsmooth.studies.plotting import BLUE, MARKS, VERMILION, few_ticks, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,7 +8,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from nonsmooth.checks import is_finite
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.progress import Display, RunsDone
@@ -17,7 +16,7 @@ from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import scales_of
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.flow import flow
-from nonsmooth.studies.inputs import meter
+from nonsmooth.studies.inputs import check_positive, meter
 
 Found = TypeVar("Found")
 Period = float | Callable[[float], float]
@@ -66,7 +65,8 @@ def scan(
         If no value gives a system.
     """
     _ = family[name]
-    check_some(name, values)
+    if not len(values):
+        raise InvalidInput(f"values of {name}", "must be some", list(values), "Give at least one.")
     found, failures, refused = list[Found](), list[str](), list[InvalidInput]()
     with meter(display) as shown:
         counted = RunsDone(shown, len(values))
@@ -84,12 +84,6 @@ def scan(
     return found, tuple(failures)
 
 
-def check_some(name: str, values: Sequence[float]) -> None:
-    """Raise InvalidInput if there are no values of a parameter."""
-    if not len(values):
-        raise InvalidInput(f"values of {name}", "must be some", list(values), "Give at least one.")
-
-
 def period_at(period: Period, value: float, thing: str) -> float:
     """Return the period at a value of the parameter [s].
 
@@ -99,9 +93,8 @@ def period_at(period: Period, value: float, thing: str) -> float:
         If the period there is zero, negative or not a finite number.
     """
     found = period(value) if callable(period) else period
-    if not (is_finite(found) and found > 0.0):
-        there = f" at the value {value:.9g}" if callable(period) else ""
-        raise InvalidInput(thing, f"must be positive and finite{there}", found, "Give it in [s].")
+    there = f" at the value {value:.9g}" if callable(period) else ""
+    check_positive(thing, found, "Give it in [s].", f"must be positive and finite{there}")
     return float(found)
 
 

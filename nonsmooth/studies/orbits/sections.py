@@ -15,7 +15,6 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
 from nonsmooth.runs.model import Model
-from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, is_in_quaternion, values_of, whole_name
 from nonsmooth.studies.derivatives.family import Family
@@ -232,7 +231,9 @@ def clearest_state(model: Model, begin: State, period: float) -> State:
         gaps = run.history("gap", times=times)["gap"].reshape(_CANDIDATES, -1)
         distance = np.where(constraints > 0, -np.inf, np.min(gaps, axis=1, initial=np.inf))
     else:
-        distance = np.where(constraints > np.min(constraints), -np.inf, _from_events(run, times, period))
+        apart = np.abs(times[:, None] - run.events.time[1:])
+        from_events = np.min(np.minimum(apart, np.abs(period - apart)), axis=1, initial=np.inf)
+        distance = np.where(constraints > np.min(constraints), -np.inf, from_events)
     return state_at(model, begin, float(times[np.argmax(distance)]))
 
 
@@ -244,9 +245,3 @@ def state_at(model: Model, begin: State, time: float) -> State:
 def state_at_phase(model: Model, begin: State, period: float, at: float) -> State:
     """Return the first state of a motion at a time within each period [s]."""
     return state_at(model, begin, begin.time + (at - begin.time) % period)
-
-
-def _from_events(run: Solution, times: Array, period: float) -> Array:
-    """Return the distance of times from the nearest event of a periodic motion [s]."""
-    apart = np.abs(times[:, None] - run.events.time[1:])
-    return np.asarray(np.min(np.minimum(apart, np.abs(period - apart)), axis=1, initial=np.inf))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.studies.status import RunStatus
+from nonsmooth.studies.status import CaseStatus
 
 if TYPE_CHECKING:
     import xarray
@@ -28,8 +28,8 @@ def study(coordinates: dict[str, Any], failed: tuple[int, ...] = (), **records: 
         axes = ("section", "within")[: found.ndim - 1]
         attributes = {"scales": [1.0] * found.shape[-1]} if axes else {}
         variables[name] = (("run", *axes), found, attributes)
-    status = np.full(n, RunStatus.DONE.code, "int8")
-    status[list(failed)] = RunStatus.FAILED.code
+    status = np.full(n, CaseStatus.DONE.code, "int8")
+    status[list(failed)] = CaseStatus.FAILED.code
     variables["status"] = ("run", status)
     along = {name: ("run", values) for name, values in coordinates.items()}
     return xarray.Dataset(variables, along, {"layout": json.dumps({"parameters": list(coordinates)})})

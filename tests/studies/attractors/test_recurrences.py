@@ -14,7 +14,7 @@ import nonsmooth as ns
 from nonsmooth import studies
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.attractors.linkage import hausdorff, linked
-from nonsmooth.studies.status import RunStatus
+from nonsmooth.studies.status import CaseStatus
 from nonsmooth.studies.study_folder import StudyFolder
 from scenarios.bouncing_ball import orbits
 from scenarios.bouncing_ball.scenario import GRAVITY, BouncingBall
@@ -44,17 +44,18 @@ def test_the_ball_bounces_in_one_period_in_two_or_rests(tmp_path: Path) -> None:
     assert orbits.existence(0.8, 2) < 0.8 < min(1.0, orbits.existence(0.8, 3), orbits.stability(0.8, 1))
     phases, speeds = np.meshgrid(np.linspace(0.0, 6.0, 5), [0.05, 0.15, 0.2, 0.36, 0.42], indexing="ij")
     starts = {"start_phase": phases.ravel(), "speed": speeds.ravel(), "orbit": np.ones(25)}
-    starts["orbit"][3] = 1.5  # which is none
+    # the study checks least and greatest value before it runs; 1.5 periods fail in their run
+    starts["orbit"][3:5] = 1.5, 2.0
     record: list[Any] = [_STROBE, "last_flight", "resting_share"]
     found = studies.Study(scenario, studies.columns(starts), record).run(tmp_path / "s.zarr")
     told = studies.recurrences(found)
-    assert found.status.values[3] == RunStatus.FAILED.code
+    assert found.status.values[3] == CaseStatus.FAILED.code
     assert (told.attractor.values[3], told.period.values[3]) == (-1, -1)
 
     rest = np.array([[scenario.radius, -2.0 * math.pi * scenario.amplitude / _T]])
     closed = {"rest": rest, "n = 1": _orbit(scenario, 1), "n = 2": _orbit(scenario, 2)}
     seen = dict[int, str]()
-    for run in np.flatnonzero(found.status.values != RunStatus.FAILED.code).tolist():
+    for run in np.flatnonzero(found.status.values != CaseStatus.FAILED.code).tolist():
         points = found.stroboscopic.values[run]
         name = next(name for name, orbit in closed.items() if hausdorff(points, orbit) < 1e-6)
         assert seen.setdefault(int(told.attractor.values[run]), name) == name
@@ -104,7 +105,7 @@ def test_runs_whose_drive_has_another_period_fail_by_name(tmp_path: Path) -> Non
     study = studies.Study(BouncingBall(gamma=0.8, t_end=3.0), over, [_STROBE])
     found = study.run(tmp_path / "s.zarr", executor="serial")
     np.testing.assert_array_equal(
-        found.status, np.array([[RunStatus.FAILED.code] * 2, [RunStatus.DONE.code] * 2, [RunStatus.DONE.code] * 2])
+        found.status, np.array([[CaseStatus.FAILED.code] * 2, [CaseStatus.DONE.code] * 2, [CaseStatus.DONE.code] * 2])
     )
     for text in StudyFolder(tmp_path / "s.zarr").texts().values():
         assert "Stroboscope: period must be one of the system" in text

@@ -18,7 +18,7 @@ from bodies import Coordinate, GeneralisedBody, PlanarBody, Plate, Point, PointF
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import EXACT, Family
-from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.branch import continuation
 from nonsmooth.studies.orbits.linear import linear
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.sections import PoincareSection, StroboscopicSection

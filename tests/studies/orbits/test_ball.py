@@ -14,7 +14,7 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.branch import continuation
 from nonsmooth.studies.orbits.exponents import lyapunov
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from scenarios.bouncing_ball import BouncingBall

@@ -13,7 +13,7 @@ from bodies import PlanarBody, Plate
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.rotations import rotation
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.branch import continuation
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.symmetries import Spin, Turn
 from scenarios.bouncing_ball import BouncingBall

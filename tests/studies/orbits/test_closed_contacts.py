@@ -17,7 +17,7 @@ from bodies import Ball, Harmonic, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.branch import continuation
 from nonsmooth.studies.orbits.exponents import lyapunov
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 from scenarios.bouncing_ball import BouncingBall

@@ -15,8 +15,7 @@ from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.progress import Display
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.diagram import Diagram, bifurcation
-from nonsmooth.studies.orbits.hysteresis import Hysteresis, hysteresis
+from nonsmooth.studies.orbits.diagram import Diagram, Hysteresis, bifurcation, hysteresis
 from scenarios.bouncing_ball import BouncingBall, orbits
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of periods take minutes in plain mode")

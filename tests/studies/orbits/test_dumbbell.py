@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 import nonsmooth as ns
 from bodies import Dumbbell
 from nonsmooth.engine.native.kernel import PLAIN
-from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.branch import continuation
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 from scenarios.dumbbell import DumbbellScenario
 

@@ -19,7 +19,7 @@ from bodies import Ball, Harmonic, Plate, Rest, Spring
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.branch import continuation
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")

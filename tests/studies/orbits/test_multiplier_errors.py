@@ -18,7 +18,7 @@ from bodies import FunctionLoad, LineBody, Point, Wall
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.branch import continuation
 from nonsmooth.studies.orbits.linear import eigenvalues
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 

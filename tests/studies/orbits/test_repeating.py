@@ -12,10 +12,9 @@ import nonsmooth as ns
 from bodies import Ball, Harmonic, Plate, Spring
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.continuation import continuation
-from nonsmooth.studies.orbits.diagram import bifurcation
+from nonsmooth.studies.orbits.branch import continuation
+from nonsmooth.studies.orbits.diagram import bifurcation, hysteresis
 from nonsmooth.studies.orbits.exponents import lyapunov
-from nonsmooth.studies.orbits.hysteresis import hysteresis
 from nonsmooth.studies.orbits.periodic import orbit
 from nonsmooth.studies.orbits.scan import check_period
 from nonsmooth.studies.periods import settling

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -14,7 +14,7 @@ from nonsmooth.progress import Display, RangeCovered
 from nonsmooth.studies.derivatives.differences import OrderOfEvents
 from nonsmooth.studies.inputs import meter
 from nonsmooth.studies.orbits.arc_length import ContinuationPoint, OutOfRange, Path
-from nonsmooth.studies.orbits.grazing import GrazingDistance, PredictedChange, grazing_distance, predicted_change
+from nonsmooth.studies.orbits.grazing import GrazingDistance, grazing_distance, predicted_change
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
 from nonsmooth.studies.orbits.scan import FREQUENCY_REMEDY, period_at
 from nonsmooth.studies.orbits.sections import Section
@@ -137,10 +137,8 @@ def continuation(
     with meter(display) as shown:
         covered = RangeCovered(shown, name, value, span)
         back, on = (_followed(path, replace(first, tangent=way), most, covered) for way in (-up, up))
-    orbits = (*reversed(back.orbits), first.orbit, *on.orbits)
-    values = np.array([one.family[name] for one in orbits])
-    distances = (*reversed(back.distances[1:]), *on.distances)
-    special = (*reversed(back.special), *on.special)
+    values, orbits = np.concatenate([back.values[:0:-1], on.values]), back.orbits[:0:-1] + on.orbits
+    distances, special = back.grazing_distances[:0:-1] + on.grazing_distances, back.special[::-1] + on.special
     return Branch(name, values, orbits, distances, special, f"{back.ending}; {on.ending}")
 
 
@@ -181,18 +179,7 @@ def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
     return float(np.max(np.abs(orbit.map.chart.between(one, two)), initial=0.0))
 
 
-@final
-@dataclass(frozen=True)
-class _HalfBranch:
-    """The orbits on one side of an orbit; its own distance comes first."""
-
-    orbits: list[Orbit]
-    distances: list[GrazingDistance]
-    special: list[Special]
-    ending: str
-
-
-def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCovered) -> _HalfBranch:
+def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCovered) -> Branch:
     """Return the orbits from a point on, with steps that grow after a success and are halved after a failure."""
     found, distances, special, step = [point], [grazing_distance(point.orbit)], list[Special](), _FIRST
     ending, bound = f"{most} steps", np.inf
@@ -202,7 +189,8 @@ def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCov
             if following.orbit.events != point.orbit.events:
                 raise OrderOfEvents(point.orbit.events, following.orbit.events)
         except (OutOfRange, NoOrbit, OrderOfEvents, InvalidInput, RunFailed) as error:
-            change = None if isinstance(error, OutOfRange) else _predicted(path, found, distances)
+            along, values = np.array([one.along for one in found]), np.array([path.value(one) for one in found])
+            change = None if isinstance(error, OutOfRange) else predicted_change(along, values, distances)
             is_known = change is not None and change.error <= _KNOWN * max(path.range, abs(change.value))
             if step > _SMALLEST and not is_known:
                 bound, step = point.along + step, 0.5 * step
@@ -224,14 +212,8 @@ def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCov
         # half of the way to a point without an orbit is likely to lead to one
         if bound > point.along:
             step = min(step, max(0.5 * (bound - point.along), _SMALLEST))
-    return _HalfBranch([one.orbit for one in found[1:]], distances, special, ending)
-
-
-def _predicted(
-    path: Path, found: Sequence[ContinuationPoint], distances: Sequence[GrazingDistance]
-) -> PredictedChange | None:
-    along, values = (np.array(row) for row in zip(*((one.along, path.value(one)) for one in found), strict=True))
-    return predicted_change(along, values, distances)
+    values, orbits = np.array([path.value(one) for one in found]), tuple(one.orbit for one in found)
+    return Branch(path.name, values, orbits, tuple(distances), tuple(special), ending)
 
 
 def _between(path: Path, one: ContinuationPoint, step: float, two: ContinuationPoint) -> list[Special]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import itertools
 import logging
 import pickle
 from collections.abc import Generator, Sequence
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, Any, final
 from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.plugins import file
 from nonsmooth.results.output import versions
-from nonsmooth.studies.executors.executor import WINDOW, Executor, check_workers
+from nonsmooth.studies.executors import WINDOW, Executor, check_workers
 from nonsmooth.studies.inputs import require
 from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 _PATIENCE = 5.0
 """Time within which a scheduler must answer [s]."""
 _DEATHS = 3
-"""Deaths of workers after which a chunk is halved."""
+"""Deaths of workers after which a chunk is repeated run by run."""
 
 
 class SchedulerLost(NonsmoothError):
@@ -55,7 +56,7 @@ class Dask(Executor):
         """Yield results as workers return them.
 
         A chunk whose workers died may only have run next to the one that killed them.  Such chunks are repeated last,
-        each alone, and in halves if their workers die again, until the run that kills them is found.
+        run by run with nothing else, which finds the run that kills a worker.
 
         Raises
         ------
@@ -69,14 +70,13 @@ class Dask(Executor):
 
         with contextlib.ExitStack() as stack:
             client, parcel = self._client(stack), Parcel.of(work)
-            _check_alike(client)
-            _check_open(client, parcel)
+            _check_workers(client, parcel)
             suspects: list[Chunk] = []
             window = WINDOW * max(1, sum(client.nthreads().values()))
             try:
                 yield from _in_turn(client, parcel, chunks, window, suspects)
                 for chunk in suspects:
-                    yield _in_halves(client, parcel, chunk)
+                    yield _run_by_run(client, parcel, chunk)
             except CancelledError as error:
                 raise SchedulerLost(
                     "The scheduler is gone. Complete chunks stay: start a scheduler, and run the study again."
@@ -123,8 +123,8 @@ def _cluster(n: int) -> LocalCluster:
         raise InvalidInput("executor dask", "must be able to start processes", str(error), remedy) from error
 
 
-def _check_alike(client: Client) -> None:
-    """Raise InvalidInput if workers would give other bits than this process."""
+def _check_workers(client: Client, parcel: Parcel) -> None:
+    """Raise InvalidInput if workers would give other bits than this process, or lack the modules of the study."""
     client.wait_for_workers(1, timeout=_PATIENCE * 12)
     here = dict(versions())
     for address, there in client.run(versions).items():
@@ -132,10 +132,6 @@ def _check_alike(client: Client) -> None:
             differ = {name: there.get(name) for name in here if there.get(name) != here[name]}
             remedy = "Install the same ones; of unlike processors set NUMBA_CPU_NAME=generic everywhere."
             raise InvalidInput(f"worker {address}", f"must have the versions of this process, {here}", differ, remedy)
-
-
-def _check_open(client: Client, parcel: Parcel) -> None:
-    """Raise InvalidInput if workers do not find the modules of the study."""
     for address, fault in client.run(Parcel.fault, parcel).items():
         if fault:
             remedy = "Install it there, or start the workers where they find it (PYTHONPATH)."
@@ -152,21 +148,18 @@ def _in_turn(
     """Yield the results of all chunks; those whose workers died too often become suspects."""
     from distributed import KilledWorker, as_completed
 
-    left, running = iter(chunks), {}
-    done = as_completed()
+    left, running, done = iter(chunks), {}, as_completed()
 
-    def hand_out() -> None:
-        for chunk in left:
+    def hand_out(n: int) -> None:
+        for chunk in itertools.islice(left, n):
             future = client.submit(_computed, parcel, chunk, pure=False, retries=2)
             running[future.key] = chunk
             done.add(future)
-            return
 
-    for _ in range(window):
-        hand_out()
+    hand_out(window)
     for future in done:
         chunk = running.pop(future.key)
-        hand_out()
+        hand_out(1)
         try:
             block = future.result()
         except KilledWorker:
@@ -175,25 +168,18 @@ def _in_turn(
             yield block
 
 
-def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the result of a chunk while nothing else runs: a worker that dies dies because of it."""
+def _run_by_run(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
+    """Return the result of a suspected chunk; its runs are alone, so a worker that dies dies because of its run."""
     from distributed import KilledWorker
 
-    try:
-        return client.submit(_computed, parcel, chunk, pure=False).result()  # type: ignore[no-any-return]
-    except KilledWorker:
-        if len(chunk.parameters) == 1:
+    def result(run: Chunk) -> ChunkResult:
+        try:
+            return client.submit(_computed, parcel, run, pure=False).result()  # type: ignore[no-any-return]
+        except KilledWorker:
             text = "The process that ran it died, in each of the tries that the scheduler allows."
-            return parcel.open().crashed(chunk, text)
-    return _in_halves(client, parcel, chunk)
+            return parcel.open().crashed(run, text)
 
-
-def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the result of a suspected chunk; its halves run alone."""
-    if len(chunk.parameters) == 1:
-        return _alone(client, parcel, chunk)
-    one, other = chunk.halves()
-    return _alone(client, parcel, one).joined(_alone(client, parcel, other))
+    return ChunkResult.joined([result(run) for run in chunk.runs()])
 
 
 @final

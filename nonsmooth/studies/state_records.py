@@ -1,4 +1,4 @@
-"""Stroboscope: a record of the last states of a run, one a period, by which attractors are distinguished."""
+"""Records of states: at some times, and the last ones, one a period, by which attractors are distinguished."""
 
 from __future__ import annotations
 
@@ -9,19 +9,59 @@ from typing import Any, final
 
 import numpy as np
 
+from nonsmooth.checks import check_count, is_finite
 from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, scales_of
-from nonsmooth.studies.inputs import check_count, check_phase, check_positive
+from nonsmooth.studies.inputs import check_phase, check_positive
 from nonsmooth.studies.orbits.scan import check_period
-from nonsmooth.studies.records.record import Recorder, RunResult, StudyRecord
+from nonsmooth.studies.records import Recorder, RunResult, StudyRecord
 from nonsmooth.types import Array
 
 NAME = "stroboscopic"
 """The name of the record."""
+_AXES = {"q": "coordinate", "u": "velocity"}
 _REMEDY = "If a parameter that varies changes the frequency, make a study of its own for each of its values."
 _ROUND = 1e-9
 """Part of a period by which round-off may place the last section after the end."""
+
+
+@final
+@dataclass(frozen=True)
+class Trajectory(Recorder):
+    """Coordinates or velocities at times within the run.
+
+    Parameters
+    ----------
+    name : str
+        "q" for coordinates, "u" for velocities; the name of the record.
+    times : tuple of float
+        Times [s], shape [n].
+    """
+
+    name: str
+    times: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if self.name not in _AXES:
+            raise UnknownName("Trajectory", self.name, _AXES)
+        object.__setattr__(self, "times", tuple(self.times))
+        if not self.times or not all(is_finite(time) and time >= 0.0 for time in self.times):
+            rule, remedy = "must be finite numbers, none negative", "For example (0.0, 0.5, 1.0)."
+            raise InvalidInput("Trajectory: times", rule, self.times, remedy)
+
+    def record(self, first: RunResult) -> StudyRecord:
+        """Return the record; InvalidInput if the runs end before the last time."""
+        if max(self.times) > first.t_end:
+            rule, remedy = f"must lie within a run of {first.t_end:g} s", "Raise t_end, or leave out later times."
+            raise InvalidInput("Trajectory: times", rule, max(self.times), remedy)
+        axis = _AXES[self.name]
+        text = described(f"{axis} over time")
+        return StudyRecord(self.name, self, text, {"time": list(map(float, self.times)), axis: first.labels(axis)})
+
+    def __call__(self, result: RunResult) -> Any:
+        """Return the states of a run, shape [n, n_q] or [n, n_u]."""
+        return result.solution.history(self.name, times=list(self.times))[self.name]
 
 
 @final
@@ -116,7 +156,6 @@ class Stroboscope(Recorder):
         times = (np.arange(last - self.keep + 1, last + 1) - before) * self.period
         if times[0] < -_ROUND * self.period:
             rule = f"must be short enough for a run of {t_end:g} s"
-            raise InvalidInput(
-                "Stroboscope: keep", rule, f"{self.keep} periods of {self.period:g} s", "Raise t_end, or keep fewer."
-            )
+            kept = f"{self.keep} periods of {self.period:g} s"
+            raise InvalidInput("Stroboscope: keep", rule, kept, "Raise t_end, or keep fewer.")
         return np.clip(times, 0.0, t_end)

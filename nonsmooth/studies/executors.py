@@ -10,7 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.studies.inputs import check_count
+from nonsmooth.checks import check_count
 from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
 WINDOW = 2

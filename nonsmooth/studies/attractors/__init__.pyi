@@ -1,0 +1,9 @@
+from nonsmooth.studies.attractors import pictures as pictures
+from nonsmooth.studies.attractors.basins import Boundary as Boundary
+from nonsmooth.studies.attractors.basins import basin_fractions as basin_fractions
+from nonsmooth.studies.attractors.basins import basin_stability as basin_stability
+from nonsmooth.studies.attractors.basins import uncertainty_exponent as uncertainty_exponent
+from nonsmooth.studies.attractors.grouping import features as features
+from nonsmooth.studies.attractors.grouping import recurrences as recurrences
+from nonsmooth.studies.attractors.labels import Along as Along
+from nonsmooth.studies.attractors.labels import matched as matched
