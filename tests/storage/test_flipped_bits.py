@@ -13,13 +13,13 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.results.output import SOLUTION, Output
 from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.solution.events import COLUMNS
 from nonsmooth.studies.study_folder import StudyFolder
 from tests.results.runs import balls
 from tests.studies import ball
 
 FLIPS = 300
 """Bits that are flipped, one after another, of the files of one folder."""
-COLUMNS = tuple(name for name in vars(ns.simulate(balls(), 1e-3).events) if not name.startswith("_"))
 
 
 def _of_solution(folder: Path) -> dict[str, Any]:
