@@ -27,8 +27,8 @@ from nonsmooth.queries.proximity import proximity as proximity
 from nonsmooth.results.opening import open_solution as open_solution
 from nonsmooth.results.output import Output as Output
 from nonsmooth.runs.model import Model as Model
+from nonsmooth.runs.resuming import resume as resume
 from nonsmooth.runs.simulate import assemble as assemble
-from nonsmooth.runs.simulate import resume as resume
 from nonsmooth.runs.simulate import run_scenario as run_scenario
 from nonsmooth.runs.simulate import simulate as simulate
 from nonsmooth.scenario_function import scenario as scenario

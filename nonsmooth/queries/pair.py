@@ -36,7 +36,7 @@ class LibraryPair:
     solids: tuple[Any, Any]
 
     def separation(self, one: Place, two: Place) -> Separation | None:
-        """Separation by the library, None if it is in doubt."""
+        """Separation of the two shapes as the library computes it, None if the library cannot be sure of it."""
         try:
             return self.backend.separation(self.solids[0], one, self.solids[1], two)
         except DoubtfulDistance:

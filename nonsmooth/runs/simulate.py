@@ -1,16 +1,13 @@
-"""Simulate a system or a scenario, assemble a system to be run often, and resume a run that was cut off."""
+"""Simulate a system or a scenario, and assemble a system to be run often."""
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine, Scenario
-from nonsmooth.results.opening import stored_engine, stored_setup
-from nonsmooth.results.output import OtherVersions, Output, versions
+from nonsmooth.results.output import Output
 from nonsmooth.results.overwriting import check_free
-from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.checks import check_times
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model
@@ -18,7 +15,7 @@ from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
-__all__ = ["Progress", "assemble", "resume", "run_scenario", "simulate"]
+__all__ = ["Progress", "assemble", "run_scenario", "simulate"]
 
 
 def assemble(system: System, engine: Engine | None = None) -> Model:
@@ -138,68 +135,3 @@ def run_scenario(scenario: Scenario, engine: Engine | None = None, *, progress: 
     """
     interval = scenario.sample_interval
     return simulate(scenario.build(), scenario.t_end, sample_interval=interval, engine=engine, progress=progress)
-
-
-def resume(
-    output: Output | Path | str,
-    *,
-    system: System | None = None,
-    engine: Engine | None = None,
-    until: Until | None = None,
-    progress: Progress | None = None,
-    trust: bool = False,
-) -> Solution:
-    """Resume a run that was cut off, to the end that it would have had, to the last bit.
-
-    Parameters
-    ----------
-    output : Output, Path or str
-        The folder of its results, to which the rest is appended.
-    system : System, optional
-        The system that ran; by default it is built from the folder.
-    engine : Engine, optional
-        The engine that ran it; by default the one that the folder names.
-    until : callable, optional
-        The condition of the run, which no file holds.
-    progress : callable, optional
-        As for :func:`nonsmooth.simulate`.
-    trust : bool, optional
-        True if the folder may name code that is no installed plug-in, as for :func:`nonsmooth.load_system`.
-
-    Returns
-    -------
-    Solution
-        The solution of the whole run.
-
-    Warns
-    -----
-    OtherVersions
-        If the run began with other versions of the programs that compute it.
-
-    Raises
-    ------
-    InvalidInput
-        If the folder holds no run that was cut off, the system is not the one that ran or cannot be built, or the
-        condition is missing.
-    PluginError
-        If a class of the system cannot be loaded.
-    RunFailed
-        As :func:`nonsmooth.simulate`.
-    """
-    where = Output.to(output)
-    folder = check_resumable(where)
-    made = system or stored_setup(where, folder, trust).system
-    return Model.of(made, engine or stored_engine(where, folder, trust)).resume(where, until=until, progress=progress)
-
-
-def check_resumable(where: Output) -> SolutionFolder:
-    """Folder of a run that can be resumed. A warning names programs of other versions; errors as :func:`resume`."""
-    folder = SolutionFolder.opened(where)
-    folder.check_cut_off()
-    began, now = folder.said("versions"), versions()
-    other = [f"{name} {began.get(name)}, now {now.get(name)}" for name in now if began.get(name) != now.get(name)]
-    if other:
-        text = f"{where.folder}: the run began with {'; '.join(other)}. Its last bits may differ from there on."
-        # the warning names the line that called the caller of this function
-        warnings.warn(text, OtherVersions, stacklevel=3)
-    return folder

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _FRICTION = 2
-"""Column of the friction loss among the energies accounted at events."""
+"""Column of the friction loss in ``events.booked``, the energies accounted at events."""
 
 
 def contacts_without_body_check(solution: Solution) -> tuple[str, ...]:

@@ -22,7 +22,7 @@ class CaseStatus(StrEnum):
     """How a run of a study ended; a store keeps its ``code``."""
 
     NOT_RUN = "not_run"
-    """It is not stored yet."""
+    """The run has no result in the store yet."""
     DONE = "done"
     """It reached its end."""
     FAILED = "failed"

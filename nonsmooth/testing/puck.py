@@ -288,7 +288,7 @@ class ConstantLoad(CompliantNormalLaw):
     def is_fulfilled(
         self, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
     ) -> bool:
-        """True if the force is the load."""
+        """True if the normal force equals the constant load of the law [N]."""
         return abs(force - self.load) <= tolerance
 
 

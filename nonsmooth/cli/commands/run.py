@@ -21,7 +21,8 @@ from nonsmooth.cli.report.messages import say
 from nonsmooth.results.output import Output
 from nonsmooth.results.overwriting import check_free
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.simulate import assemble, check_resumable
+from nonsmooth.runs.resuming import check_resumable
+from nonsmooth.runs.simulate import assemble
 from nonsmooth.solution.solution import Solution
 
 _RUN = (
