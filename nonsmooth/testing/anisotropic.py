@@ -177,7 +177,8 @@ def _dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float, axis
 @_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
     """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
-    slip, approach = along(speed, heading), _SLIGHT * speed
+    # the slip changes by the coefficient times the approach
+    slip, approach = along(speed, heading), _SLIGHT / max(1.0, mu(law, speed)) * speed
     after, _ = _after(law, slip, axis, approach=approach, t_end=1e-12)
     # the spring of the reference gives back half of the energy
     pushed = approach * (1.0 + math.sqrt(0.5))

@@ -111,12 +111,14 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
     """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
     slip = along(speed, heading)
     normal, traction = _contact(law, [0.0, 0.0, -1.0], slip)
-    result = _impact(law, point((*slip, -_SLIGHT * speed)))
+    # the slip changes by the coefficient times the approach
+    size = max(1.0, mu(law, speed))
+    result = _impact(law, point((*slip, -_SLIGHT / size * speed)))
     t1, t2 = (float(x) / float(result.normal_impulse[0]) for x in result.tangential_impulse[0])
     force = traction / normal
-    if np.max(np.abs(np.array([t1, t2]) - force)) > 1e-4:
+    if np.max(np.abs(np.array([t1, t2]) - force)) > 1e-4 * size:
         return f"impulses have the ratio ({t1:g}, {t2:g}), forces ({force[0]:g}, {force[1]:g})"
-    return "" if law.is_fulfilled(slip, 1.0, (t1, t2), 1e-4) else "is_fulfilled refuses the impulses of an impact"
+    return "" if law.is_fulfilled(slip, 1.0, (t1, t2), 1e-4 * size) else "is_fulfilled refuses the impulses of an impact"
 
 
 @_FRICTION.claim(SPEED, HEADING, TURN)

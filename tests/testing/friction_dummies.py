@@ -77,6 +77,10 @@ def rippled(speed: float, level: float) -> float:
     return level * (1.0 + 0.3 * math.sin(1e7 * min(speed, 1e4))) if speed > 1e-4 else level
 
 
+def growing(speed: float, level: float) -> float:
+    return level * (1.0 + speed)
+
+
 def lasting(speed: float, level: float) -> float:
     return level + 0.01
 

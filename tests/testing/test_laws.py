@@ -107,16 +107,30 @@ def test_every_property_has_a_dummy() -> None:
     "properties",
     [
         check_friction_law(friction_dummies.Friction()),
+        check_friction_law(friction_dummies.Friction(function=friction_dummies.growing)),
         check_impact_law(impact_dummies.Process()),
         check_impact_law(impact_dummies.Map()),
         check_normal_law(normal_dummies.Normal()),
         check_normal_law(compliant_dummies.Compliant()),
         check_normal_law(compliant_dummies.Compliant(function=compliant_dummies.pulling, gap=1e-3)),
         check_friction_law(anisotropic_dummies.Skewed()),
+        check_friction_law(anisotropic_dummies.Skewed(function=friction_dummies.growing)),
         check_friction_law(stateful_dummies.Warm()),
         check_traction_law(traction_dummies.Brush()),
     ],
-    ids=["friction", "process", "map", "normal", "compliant", "cohesive", "anisotropic", "stateful", "traction"],
+    ids=[
+        "friction",
+        "growing friction",
+        "process",
+        "map",
+        "normal",
+        "compliant",
+        "cohesive",
+        "anisotropic",
+        "growing anisotropic",
+        "stateful",
+        "traction",
+    ],
 )
 def test_without_a_fault_nothing_is_caught(properties: Any) -> None:
     """The dummies are sound but for their faults."""
