@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from nonsmooth.binding.fingerprint import fingerprint
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Singleton, array, question, real, whole
 from nonsmooth.engine.memory.sizes import fixed, per
 from nonsmooth.engine.native.kernel import add_step, own_kernel
 
@@ -16,7 +16,7 @@ __all__ = [
     "FloatRow",
     "IntegerRow",
     "Life",
-    "Part",
+    "Singleton",
     "array",
     "fixed",
     "kernel",
@@ -28,7 +28,7 @@ __all__ = [
 ]
 
 
-def step(own: type[Part], signature: str = "void(ws)") -> Callable[[Callable[..., Any]], str]:
+def step(own: type[Singleton], signature: str = "void(ws)") -> Callable[[Callable[..., Any]], str]:
     """Decorator of a step ``(ws, *numbers)``, which is compiled at its first call. The result is the name for ``call``.
 
     A step may call the kernels and entry points of :mod:`nonsmooth.engine`, and those of :func:`kernel`, by their
@@ -36,7 +36,7 @@ def step(own: type[Part], signature: str = "void(ws)") -> Callable[[Callable[...
 
     Parameters
     ----------
-    own : type of Part
+    own : type of Singleton
         Numbers that the engine adds, :attr:`Engine.own`: ``ws.NAME``, where NAME is the key of the class.
     signature : str
         Types of the result and of the arguments: ``ws``, ``f8``, ``i8``, ``b1``, ``void``.
@@ -44,12 +44,12 @@ def step(own: type[Part], signature: str = "void(ws)") -> Callable[[Callable[...
     return lambda function: add_step(function, own, signature, fingerprint)
 
 
-def kernel(own: type[Part], signature: str = "void(ws)") -> Callable[[_Function], _Function]:
+def kernel(own: type[Singleton], signature: str = "void(ws)") -> Callable[[_Function], _Function]:
     """Decorator of a function that is compiled into the steps that call it. Parameters as for :func:`step`.
 
     Parameters
     ----------
-    own : type of Part
+    own : type of Singleton
         As for :func:`step`.
     signature : str
         As for :func:`step`, with ``v2`` and ``v3``, tuples of two and three floats, and records such as ``Contact``.

@@ -21,7 +21,7 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.parameters import Component
 
-_CONTACT = owners.Contact
+_CONTACT = owners.ContactRecord
 
 
 class LawFunction(NamedTuple):

@@ -43,7 +43,7 @@ class NearContacts:
     @classmethod
     def of(cls, request: HistoryRequest) -> NearContacts:
         """Evaluate the contacts near each other at the times of a request."""
-        memory, contact, chosen = request.replay.laid.memory, owners.Contact, request.contacts
+        memory, contact, chosen = request.replay.laid.memory, owners.ContactRecord, request.contacts
         table = np.empty((3, len(request.times), len(chosen)))
         here = np.empty((3, len(request.solution.system.contacts)))
 
@@ -149,7 +149,7 @@ def _slips(memory: Any, slots: Integers | slice) -> Floats:
 
     The two axes of anisotropic friction are no unit vectors; such a contact has its slip along tangents apart.
     """
-    contact = owners.Contact
+    contact = owners.ContactRecord
     oriented = memory[contact.is_anisotropic][slots, None] == 1
     return np.asarray(np.where(oriented, memory[contact.slip_of_tangents][slots], memory[contact.rate][slots, 1:]))
 
@@ -161,11 +161,11 @@ class _ClosedReader:
     none = np.zeros((0, 2), dtype=np.int64), np.zeros((0, 20))
 
     def __init__(self, laid: LaidOut) -> None:
-        self._memory, self._n = laid.memory, int(laid.memory[owners.Model.n_slots])
+        self._memory, self._n = laid.memory, int(laid.memory[owners.ModelNumbers.n_slots])
 
     def __call__(self) -> tuple[Integers, Floats]:
         """Number and mode of each closed contact, and its twenty floats, in the order of the numbers."""
-        memory, contact, n = self._memory, owners.Contact, self._n
+        memory, contact, n = self._memory, owners.ContactRecord, self._n
         slots = memory[owners.Island.grouped][: int(memory[owners.Island.n_grouped])]
         if len(slots) == 0:
             return self.none

@@ -69,10 +69,10 @@ class Impulses:
 
         def keep(i: int) -> None:
             slots = int(memory[owners.Island.n_contacts])
-            blocks = memory[owners.Contact.geometry][:slots]
-            directions = memory[owners.Contact.axes][:slots].reshape(slots, 3, 3)
+            blocks = memory[owners.ContactRecord.geometry][:slots]
+            directions = memory[owners.ContactRecord.axes][:slots].reshape(slots, 3, 3)
             slot = np.full(events.n_contacts, -1)
-            slot[memory[owners.Contact.declared][:slots]] = np.arange(slots)
+            slot[memory[owners.ContactRecord.declared][:slots]] = np.arange(slots)
             entries = np.arange(events.first[begins[i]], events.first[ends[i]])
             found = slot[events.listed[entries]]
             entries, found = entries[found >= 0], found[found >= 0]

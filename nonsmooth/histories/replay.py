@@ -241,7 +241,7 @@ class StateReplay:
     def _put_modes(self, event: int) -> None:
         """List the contacts that are near, and close those that an event left closed, with their directions of slip."""
         memory, events, n = self.laid.memory, self._events, self._events.n_contacts
-        contact = owners.Contact
+        contact = owners.ContactRecord
         listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
         numbers, kept = events.listed[listed], events.listed_memory[listed]
         modes, averaged = memory.declared(contact.mode), memory.declared(contact.mode_after_averaging)
@@ -261,4 +261,4 @@ class StateReplay:
         slots = int(memory[owners.Island.n_contacts])
         facing = np.ones(n)
         facing[numbers] = kept[:, _FACING]
-        memory[owners.Contact.facing][:slots] = facing[memory[owners.Contact.declared][:slots]]
+        memory[owners.ContactRecord.facing][:slots] = facing[memory[owners.ContactRecord.declared][:slots]]

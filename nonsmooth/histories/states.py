@@ -167,7 +167,7 @@ class Energies:
         """Evaluate the bodies at the times of a request, in one pass."""
         laid, account = request.replay.laid, request.solution.energy
         memory, bodies, first = laid.memory, laid.system.bodies, laid.n_q + laid.n_u
-        y, tails, totals = memory[owners.Island.y], memory[owners.Body.tail][: len(bodies)], owners.Totals
+        y, tails, totals = memory[owners.Island.y], memory[owners.BodyRecord.tail][: len(bodies)], owners.Totals
         table, rates = np.zeros((7, len(request.times))), np.zeros((len(request.times), laid.n_q))
         # dq/dt is the first part behind the blocks of the frames of a body
         places = np.concatenate(
@@ -260,7 +260,7 @@ class _JointReader:
 
 def _readers(laid: LaidOut) -> list[_JointReader]:
     """Readers of the joints in the order of the system; the engine has them articulation by articulation."""
-    memory, floats, joint = laid.memory, laid.memory.floats, owners.Joint
+    memory, floats, joint = laid.memory, laid.memory.floats, owners.JointRecord
     found: dict[int, _JointReader] = {}
     number = 0
     for index, articulation in enumerate(articulations(laid.system)):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, final
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
-    from nonsmooth.engine.memory.declare import Part
+    from nonsmooth.engine.memory.declare import Singleton
     from nonsmooth.engine.memory.memory import Memory
     from nonsmooth.model.laid_out import LaidOut
     from nonsmooth.system.system import System
@@ -95,7 +95,7 @@ class Engine(Component, ABC):
     """
 
     @property
-    def own(self) -> type[Part] | None:
+    def own(self) -> type[Singleton] | None:
         """Class of the declarations of its own numbers, None if it has none."""
         return None
 

@@ -113,7 +113,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
     # by these addresses functions of the engine call each other if they are compiled separately
-    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
+    memory[owners.ModelNumbers.entry_points][: len(entry_addresses())] = entry_addresses()
     bodies = lay_bodies(system, memory, blocks, parts.articulations)
     lay_joints(memory, blocks, parts.articulations, bodies)
     lay_loads(system, memory, blocks, bodies)

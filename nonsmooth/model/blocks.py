@@ -61,18 +61,21 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[PluginBlock]:
     """The blocks of loads, then of bodies, then of bodies whose ballistic motion has a closed form."""
     system, memory = model.system, model.memory
     # `out` is the place of a block among the floats
-    for tie, out in zip(system.loads, memory[owners.Load.out].tolist(), strict=True):
+    for tie, out in zip(system.loads, memory[owners.LoadRecord.out].tolist(), strict=True):
         assert isinstance(tie.component, Load)
         yield _block(tie, tie.component.evaluator, out, LOAD)
     named = list(zip(system.names.bodies, system.bodies, strict=True))
-    for number, ((name, body), start) in enumerate(zip(named, memory[owners.Body.out].tolist(), strict=True)):
+    for number, ((name, body), start) in enumerate(zip(named, memory[owners.BodyRecord.out].tolist(), strict=True)):
         # a driven body must write the motion of a frame only, another one all up to the end of the force
         force_end = place_of_inverse_mass(memory, number) - start
         n_written = FRAME if body.n_u == 0 else force_end
         # behind the force are the inverse mass and two energies
         label = functools.partial("body {!r}, {!r}:".format, name, body)
         yield PluginBlock(label, body.evaluator, start, force_end + body.n_u**2 + 2, n_written)
-    functions, outs = memory[owners.Body.ballistic_function].tolist(), memory[owners.Body.ballistic_out].tolist()
+    functions, outs = (
+        memory[owners.BodyRecord.ballistic_function].tolist(),
+        memory[owners.BodyRecord.ballistic_out].tolist(),
+    )
     for (name, body), function, start in zip(named, functions, outs, strict=True):
         # 0: the body has a joint or a load, so that its closed form is not used
         if body.flight is not None and function != 0:
@@ -87,7 +90,7 @@ def _block_of_contact(model: LaidOut, index: int) -> PluginBlock:
 
     ``PAIR`` of the ``GEOMETRY`` numbers from block to block are written by the kinematics, the rest is the mark.
     """
-    contact, first = model.system.contacts[model.active[index]], model.memory.start(owners.Contact.geometry)
+    contact, first = model.system.contacts[model.active[index]], model.memory.start(owners.ContactRecord.geometry)
     return _block(contact, contact.kinematics.evaluator, first + GEOMETRY * index, PAIR)
 
 
@@ -97,10 +100,12 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[PluginBlock]:
     A contact has one of the two if its law has such a block, else none.
     """
     memory, contacts = model.memory, model.system.contacts
-    for tie, out in zip(joints_in_order(model.system), memory[owners.Joint.out].tolist(), strict=True):
+    for tie, out in zip(joints_in_order(model.system), memory[owners.JointRecord.out].tolist(), strict=True):
         assert isinstance(tie.component, Joint)
         yield _block(tie, tie.component.evaluator, out, JOINT_ROW * tie.component.n_rows)
-    traction, rates = (memory.declared(out) for out in (owners.Contact.traction_out, owners.Contact.rates_out))
+    traction, rates = (
+        memory.declared(out) for out in (owners.ContactRecord.traction_out, owners.ContactRecord.rates_out)
+    )
     # an offset of 0: the contact has neither inner states nor a traction law
     for i in np.flatnonzero(traction).tolist():
         law = contacts[i].friction
@@ -144,7 +149,7 @@ def block_overrun(model: LaidOut) -> str:
     if np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
         return ""
     # indices in the neighbour list of geometry blocks that are overrun
-    overrun = np.flatnonzero(np.any(memory[owners.Contact.geometry][:, PAIR:] != UNTOUCHED, axis=1)).tolist()
+    overrun = np.flatnonzero(np.any(memory[owners.ContactRecord.geometry][:, PAIR:] != UNTOUCHED, axis=1)).tolist()
     for block in (
         *_blocks_of_bodies(model),
         *(_block_of_contact(model, index) for index in overrun if index < len(model.active)),

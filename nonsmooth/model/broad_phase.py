@@ -176,18 +176,18 @@ def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[
     if n == 0:
         return
     for side, sphere in broad_phase.frames.items():
-        memory[owners.Sphere.frame][sphere] = frames[side]
-    memory[owners.Sphere.radius] = broad_phase.radii
+        memory[owners.BoundingSphere.frame][sphere] = frames[side]
+    memory[owners.BoundingSphere.radius] = broad_phase.radii
     # any order serves: the engine sorts it along an axis when it makes the neighbour list
     memory[owners.Island.sphere_order] = range(n)
     # the neighbour list begins with its widest margin
     memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(broad_phase.radii.min())
     # starts of ranges, each with the end of the last range behind: pairs of each sphere, contacts of each pair
     one, two = broad_phase.pairs.T
-    memory[owners.Sphere.first_partner][1:] = np.cumsum(np.bincount(one, minlength=n))
-    memory[owners.Model.partner] = two
-    memory[owners.Model.partner_contact][1:] = np.cumsum(broad_phase.counts)
-    memory[owners.Model.paired_contact] = broad_phase.contacts
+    memory[owners.BoundingSphere.first_partner][1:] = np.cumsum(np.bincount(one, minlength=n))
+    memory[owners.ModelNumbers.partner] = two
+    memory[owners.ModelNumbers.partner_contact][1:] = np.cumsum(broad_phase.counts)
+    memory[owners.ModelNumbers.paired_contact] = broad_phase.contacts
     for i, half_space in enumerate(broad_phase.half_spaces):
         fields = {name: getattr(half_space, name) for name in ("contact", "sphere", "ceiling", "is_steady")}
-        write_record(memory, owners.HalfSpace, i, {**fields, "frame": frames[half_space.side]})
+        write_record(memory, owners.HalfSpaceRecord, i, {**fields, "frame": frames[half_space.side]})

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.declare import Declaration, Life, Part, declarations
+from nonsmooth.engine.memory.declare import Declaration, Life, Singleton, declarations
 from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, OWNERS, SCALARS
@@ -81,7 +81,7 @@ class Checkpoint:
 
     def __getitem__(self, declared: Any) -> Any:
         """A scalar, or a view of an array that outlives a step, as the memory gives it."""
-        if declared.size is None and issubclass(declared.owner, Part):
+        if declared.size is None and issubclass(declared.owner, Singleton):
             return self.record[declared.key].item()
         # the parts are scalars, floats, integers and blocks
         part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[2]
@@ -199,7 +199,7 @@ class Difference:
 
 def _active(memory: Memory) -> Integers:
     """Number of the declared contact of each active contact, a view."""
-    return cast(Integers, memory[owners.Contact.declared][: memory[owners.Island.n_contacts]])
+    return cast(Integers, memory[owners.ContactRecord.declared][: memory[owners.Island.n_contacts]])
 
 
 def _copy_parameters(memory: Memory) -> None:
@@ -210,7 +210,7 @@ def _copy_parameters(memory: Memory) -> None:
     active = _active(memory)
     for name, one in declarations(owners.DeclaredContact).items():
         if one.life is Life.PARAMETER and not one.inside[0]:
-            memory[getattr(owners.Contact, name)][: len(active)] = memory[one][active]
+            memory[getattr(owners.ContactRecord, name)][: len(active)] = memory[one][active]
 
 
 def _check_values(memory: Memory) -> None:
@@ -225,7 +225,7 @@ def _check_values(memory: Memory) -> None:
     for one in _CHECKED:
         numbers = np.atleast_1d(np.asarray(memory[one]))
         # the numbers behind those of the active contacts have no meaning
-        if one.owner is owners.Contact:
+        if one.owner is owners.ContactRecord:
             numbers = numbers[: memory[owners.Island.n_contacts]]
         least, end = _bounds(one, counts)
         wrong = numbers[(numbers < least) | (numbers >= end)]

@@ -75,7 +75,7 @@ def _check_gaps(model: LaidOut, gaps: Vector) -> None:
 
 def _check_energy(model: LaidOut) -> None:
     """Check that both energies are finite. Too large coordinates or velocities of a start make them infinite."""
-    found = energies(model.system.bodies, model.memory[owners.Body.tail], model.memory.floats)
+    found = energies(model.system.bodies, model.memory[owners.BodyRecord.tail], model.memory.floats)
     for what, value in zip(("kinetic", "potential"), found, strict=True):
         if not math.isfinite(value):
             thing, rule = f"start: the {what} energy", "must be finite [J]"
@@ -121,7 +121,7 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allow
     ``number`` and ``articulation`` are the numbers of the joint and of its group of tied bodies in the memory.
     """
     memory = model.memory
-    rows, first = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.first_row))
+    rows, first = (int(memory[one][number]) for one in (owners.JointRecord.n_rows, owners.JointRecord.first_row))
     for what, unit, place in (
         ("residual", "m or rad", owners.Articulation.residual),
         ("rate", "m/s or rad/s", owners.Articulation.rate),

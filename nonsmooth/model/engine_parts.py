@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Mapping
 from numbers import Real
 from typing import Any, get_type_hints
 
-from nonsmooth.engine.memory.declare import Declaration, Part, declarations
+from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
 from nonsmooth.engine.memory.tables import CONSTANT_SCALARS
 from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.errors import InvalidInput, UnknownName
@@ -49,8 +49,8 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
     found = engine.settings(time_scale)
     for one, value in found.items():
         thing, rule = f"{_name(engine)}.settings", "must have scalars of the workspace for its keys"
-        # a declaration of a Part (one of each) without a size is a scalar
-        if not (isinstance(one, Declaration) and issubclass(one.owner, Part) and one.size is None):
+        # a declaration of a Singleton without a size is a scalar
+        if not (isinstance(one, Declaration) and issubclass(one.owner, Singleton) and one.size is None):
             raise InvalidInput(thing, rule, one, "Return for example {Tolerance.relative: 1e-9}.")
         if one.key in CONSTANT_SCALARS:
             raise InvalidInput(f"{thing}: {one.key}", "must not be the size of an array", one.key, "Leave it out.")
@@ -59,7 +59,7 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
     return found
 
 
-def own_of(engine: Engine) -> tuple[type[Part], ...]:
+def own_of(engine: Engine) -> tuple[type[Singleton], ...]:
     """The engine's own part of the workspace, a class of declarations, as a tuple of one or none.
 
     Raises
@@ -70,13 +70,13 @@ def own_of(engine: Engine) -> tuple[type[Part], ...]:
     own = engine.own
     if own is None:
         return ()
-    if not (isinstance(own, type) and issubclass(own, Part)):
-        rule = "must be a class of declarations, a Part"
-        raise InvalidInput(f"{_name(engine)}.own", rule, own, "Write class Own(Part, key=...).")
+    if not (isinstance(own, type) and issubclass(own, Singleton)):
+        rule = "must be a class of declarations, a Singleton"
+        raise InvalidInput(f"{_name(engine)}.own", rule, own, "Write class Own(Singleton, key=...).")
     return (own,)
 
 
-def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...]:
+def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Singleton], ...]:
     """The engine's own part of the workspace, as a tuple of one or none, checked before memory is allocated for it.
 
     ``counts`` are those of the system, from which arrays get their lengths.

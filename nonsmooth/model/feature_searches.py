@@ -105,7 +105,7 @@ def lay_searches(
         fields |= {"sphere_a": sphere_a, "sphere_b": sphere_b}
         write_record(memory, owners.Search, number, fields)
         for sphere in (sphere_a, sphere_b):
-            memory[owners.Sphere.feature_radius][sphere] = memory[owners.Sphere.radius][sphere]
+            memory[owners.BoundingSphere.feature_radius][sphere] = memory[owners.BoundingSphere.radius][sphere]
 
 
 def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:

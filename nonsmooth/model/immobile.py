@@ -52,7 +52,7 @@ def immobile_contact(model: LaidOut) -> ImmobileContact | None:
     memory = model.memory
     call_entry("find_touching", memory)
     active = model.active
-    for index in np.flatnonzero(memory[owners.Contact.is_touching][: len(active)]).tolist():
+    for index in np.flatnonzero(memory[owners.ContactRecord.is_touching][: len(active)]).tolist():
         contact = model.system.contacts[active[index]]
         if isinstance(contact.normal, CompliantNormalLaw):
             continue
@@ -80,7 +80,7 @@ def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float
     is the inverse mass of all bodies that joints tie together. Without joints it is the sum over these bodies.
     """
     memory = model.memory
-    contact, articulation = owners.Contact, owners.Articulation
+    contact, articulation = owners.ContactRecord, owners.Articulation
     fields = {
         "a": (contact.articulation_a, contact.jacobian_a, contact.response_a),
         "b": (contact.articulation_b, contact.jacobian_b, contact.response_b),
@@ -110,6 +110,6 @@ def _free_inverse_mass(model: LaidOut, number: int, row: np.ndarray, start: int)
     # a force does not move a driven body
     if body.n_u == 0:
         return 0.0
-    u = int(model.memory[owners.Body.u][number])
+    u = int(model.memory[owners.BodyRecord.u][number])
     part = row[u - start : u - start + body.n_u]
     return float(part @ inverse_mass(model, number) @ part)

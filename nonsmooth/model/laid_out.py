@@ -53,7 +53,9 @@ class LaidOut:
     @property
     def active(self) -> NDArray[np.int64]:
         """Number of the declared contact of each active contact, a view."""
-        return cast(NDArray[np.int64], self.memory[owners.Contact.declared][: self.memory[owners.Island.n_contacts]])
+        return cast(
+            NDArray[np.int64], self.memory[owners.ContactRecord.declared][: self.memory[owners.Island.n_contacts]]
+        )
 
     @property
     def n_y(self) -> int:
@@ -91,7 +93,7 @@ class LaidOut:
         if status != Status.RUNNING:
             raise InvalidInput(
                 "contacts of the system",
-                f"must have at most {int(self.memory[owners.Model.n_slots])} near each other",
+                f"must have at most {int(self.memory[owners.ModelNumbers.n_slots])} near each other",
                 "more of them",
                 "Place the bodies farther apart, or take coarser meshes.",
             )
@@ -103,7 +105,7 @@ class LaidOut:
     def energy(self) -> tuple[float, float]:
         """Kinetic and potential energy [J] at the current state. Evaluates bodies and contacts."""
         self.evaluate()
-        return energies(self.system.bodies, self.memory[owners.Body.tail], self.memory.floats)
+        return energies(self.system.bodies, self.memory[owners.BodyRecord.tail], self.memory.floats)
 
     def places(self) -> list[list[Place]]:
         """Copies of position [m] and rotation matrix of each frame of each body, as they were evaluated last.
@@ -112,7 +114,7 @@ class LaidOut:
         numbers) and the rotation (9).
         """
         found, memory = list[list[Place]](), self.memory
-        for body, start in zip(self.system.bodies, memory[owners.Body.out], strict=True):
+        for body, start in zip(self.system.bodies, memory[owners.BodyRecord.out], strict=True):
             width = FRAME + 6 * body.n_u
             frames = memory.floats[start : start + len(body.frames) * width].reshape(-1, width)
             found.append([(frame[:3].copy(), frame[3:12].reshape(3, 3).copy()) for frame in frames])
@@ -125,7 +127,7 @@ class LaidOut:
         """
         self.evaluate()
         gaps, active = np.full(len(self.system.contacts), np.inf), self.active
-        gaps[active] = self.memory[owners.Contact.geometry][: len(active), GAP]
+        gaps[active] = self.memory[owners.ContactRecord.geometry][: len(active), GAP]
         return gaps
 
     def rates(self) -> tuple[np.ndarray, np.ndarray]:
@@ -141,7 +143,7 @@ class LaidOut:
         gaps[np.delete(np.arange(len(gaps)), active)] = np.nan
         rates = np.full((len(gaps), 3), np.nan)
         # the memory holds the active contacts only, in the order of the list
-        rates[active] = self.memory[owners.Contact.rate][: len(active)]
+        rates[active] = self.memory[owners.ContactRecord.rate][: len(active)]
         return gaps, rates
 
 

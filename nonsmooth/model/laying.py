@@ -182,7 +182,7 @@ def _lay_body(
         ballistic = _function(blocks, body.flight, "body", body, available, n, start)
         # it writes q and u after a time
         fields |= {f"ballistic_{name}": value for name, value in ballistic.items()}
-    write_record(memory, owners.Body, number, fields)
+    write_record(memory, owners.BodyRecord, number, fields)
     return tuple(range(out, out + n_of_frames, width))
 
 
@@ -221,7 +221,9 @@ def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulatio
 
 def place_of_inverse_mass(memory: Memory, body: int) -> int:
     """Place of the inverse mass of a body among the floats. It follows q' and the force, which begin at ``tail``."""
-    return int(memory[owners.Body.tail][body] + memory[owners.Body.n_q][body] + memory[owners.Body.n_u][body])
+    return int(
+        memory[owners.BodyRecord.tail][body] + memory[owners.BodyRecord.n_q][body] + memory[owners.BodyRecord.n_u][body]
+    )
 
 
 def _lay_joint(memory: Memory, blocks: Heap, number: int, tie: Tie, first: int, layouts: BodyLayouts) -> int:
@@ -237,7 +239,7 @@ def _lay_joint(memory: Memory, blocks: Heap, number: int, tie: Tie, first: int, 
     for side, body, frame in zip("ab", (tie.first, tie.second), tie.frames, strict=True):
         layout = layouts[id(body)]
         fields |= {f"frame_{side}": layout.frames[frame], f"n_u_{side}": body.n_u, f"column_{side}": layout.column}
-    write_record(memory, owners.Joint, number, fields)
+    write_record(memory, owners.JointRecord, number, fields)
     return joint.n_rows
 
 
@@ -255,7 +257,7 @@ def lay_loads(system: System, memory: Memory, blocks: Heap, layouts: BodyLayouts
         for side, body, frame in zip("ab", (tie.first, tie.second), tie.frames, strict=True):
             layout = layouts[id(body)]
             fields |= {f"frame_{side}": layout.frames[frame], f"body_{side}": layout.number}
-        write_record(memory, owners.Load, number, fields)
+        write_record(memory, owners.LoadRecord, number, fields)
 
 
 def lay_guards(system: System, memory: Memory, blocks: Heap) -> None:

@@ -31,7 +31,7 @@ from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
-_CONTACT = owners.Contact
+_CONTACT = owners.ContactRecord
 Kinds: TypeAlias = Sequence[list[int]]
 """The numbers of the contacts of each kind."""
 
@@ -109,7 +109,7 @@ def lay_contacts(
     memory.declared(_CONTACT.size)[:] = table.extents.min(axis=1)
     memory.declared(_CONTACT.spin_axis)[:] = table.revolutions
     lay_law_floats(memory, contacts, kinds)
-    n_slots = int(memory[owners.Model.n_slots])
+    n_slots = int(memory[owners.ModelNumbers.n_slots])
     # each place of the neighbour list has Jacobians of its own
     for place in (_CONTACT.jacobian_a, _CONTACT.jacobian_b, _CONTACT.response_a, _CONTACT.response_b):
         memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
@@ -139,7 +139,7 @@ def lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> Non
     for number in sorted(laws):
         memory.declared(_CONTACT.inner_states)[number] = len(scales)
         scales += laws[number].state_scale
-    n_y = int(memory[owners.Model.n_y])
+    n_y = int(memory[owners.ModelNumbers.n_y])
     # not [-len:], which would be all numbers if there are no scales
     memory[owners.Step.y_scale][:n_y][n_y - len(scales) :] = scales
 
@@ -324,7 +324,7 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
     return values[1:]
 
 
-_OF_GEOMETRY = (owners.Contact.geometry_parameters, owners.Contact.features)
+_OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
 """Places in the block of a contact that belong to its geometry."""
 
 
@@ -357,7 +357,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
         first = min(of_laws, default=len(after.block))
         # the block of each contact begins with the parameters of the geometry
-        starts = memory.declared(owners.Contact.geometry_parameters)[numbers]
+        starts = memory.declared(owners.ContactRecord.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
     lay_states(memory, contacts, kinds)

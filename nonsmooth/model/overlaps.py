@@ -80,7 +80,7 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     numbers : sequence of int
         The contacts whose bodies are compared.
     """
-    contacts, blocks = model.system.contacts, model.memory[owners.Contact.geometry]
+    contacts, blocks = model.system.contacts, model.memory[owners.ContactRecord.geometry]
     indices = {number: index for index, number in enumerate(model.active.tolist())}
     # only pairs whose bounding spheres meet
     for same, one, two in solid_pairs(model, numbers, within=0.0):
@@ -131,5 +131,7 @@ def solid_pairs(
 def frames_of(model: LaidOut, number: int) -> tuple[Vector, Vector]:
     """Position [m] and rotation matrix, row by row, of both frames of a contact, shape [12] each."""
     floats, declared = model.memory.floats, model.memory.declared
-    first, second = (int(declared(frame)[number]) for frame in (owners.Contact.frame_a, owners.Contact.frame_b))
+    first, second = (
+        int(declared(frame)[number]) for frame in (owners.ContactRecord.frame_a, owners.ContactRecord.frame_b)
+    )
     return floats[first : first + _POSE], floats[second : second + _POSE]

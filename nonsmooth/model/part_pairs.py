@@ -177,7 +177,7 @@ def lay_part_pairs(
     ``frames`` has the place of each frame in the memory, by the numbers of body and frame. A part that belongs to
     several pairs is stored once.
     """
-    of_contact = memory.declared(owners.Contact.pair)
+    of_contact = memory.declared(owners.ContactRecord.pair)
     of_contact[:] = NO_PAIR
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}

@@ -56,11 +56,11 @@ class Probe:
         return self.model.system.contacts
 
     def _part(self, name: str, first: int, size: int) -> Vector:
-        start = int(self.model.memory[getattr(owners.Body, name)][self.number]) + first
+        start = int(self.model.memory[getattr(owners.BodyRecord, name)][self.number]) + first
         return self.model.memory.floats[start : start + size]
 
     def _state(self, offset: int, name: str, size: int) -> Vector:
-        start = offset + int(self.model.memory[getattr(owners.Body, name)][self.number])
+        start = offset + int(self.model.memory[getattr(owners.BodyRecord, name)][self.number])
         y: Vector = self.model.memory[owners.Island.y]
         return y[start : start + size]
 
@@ -109,5 +109,5 @@ class Probe:
         call_entry("evaluate_at", self.model.memory)
         n = int(self.model.memory[owners.Island.n_contacts])
         rates = np.full((len(self.contacts), 3), np.nan)
-        rates[self.model.memory[owners.Contact.declared][:n]] = self.model.memory[owners.Contact.rate][:n]
+        rates[self.model.memory[owners.ContactRecord.declared][:n]] = self.model.memory[owners.ContactRecord.rate][:n]
         return rates

@@ -112,7 +112,7 @@ def solve_contact(
     write_delassus(memory, scaled.T @ scaled)
     memory[owners.Problem.free_accelerations][: 3 * n] = s.ravel() + columns.T @ free
     memory[owners.Problem.acceleration_scale] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
-    memory[owners.Contact.rate][:n][:, 1:] = v
+    memory[owners.ContactRecord.rate][:n][:, 1:] = v
     with Watch(memory) as watch:
         solved = watch.call("solve_from_rates")
     if solved == 0:

@@ -69,14 +69,14 @@ def memory_of(n: int, functions: Mapping[str, Sequence[tuple[Any, Callable[..., 
         for name, pairs in functions.items()
     }
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n} | counts)
-    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
+    memory[owners.ModelNumbers.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active], memory[owners.Problem.active][:n] = n, np.arange(n)
-    memory[owners.Contact.direction][:, 0] = 1.0
+    memory[owners.ContactRecord.direction][:, 0] = 1.0
     heap = Heap(memory)
     for name, pairs in bound.items():
         for i, (address, values) in enumerate(pairs):
-            memory[getattr(owners.Contact, f"{name}_function")][i] = address
-            memory[getattr(owners.Contact, f"{name}_parameters")][i] = heap.store(values)
+            memory[getattr(owners.ContactRecord, f"{name}_function")][i] = address
+            memory[getattr(owners.ContactRecord, f"{name}_parameters")][i] = heap.store(values)
     return heap.close()
 
 

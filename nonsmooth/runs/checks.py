@@ -206,7 +206,7 @@ def check_candidates(model: LaidOut) -> None:
     """
     # offset of the numbers of a pair, 0 for a contact without a search. The numbers are the kind of the pair, 0 if none
     # were found; one feature of either shape; behind these, the distance up to which the pair is valid [m]
-    places = model.memory.declared(owners.Contact.features)
+    places = model.memory.declared(owners.ContactRecord.features)
     numbers = np.flatnonzero(places > 0)
     for number in numbers[model.memory.floats[places[numbers]] != 0.0].tolist():
         contact = model.system.contacts[number]

@@ -115,7 +115,7 @@ def _failed_check(model: LaidOut, status: Status) -> str:
     text = _FAILED_CHECKS[status].format(**things)
     if status == Status.GAP_UNEXPLAINED:
         # other closed contacts of its bodies contradict a closed one; else its kinematics is not continuous
-        if memory[owners.Contact.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
+        if memory[owners.ContactRecord.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
             return f"{text}It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
         return f"{text}It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
     return f"{text}{_CHECK}" if status == Status.QUATERNION_UNEXPLAINED else text
@@ -126,7 +126,7 @@ def _other_closed(model: LaidOut, contact: Contact) -> str:
 
     Of contacts between the same two bodies the first is named. Those between both bodies of ``contact`` are left out.
     """
-    modes = model.memory[owners.Contact.mode][: len(model.active)]
+    modes = model.memory[owners.ContactRecord.mode][: len(model.active)]
     # a driven body has no velocities, and takes no part in a contradiction
     free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
     pairs = dict[tuple[int, int], str]()
@@ -155,7 +155,7 @@ def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
     The engine has stored this input in front of the parameters of the function, which begin the slice of floats. The
     function is called again with the inner states of the last state.
     """
-    memory, contact = model.memory, owners.Contact
+    memory, contact = model.memory, owners.ContactRecord
     states = memory[owners.Island.y][model.n_q + model.n_u + N_ACCOUNTS :]
     for number, declared in enumerate(model.system.contacts):
         start, n = (int(memory.declared(one)[number]) for one in (contact.inner_states, contact.n_inner_states))

@@ -58,7 +58,7 @@ class FixedPlaces(NamedTuple):
 
         A memory has offsets among all floats; a checkpoint has the blocks apart, which begin at ``memory.blocks``.
         """
-        tails, features = memory[owners.Body.tail], memory.declared(owners.Contact.features)
+        tails, features = memory[owners.BodyRecord.tail], memory.declared(owners.ContactRecord.features)
         # a contact without a search for features has the offset 0, which becomes negative
         return cls(tails - memory.blocks, features - memory.blocks, memory.changing)
 
@@ -124,9 +124,9 @@ class FinalState(NamedTuple):
 
         That is the difference of the resumable checkpoint from the blank memory, which is short.
         """
-        now, contact, places = self.now, owners.Contact, self.places.features
+        now, contact, places = self.now, owners.ContactRecord, self.places.features
         # y has q, u, the energy accounts, and the inner states of laws
-        n_q, n_u, y = now[owners.Model.n_q], now[owners.Model.n_u], now[owners.Island.y]
+        n_q, n_u, y = now[owners.ModelNumbers.n_q], now[owners.ModelNumbers.n_u], now[owners.Island.y]
         # the place is negative for a contact without a search for features; its row stays zero
         features, searched = np.zeros((len(places), CANDIDATE)), np.flatnonzero(places >= 0)
         features[searched] = now.blocks[places[searched, None] + np.arange(CANDIDATE)]
@@ -151,7 +151,7 @@ class FinalState(NamedTuple):
         Contacts on the neighbour list, the active ones, have newer numbers than the records of all declared contacts.
         """
         found = self.now.declared(declared).copy()
-        active = self.now[owners.Contact.declared][: self.now[owners.Island.n_contacts]]
+        active = self.now[owners.ContactRecord.declared][: self.now[owners.Island.n_contacts]]
         found[active] = self.now[declared][: len(active)]
         return found
 
@@ -186,7 +186,7 @@ class FinalState(NamedTuple):
             energy=end.state.energy,
             bodies=dict(zip(self.system.names.bodies, self.system.bodies, strict=True)),
             # times and coordinates
-            samples=(recorded.rows[:, 0], recorded.rows[:, 1 : 1 + now[owners.Model.n_q]]),
+            samples=(recorded.rows[:, 0], recorded.rows[:, 1 : 1 + now[owners.ModelNumbers.n_q]]),
             tolerances=(now[owners.Tolerance.relative], now[owners.Tolerance.impact]),
             steps=end.counters.steps,
             scale=now[run.energy_scale],

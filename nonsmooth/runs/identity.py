@@ -53,7 +53,7 @@ def _parameters(memory: Memory) -> Iterator[np.ndarray]:
 
 def _is_copied(one: Declaration) -> bool:
     """True for a number that an active contact copies from its declared contact. It follows from that of the latter."""
-    return one.owner is owners.Contact and not one.is_of_slot
+    return one.owner is owners.ContactRecord and not one.is_of_slot
 
 
 def _options(engine: Engine) -> bytes:

@@ -102,9 +102,9 @@ class Records:
         # floats and integers of events, and samples, under the number of the call
         if call not in self._parts:
             self._parts[call] = (
-                memory[owners.Output.event_numbers][: integers.item(_N_FLOATS)].copy(),
-                memory[owners.Output.event_codes][: integers.item(_N_INTEGERS)].copy(),
-                memory[owners.Output.samples][: n_samples * width].reshape(n_samples, width).copy(),
+                memory[owners.OutputNumbers.event_numbers][: integers.item(_N_FLOATS)].copy(),
+                memory[owners.OutputNumbers.event_codes][: integers.item(_N_INTEGERS)].copy(),
+                memory[owners.OutputNumbers.samples][: n_samples * width].reshape(n_samples, width).copy(),
             )
             self._n_drained += n_events
         # counters of the content of the buffers, and the place of the last event in them

@@ -135,13 +135,13 @@ def _contact(model: LaidOut, index: int) -> list[_Support]:
     """
     memory = model.memory
     contact = model.system.contacts[model.active[index]]
-    block = memory[owners.Contact.geometry][index]
+    block = memory[owners.ContactRecord.geometry][index]
     found = _free_body(model, contact.first, contact.second)
     is_closed = block[blocks.GAP] <= _CLOSED * float(memory[owners.Tolerance.gap])
     if found is None or not is_closed or not isinstance(contact.friction, FrictionLaw):
         return []
     body, is_second = found
-    frames = memory[owners.Contact.frame_a][index], memory[owners.Contact.frame_b][index]
+    frames = memory[owners.ContactRecord.frame_a][index], memory[owners.ContactRecord.frame_b][index]
     point, velocity = _point_and_velocity(model, frames, is_second, block)
     # the normal of a contact is from its first body to its second, that of a support into the free body
     normal = (1.0 if is_second else -1.0) * block[blocks.NORMAL : blocks.NORMAL + 3]
@@ -156,14 +156,14 @@ def _joints(model: LaidOut) -> Iterator[_Support]:
     memory = model.memory
     for number, joint in enumerate(joints_in_order(model.system)):
         found = _free_body(model, joint.first, joint.second)
-        count, start = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.out))
+        count, start = (int(memory[one][number]) for one in (owners.JointRecord.n_rows, owners.JointRecord.out))
         rows = memory.floats[start : start + blocks.JOINT_ROW * count].reshape(count, blocks.JOINT_ROW)
         # rows with a moment constrain an angle, and bear no force at a point
         rows = rows[~np.any(rows[:, blocks.MOMENT : blocks.MOMENT + 3], axis=1)]
         if found is None or len(rows) == 0:
             continue
         body, is_second = found
-        frames = memory[owners.Joint.frame_a][number], memory[owners.Joint.frame_b][number]
+        frames = memory[owners.JointRecord.frame_a][number], memory[owners.JointRecord.frame_b][number]
         # each row has points of its own; those of the first stand for the joint
         point, velocity = _point_and_velocity(model, frames, is_second, rows[0])
         yield _Support(str(joint), body, point, velocity, rows[:, blocks.AXIS : blocks.AXIS + 3], None)

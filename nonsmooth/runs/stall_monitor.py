@@ -120,7 +120,7 @@ class StallMonitor:
         The integers of an event are a head, which ends with a number of contacts, and two for each of these contacts.
         """
         memory = self.model.memory
-        codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
+        codes = memory[owners.OutputNumbers.event_codes][: int(memory[owners.OutputNumbers.integers_used])].tolist()
         # the head begins with the cause of the event, and its contact or guard
         at = 0
         while at < len(codes):

@@ -46,7 +46,7 @@ def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
     InvalidInput
         If too many contacts are near each other, or a closed contact has features that are not near each other.
     """
-    if model.memory[owners.Model.n_searches] > 0 and np.any(state.modes):
+    if model.memory[owners.ModelNumbers.n_searches] > 0 and np.any(state.modes):
         _check_features(model, blank, state)
     _write(model, blank, state, state.modes)
 
@@ -105,7 +105,7 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """
     _write(model, blank, state, np.full(len(state.modes), Mode.OPEN))
     # offsets of the features, 0 for a contact without a search
-    features = model.memory.declared(owners.Contact.features)
+    features = model.memory.declared(owners.ContactRecord.features)
     for number in np.flatnonzero((features > 0) & (state.modes != Mode.OPEN)).tolist():
         if not np.array_equal(model.memory.floats[features[number] :][:CANDIDATE], state.features[number]):
             raise InvalidInput(
@@ -125,11 +125,11 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
     # the energy accounts between u and the inner states of laws begin at zero
     y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
-    memory.declared(owners.Contact.mode)[:] = modes
-    memory.declared(owners.Contact.closing_rate)[:] = state.closing_rates
-    memory.declared(owners.Contact.direction)[:] = state.slip_directions
+    memory.declared(owners.ContactRecord.mode)[:] = modes
+    memory.declared(owners.ContactRecord.closing_rate)[:] = state.closing_rates
+    memory.declared(owners.ContactRecord.direction)[:] = state.slip_directions
     # only contacts with a search have features in the memory; a first number of 0 means that none were found
-    features = memory.declared(owners.Contact.features)
+    features = memory.declared(owners.ContactRecord.features)
     found = np.flatnonzero((features > 0) & (state.features[:, 0] != 0.0))
     memory.floats[features[found, None] + np.arange(CANDIDATE)] = state.features[found]
     # these guards of the user do not fire at the start again
@@ -142,11 +142,11 @@ def write_request(memory: Memory, request: RunRequest) -> None:
     memory[owners.Request.t_end] = request.t_end
     memory[owners.Request.sample_start] = request.sample_start
     memory[owners.Request.sample_interval] = request.sample_interval
-    longest_step = _BUFFER_PART * memory[owners.Model.sample_capacity] * request.sample_interval
+    longest_step = _BUFFER_PART * memory[owners.ModelNumbers.sample_capacity] * request.sample_interval
     # the default interval depends on the end time, which must not change the steps; its few samples fit in any case
     memory[owners.Request.sample_span] = math.inf if request.has_default_samples else longest_step
 
 
 def write_first_sample(memory: Memory, request: RunRequest) -> None:
     """Set time [s] and number of the next sample to those of the first one of a request, for a run from its start."""
-    memory[owners.Output.next_sample], memory[owners.Output.sample_index] = request.sample_start, 0
+    memory[owners.OutputNumbers.next_sample], memory[owners.OutputNumbers.sample_index] = request.sample_start, 0

@@ -118,7 +118,9 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
     force = traction / normal
     if np.max(np.abs(np.array([t1, t2]) - force)) > 1e-4 * size:
         return f"impulses have the ratio ({t1:g}, {t2:g}), forces ({force[0]:g}, {force[1]:g})"
-    return "" if law.is_fulfilled(slip, 1.0, (t1, t2), 1e-4 * size) else "is_fulfilled refuses the impulses of an impact"
+    return (
+        "" if law.is_fulfilled(slip, 1.0, (t1, t2), 1e-4 * size) else "is_fulfilled refuses the impulses of an impact"
+    )
 
 
 @_FRICTION.claim(SPEED, HEADING, TURN)

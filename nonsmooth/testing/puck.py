@@ -313,19 +313,19 @@ class ContactRig:
     @property
     def geometry(self) -> Array:
         """The geometry block, shape [31]."""
-        return self._row(owners.Contact.geometry)[:PAIR]
+        return self._row(owners.ContactRecord.geometry)[:PAIR]
 
     @property
     def axes(self) -> Array:
         """Normal and tangents, shape [3, 3]."""
-        return self._row(owners.Contact.axes).reshape(3, 3)
+        return self._row(owners.ContactRecord.axes).reshape(3, 3)
 
     @property
     def rate(self) -> Array:
         """Gap rate and slip velocity [m/s], shape [3]."""
-        return self._row(owners.Contact.rate)
+        return self._row(owners.ContactRecord.rate)
 
     @property
     def bias(self) -> Array:
         """Their derivatives while u' = 0, shape [3]."""
-        return self._row(owners.Contact.bias)
+        return self._row(owners.ContactRecord.bias)

@@ -148,7 +148,7 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
         inner = bind(contact.kinematics.evaluator, "pair", contact.kinematics.parameters(), kind)[0]
         if inner not in shims:
             shims[inner] = _timed(inner, accounts.setdefault(kind, np.zeros(2, np.int64)))
-    function = owners.Contact.geometry_function
+    function = owners.ContactRecord.geometry_function
     for functions in (memory.declared(function), memory[function][: memory[owners.Island.n_contacts]]):
         functions[:] = [shims[int(one)] for one in functions]
     prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 3)
@@ -161,7 +161,7 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
         return status
 
     kept = prototype(timed_search)
-    memory[owners.Model.entry_points][_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
+    memory[owners.ModelNumbers.entry_points][_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
     return kept
 
 

@@ -67,7 +67,7 @@ def lay_out(problem: Problem, solver: Solver) -> Memory:
     """Return the engine's memory with the problem in it."""
     n = len(problem.bias) // 3
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
-    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
+    memory[owners.ModelNumbers.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active], memory[owners.Options.solver] = n, solver
     memory[owners.Problem.acceleration_scale] = np.max(np.abs(problem.bias))
     memory[owners.Problem.active][:n] = np.arange(n)

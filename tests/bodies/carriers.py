@@ -134,19 +134,19 @@ class Rig:
     @property
     def geometry(self) -> Array:
         """Geometry blocks, shape [n_contacts, 30]."""
-        return self._rows(owners.Contact.geometry)
+        return self._rows(owners.ContactRecord.geometry)
 
     @property
     def axes(self) -> Array:
         """Normal and tangents, shape [n_contacts, 3, 3]."""
-        return self._rows(owners.Contact.axes).reshape(-1, 3, 3)
+        return self._rows(owners.ContactRecord.axes).reshape(-1, 3, 3)
 
     @property
     def rate(self) -> Array:
         """Gap rate and slip velocity, shape [n_contacts, 3]."""
-        return self._rows(owners.Contact.rate)
+        return self._rows(owners.ContactRecord.rate)
 
     @property
     def bias(self) -> Array:
         """Their derivatives while u' = 0, shape [n_contacts, 3]."""
-        return self._rows(owners.Contact.bias)
+        return self._rows(owners.ContactRecord.bias)

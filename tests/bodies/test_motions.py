@@ -110,7 +110,7 @@ class _Frame:
 
     def __init__(self, motion: Motion) -> None:
         self.model = lay_out(ns.System([DrivenBody(motion, (Sphere(1.0),))]), EventDriven())
-        self.out = int(self.model.memory[owners.Body.out][:1][0])
+        self.out = int(self.model.memory[owners.BodyRecord.out][:1][0])
 
     def __call__(self, t: float) -> Any:
         self.model.memory[owners.Island.time] = t

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.declare import Declaration, Life, Part, declarations
+from nonsmooth.engine.memory.declare import Declaration, Life, Singleton, declarations
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
@@ -39,10 +39,10 @@ ENDS_WITH_EVENT = (*ENDS_WITH_IMPACT, Life.EVENT)
 ENDS_WITH_STEP = (*ENDS_WITH_EVENT, Life.STEP)
 """Lives that are over with an impact, with an event, and with a step."""
 _BUFFERS = (
-    owners.Output.n_events,
-    owners.Output.floats_used,
-    owners.Output.integers_used,
-    owners.Output.n_samples,
+    owners.OutputNumbers.n_events,
+    owners.OutputNumbers.floats_used,
+    owners.OutputNumbers.integers_used,
+    owners.OutputNumbers.n_samples,
 )
 """How far the buffers of the output are filled."""
 
@@ -51,7 +51,7 @@ def poison(memory: Memory, *lives: Life, booleans: bool = True) -> None:
     """Overwrite all numbers of some lives: floats by NaN, integers by :data:`POISON`, booleans by ``booleans``."""
     for one in _dead(lives):
         value = np.nan if one.is_float else booleans if one.kind is bool else POISON
-        if one.size is None and issubclass(one.owner, Part):
+        if one.size is None and issubclass(one.owner, Singleton):
             memory[one] = value
         else:
             memory[one][...] = value
@@ -117,7 +117,7 @@ class SingleSteps(Engine):
 
 def _progress(memory: Memory) -> tuple[int, int, float]:
     """Evaluations of forces, events in the buffers, and time [s]: one of them changes in a step."""
-    return memory[owners.Totals.n_evaluations], memory[owners.Output.n_events], memory[owners.Island.time]
+    return memory[owners.Totals.n_evaluations], memory[owners.OutputNumbers.n_events], memory[owners.Island.time]
 
 
 @final
@@ -149,7 +149,7 @@ class Poisoned(SingleSteps):
 
     def _divert(self, memory: Memory, name: str, lives: tuple[Life, ...]) -> None:
         """Let the address of an entry point lead to a callback that calls it and poisons what it leaves."""
-        places, number = memory[owners.Model.entry_points], ENTRY_POINTS.index(name)
+        places, number = memory[owners.ModelNumbers.entry_points], ENTRY_POINTS.index(name)
         address = entry_addresses()[number]
         if places[number] != address:
             return

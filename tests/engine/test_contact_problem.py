@@ -25,7 +25,7 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
     """Lay out one contact problem; ``slip`` holds unit vectors of sliding contacts, zeros at rest."""
     n = len(mu)
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n})
-    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
+    memory[owners.ModelNumbers.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active] = n
     memory[owners.Problem.active][:n] = np.arange(n)
     write_delassus(memory, np.asarray(delassus))
@@ -34,7 +34,7 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
     memory[owners.ActiveContact.static_coefficient][:n] = static
     rest = np.all(np.asarray(slip) == 0.0, axis=1)
     memory[owners.ActiveContact.is_at_rest][:n] = rest
-    for owner in (owners.ActiveContact, owners.Contact):
+    for owner in (owners.ActiveContact, owners.ContactRecord):
         memory[owner.direction][:n] = np.where(rest[:, None], [1.0, 0.0], slip)
     memory[owners.ActiveContact.mode_tried][:n] = np.where(rest, Mode.STICK, Mode.SLIDE)
     return memory

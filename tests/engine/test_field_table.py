@@ -12,9 +12,13 @@ import numpy as np
 import pytest
 
 import nonsmooth
-from nonsmooth.engine.memory.declare import Declaration, Life, Part, declarations
+from nonsmooth.engine.memory.declare import Declaration, Life, Singleton, declarations
 from nonsmooth.engine.memory.memory import Memory, allocate
-from nonsmooth.engine.memory.owners import Island, Output, Problem
+from nonsmooth.engine.memory.owners import (
+    Island,
+    OutputNumbers,
+    Problem,
+)
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.memory.workspace import PARTS, RECORDS
 from nonsmooth.engine.native import plain
@@ -32,7 +36,7 @@ NUMBER = COUNT - 1
 MOST = 4000
 
 
-class Seen(Part, key="seen"):
+class Seen(Singleton, key="seen"):
     """What a compiled step has read."""
 
     numbers: FloatRow = array(Life.OUTPUT, fixed(MOST), float, "", "Numbers, one after another.")
@@ -64,9 +68,9 @@ def test_each_number_is_stored_once() -> None:
 def test_the_state_is_in_a_checkpoint() -> None:
     """All that a later step reads comes before the buffers of the output, which a checkpoint leaves out."""
     memory = _memory()
-    first = {True: memory.start(Output.event_numbers), False: memory.start(Output.event_codes)}
+    first = {True: memory.start(OutputNumbers.event_numbers), False: memory.start(OutputNumbers.event_codes)}
     for _, one in DECLARED:
-        is_scalar = one.size is None and issubclass(one.owner, Part)
+        is_scalar = one.size is None and issubclass(one.owner, Singleton)
         if one.life is Life.STATE and not is_scalar:
             assert memory.record[one.key] < first[one.is_float], one.key
 
@@ -94,7 +98,7 @@ def _memory() -> Memory:
     for _, one in DECLARED:
         if one.inside[0] or one.owner.key == "model":
             continue
-        is_scalar = one.size is None and issubclass(one.owner, Part)
+        is_scalar = one.size is None and issubclass(one.owner, Singleton)
         shape = () if is_scalar else memory[one].shape
         if one.kind is float:
             memory[one] = random.normal(size=shape)

@@ -101,7 +101,7 @@ def test_rates_and_bias_are_derivatives(
         memory[owners.Island.y][:13] = state
         memory[owners.Island.time] = time + dt
         call_entry("evaluate_at", memory)
-        return model.gaps(), memory[owners.Contact.rate][:n].flatten()
+        return model.gaps(), memory[owners.ContactRecord.rate][:n].flatten()
 
     u = np.concatenate([velocity, spin])
     h = 1e-3
@@ -110,14 +110,14 @@ def test_rates_and_bias_are_derivatives(
     gap_rate = sum(w * gap for w, (gap, _) in parts)
     rate_change = sum(w * rate for w, (_, rate) in parts)
     _, rate = at(0.0, u)
-    bias = memory[owners.Contact.bias][:n].flatten()
+    bias = memory[owners.ContactRecord.bias][:n].flatten()
     scale = 1.0 + float(np.max(np.abs(bias)))
     np.testing.assert_allclose(rate[::3], gap_rate, rtol=0, atol=1e-7 * scale)
     np.testing.assert_allclose(bias, rate_change, rtol=0, atol=3e-7 * scale)
     is_second = not flip or system.contacts[0].second is body
-    starts = memory[owners.Contact.jacobian_b if is_second else owners.Contact.jacobian_a][:n]
+    starts = memory[owners.ContactRecord.jacobian_b if is_second else owners.ContactRecord.jacobian_a][:n]
     jacobian = np.stack([memory.floats[int(j) : int(j) + 18].reshape(3, 6) for j in starts])
-    prescribed = memory[owners.Contact.prescribed_rate][:n].flatten()
+    prescribed = memory[owners.ContactRecord.prescribed_rate][:n].flatten()
     np.testing.assert_allclose(jacobian.reshape(3 * n, 6) @ u + prescribed, rate, rtol=0, atol=1e-12 * scale)
     gradient = np.stack([at(0.0, u + e)[1] - rate for e in np.eye(6)], axis=1)
     np.testing.assert_allclose(jacobian.reshape(3 * n, 6), gradient, rtol=0, atol=1e-11 * scale)

@@ -47,7 +47,7 @@ def _gaps(system: System, places: np.ndarray) -> np.ndarray:
 def _listed(model: LaidOut) -> np.ndarray:
     n = int(model.memory[owners.Island.n_contacts])
     listed = np.zeros(len(model.system.contacts), bool)
-    listed[model.memory[owners.Contact.declared][:n]] = True
+    listed[model.memory[owners.ContactRecord.declared][:n]] = True
     return listed
 
 

@@ -125,7 +125,7 @@ def test_parameters_do_not_change_in_a_run() -> None:
         one
         for owner in OWNERS
         for one in declarations(owner).values()
-        if one.life is Life.PARAMETER and (owner is not owners.Contact or one.is_of_slot)
+        if one.life is Life.PARAMETER and (owner is not owners.ContactRecord or one.is_of_slot)
     ]
     before = [np.array(memory[one]) for one in fixed]
     model.run(t_end)

@@ -251,7 +251,7 @@ def test_an_overlap_is_told_where_there_is_one_and_nowhere_else(kinds: tuple[str
     system = _system(*(CONVEX[kind]() for kind in kinds))
     model, rng = lay(system, ns.EventDriven()), np.random.default_rng(7)
     memory = model.memory
-    n = int(memory[owners.Model.n_pairs])
+    n = int(memory[owners.ModelNumbers.n_pairs])
     if kinds == ("ball", "ball"):
         assert n == 0
         return

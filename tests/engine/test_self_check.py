@@ -232,7 +232,7 @@ def test_contacts_that_nearly_repeat_each_other_move_nothing_far(angle: float) -
     system.place(ball, position=(RADIUS * np.tan(0.5 * angle), 0.0, RADIUS))
     memory = assemble(system, EventDriven()).memory
     call_entry("advance", memory, 0, 0)
-    memory[owners.Contact.mode][:2] = 2
+    memory[owners.ContactRecord.mode][:2] = 2
     y = memory[owners.Island.y][:7]
     y[2] -= 1e-12
     before = y.copy()
@@ -242,7 +242,7 @@ def test_contacts_that_nearly_repeat_each_other_move_nothing_far(angle: float) -
     assert np.linalg.norm(y[3:]) == pytest.approx(1.0, abs=1e-15)
     if angle == 1e-3:
         call_entry("evaluate_at", memory)
-        assert np.abs(memory[owners.Contact.gap][:2]).max() < 1e-14
+        assert np.abs(memory[owners.ContactRecord.gap][:2]).max() < 1e-14
 
 
 def turned(

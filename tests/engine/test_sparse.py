@@ -89,7 +89,7 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
 def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
     n = len(bias) // 3
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n})
-    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
+    memory[owners.ModelNumbers.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active] = n
     memory[owners.Problem.acceleration_scale] = np.max(np.abs(bias))
     memory[owners.Problem.active][:n] = np.arange(n)
@@ -97,7 +97,7 @@ def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
     memory[owners.Problem.free_accelerations][: 3 * n] = bias
     memory[owners.ActiveContact.friction_coefficient][:n] = mu
     memory[owners.ActiveContact.static_coefficient][:n] = mu
-    for owner in (owners.ActiveContact, owners.Contact):
+    for owner in (owners.ActiveContact, owners.ContactRecord):
         memory[owner.direction][:n, 0] = 1.0
     memory[owners.ActiveContact.is_normal_force_unknown][:n] = 1
     memory[owners.ActiveContact.sticks][:n] = memory[owners.ActiveContact.is_at_rest][:n] = ~np.asarray(sliding)
@@ -198,7 +198,7 @@ def test_too_many_blocks_end_the_run() -> None:
     """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
     memory = assemble(_row(6, np.arange(6), False), EventDriven()).memory
     starts = memory[owners.Island.block_start][:6]
-    memory[owners.Model.n_slots] = 2
+    memory[owners.ModelNumbers.n_slots] = 2
     assert call_entry("advance", memory, 0, 0) == Status.NO_SLOT
     assert starts.tolist() == [0, 1, 2, 3, 4, 5]
 

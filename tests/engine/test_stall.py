@@ -86,9 +86,11 @@ class Relay(Engine):
         status = self.first.advance(call, memory, most_steps, wary)
         if status != Status.STALLED:
             return status
-        n_q, n_u, n = (memory[one] for one in (owners.Model.n_q, owners.Model.n_u, owners.Island.n_contacts))
-        assert np.max(memory[owners.Contact.burst_events][:n]) > 100
-        memory[owners.Contact.burst_events][:n] = 0
+        n_q, n_u, n = (
+            memory[one] for one in (owners.ModelNumbers.n_q, owners.ModelNumbers.n_u, owners.Island.n_contacts)
+        )
+        assert np.max(memory[owners.ContactRecord.burst_events][:n]) > 100
+        memory[owners.ContactRecord.burst_events][:n] = 0
         memory[owners.Island.y][n_q : n_q + n_u] = 0.0
         memory[owners.Run.has_started] = 0
         return Status.PAUSED

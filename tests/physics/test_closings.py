@@ -94,8 +94,8 @@ def test_closings_bring_to_rest_lose_energy_and_push_nothing_into_anything(kind:
             assert kinetic[1] <= kinetic[0] + 1e-9 * scale
             assert kinetic[0] - kinetic[1] == pytest.approx(events.closing_loss[e], abs=1e-6 * scale)
             call_entry("evaluate_at", model.memory)
-            geometry = model.memory[owners.Contact.geometry][:n]
-            rates = model.memory[owners.Contact.rate][:n][:, 0]
+            geometry = model.memory[owners.ContactRecord.geometry][:n]
+            rates = model.memory[owners.ContactRecord.rate][:n][:, 0]
             # past the end of its features a gap has no rate
             touching = (np.abs(geometry[:, 0]) < _GAP) & (geometry[:, PAST_END] <= 0.0)
             assert np.all(rates[touching] > -_RATE)

@@ -186,7 +186,7 @@ def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> N
     mass, normal, slip, normal_bias, slip_bias, force, to_u, to_u_rate, axes, centre = numbers(
         *q, *rate, body.total_mass, body.centre_distance, body.radius, j1, j2, GRAVITY
     )
-    out = int(model.memory[owners.Body.out][:2][1])
+    out = int(model.memory[owners.BodyRecord.out][:2][1])
     block = floats[out : out + 111]
     np.testing.assert_allclose(block[:3], centre.ravel(), rtol=0, atol=1e-13)
     np.testing.assert_allclose(block[3:12].reshape(3, 3), axes, rtol=0, atol=2e-15 * 4)
@@ -197,7 +197,7 @@ def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> N
     bias = to_u_rate.ravel()
     engine_force = floats[tail : tail + 6]
     _close(to_u.T @ (engine_force - engine_mass @ bias), force.ravel(), scale=_size(engine_mass @ bias))
-    starts = model.memory[owners.Contact.jacobian_b][:2]
+    starts = model.memory[owners.ContactRecord.jacobian_b][:2]
     jacobian = np.stack([floats[int(j) : int(j) + 18].reshape(3, 6) for j in starts])
     w_engine, n_engine = jacobian[:, 0].T, jacobian[:, 1:].reshape(4, 6).T
     _close(to_u.T @ w_engine, normal)
@@ -205,17 +205,17 @@ def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> N
     omega = 2.0 * math.pi * motion.frequency
     phase = omega * time + motion.phase
     plate = motion.amplitude * np.array([np.sin(phase), omega * np.cos(phase), -(omega**2) * np.sin(phase)])
-    rates = model.memory[owners.Contact.rate][:2]
+    rates = model.memory[owners.ContactRecord.rate][:2]
     _close(rates[:, 0], (normal.T @ rate).ravel() - plate[1], scale=_size(rate))
     _close(rates[:, 1:].ravel(), (slip.T @ rate).ravel(), scale=_size(rate))
-    prescribed = model.memory[owners.Contact.prescribed_rate][:2]
+    prescribed = model.memory[owners.ContactRecord.prescribed_rate][:2]
     _close(prescribed, np.array([[-plate[1], 0.0, 0.0]] * 2), scale=_size(rate))
     # the engine's bias is g'' and v' with u' = 0, that is q'' = -T^-1 T' q'
     still = -np.linalg.solve(to_u, bias)
     expected_n = (normal.T @ still) + normal_bias.ravel() - plate[2]
     expected_t = (slip.T @ still) + slip_bias.ravel()
     scale = _size(plate[2]) + _size(jacobian) * _size(still)
-    engine_bias = model.memory[owners.Contact.bias][:2]
+    engine_bias = model.memory[owners.ContactRecord.bias][:2]
     _close(engine_bias[:, 0], expected_n, scale=scale)
     _close(engine_bias[:, 1:].ravel(), expected_t, scale=scale)
     gaps = model.gaps()

@@ -64,7 +64,7 @@ def _with(state: State, place: int, value: float, part: int = _BLOCKS) -> State:
 @pytest.mark.parametrize("value", [np.nan, -1.0, 1e300])
 def test_a_parameter_is_no_part_of_a_checkpoint(model: ns.Model, value: float) -> None:
     """No run changes one."""
-    place = int(_starts(model._laid.memory, owners.Contact.friction_parameters)[1]) + 1
+    place = int(_starts(model._laid.memory, owners.ContactRecord.friction_parameters)[1]) + 1
     state = _with(model.run(T_END - 1e-3).state, place, value)
     with pytest.raises(ns.InvalidInput, match=rf"places must be places of \d+ numbers that a run may change.* {place}"):
         model.run(T_END, start=state)
@@ -87,7 +87,9 @@ def test_features_that_there_are_not_are_named(hilly: ns.Model, which: int, valu
     """A search left them in a contact; the evaluator goes by them through the tables of the mesh."""
     state = hilly.run(T_END).state
     memory = hilly._laid.memory
-    held = [start for start in _starts(memory, owners.Contact.features) if memory.floats[memory.blocks + start] != 0.0]
+    held = [
+        start for start in _starts(memory, owners.ContactRecord.features) if memory.floats[memory.blocks + start] != 0.0
+    ]
     said = r"the features of the contact '.*' must be one of \(1, below \d+, below 1\)"
     with pytest.raises(ns.InvalidInput, match=said):
         hilly.run(2.0 * T_END, start=_with(state, int(held[0]) + which, value))

@@ -9,10 +9,16 @@ from typing import Any
 import nonsmooth as ns
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.memory.owners import Contact, Island, Model, Request, Tolerance
+from nonsmooth.engine.memory.owners import (
+    ContactRecord,
+    Island,
+    ModelNumbers,
+    Request,
+    Tolerance,
+)
 from nonsmooth.interfaces import Engine
 from nonsmooth.parameters import parameter
-from nonsmooth.steps import FloatRow, Life, Part, array, per
+from nonsmooth.steps import FloatRow, Life, Singleton, array, per
 from tests.runs.own_engine import Midpoint
 
 
@@ -47,12 +53,12 @@ class SetsArray(Blind):
 
 class SetsContact(Blind):
     def settings(self, time_scale: float) -> Mapping[Any, float]:
-        return {Contact.gap: 1.0}
+        return {ContactRecord.gap: 1.0}
 
 
 class SetsCount(Blind):
     def settings(self, time_scale: float) -> Mapping[Any, float]:
-        return {Model.n_bodies: 1.0}
+        return {ModelNumbers.n_bodies: 1.0}
 
 
 class SetsWord(Blind):
@@ -75,15 +81,15 @@ class NegativeCount(Blind):
         return {"n_pivoted": -1}
 
 
-class _Taken(Part, key="island"):
+class _Taken(Singleton, key="island"):
     room: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "Room.")
 
 
-class _Endless(Part, key="endless"):
+class _Endless(Singleton, key="endless"):
     room: FloatRow = array(Life.STEP, per(1, "nonsense"), float, "", "Room.")
 
 
-class _Negative(Part, key="negative"):
+class _Negative(Singleton, key="negative"):
     room: FloatRow = array(Life.STEP, lambda counts: -1, float, "", "Room.")
 
 
@@ -95,19 +101,19 @@ class NoPart(Blind):
 
 class TakenName(Blind):
     @property
-    def own(self) -> type[Part]:
+    def own(self) -> type[Singleton]:
         return _Taken
 
 
 class WrongLength(Blind):
     @property
-    def own(self) -> type[Part]:
+    def own(self) -> type[Singleton]:
         return _Endless
 
 
 class NegativeLength(Blind):
     @property
-    def own(self) -> type[Part]:
+    def own(self) -> type[Singleton]:
         return _Negative
 
 
@@ -152,7 +158,7 @@ FAULTS: tuple[tuple[type[Engine], str], ...] = (
     (WrongCount, "counts must be a known one, but it is 'nonsense'.*Known: n_pivoted"),
     (TakenCount, "counts must be a known one, but it is 'n_bodies'"),
     (NegativeCount, "counts: n_pivoted must be an integer, not negative, but it is -1"),
-    (NoPart, "own must be a class of declarations, a Part, but it is {'room': 1}"),
+    (NoPart, "own must be a class of declarations, a Singleton, but it is {'room': 1}"),
     (TakenName, "own: key must be a name in Python that no other owner has, but it is 'island'"),
     (WrongLength, "own: room: count must be a known one, but it is 'nonsense'"),
     (NegativeLength, "own: room must have an integer as its length, not negative, but it is -1"),

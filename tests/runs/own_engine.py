@@ -10,7 +10,15 @@ import numpy as np
 
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.memory.owners import Body, Island, Model, Output, Request, Tolerance, Totals
+from nonsmooth.engine.memory.owners import (
+    BodyRecord,
+    Island,
+    ModelNumbers,
+    OutputNumbers,
+    Request,
+    Tolerance,
+    Totals,
+)
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.parameters import parameter
@@ -49,7 +57,7 @@ class Midpoint(Engine):
             t = memory[Island.time]
             if t >= t_end:
                 return Status.DONE
-            if 2 * memory[Output.n_samples] > memory[Model.sample_capacity]:
+            if 2 * memory[OutputNumbers.n_samples] > memory[ModelNumbers.sample_capacity]:
                 return Status.PAUSED
             h = min(self.step, t_end - t)
             if wary and h < self.step:
@@ -57,8 +65,8 @@ class Midpoint(Engine):
             before = y.copy()
             y += 0.5 * h * _slope(call, memory)
             after = before + h * _slope(call, memory)
-            while memory[Output.next_sample] <= t + h:
-                share = (memory[Output.next_sample] - t) / h
+            while memory[OutputNumbers.next_sample] <= t + h:
+                share = (memory[OutputNumbers.next_sample] - t) / h
                 place = call("begin_sample")
                 memory.floats[place : place + len(y)] = before + share * (after - before)
             y[:] = after
@@ -70,12 +78,14 @@ class Midpoint(Engine):
 def _slope(call: Callable[..., Any], memory: Memory) -> np.ndarray:
     """Return dy/dt of free bodies, whose output blocks hold dq/dt, the force and the inverse mass."""
     call("evaluate_at")
-    slope = np.zeros(memory[Model.n_y])
-    columns = (memory[one].tolist() for one in (Body.q, Body.u, Body.n_q, Body.n_u, Body.tail))
+    slope = np.zeros(memory[ModelNumbers.n_y])
+    columns = (
+        memory[one].tolist() for one in (BodyRecord.q, BodyRecord.u, BodyRecord.n_q, BodyRecord.n_u, BodyRecord.tail)
+    )
     for q, u, n_q, n_u, tail in zip(*columns, strict=True):
         block = memory.floats[tail:]
         force, inverse = block[n_q : n_q + n_u], block[n_q + n_u : n_q + n_u + n_u**2].reshape(n_u, n_u)
         slope[q : q + n_q] = block[:n_q]
-        first = memory[Model.n_q] + u
+        first = memory[ModelNumbers.n_q] + u
         slope[first : first + n_u] = inverse @ force
     return slope

@@ -9,10 +9,18 @@ from typing import Any
 from nonsmooth.engine.memory import modes
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.memory.owners import Contact, Island, Model, Output, Request, Tolerance, Totals
+from nonsmooth.engine.memory.owners import (
+    ContactRecord,
+    Island,
+    ModelNumbers,
+    OutputNumbers,
+    Request,
+    Tolerance,
+    Totals,
+)
 from nonsmooth.interfaces import EndCause, Measure
 from nonsmooth.parameters import parameter
-from nonsmooth.steps import Life, Part, real
+from nonsmooth.steps import Life, Singleton, real
 from tests.runs.faulty_engines import Blind
 from tests.runs.own_engine import Midpoint
 
@@ -21,7 +29,7 @@ IMPULSE = 0.25
 TOO_FAST, SLOW = 100, 101
 
 
-class Falling(Part, key="falling"):
+class Falling(Singleton, key="falling"):
     """What :class:`Judged` measures."""
 
     fastest_fall: float = real(Life.STATE, "m/s", "Largest speed downwards at the end of a step.")
@@ -36,7 +44,7 @@ class Resting(Blind):
     tells : bool
         Whether it says that it records contacts.
     first : float
-        Part of the first sample interval after which its first event is.
+        Singleton of the first sample interval after which its first event is.
     """
 
     tells: bool = True
@@ -48,15 +56,15 @@ class Resting(Blind):
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         n, y, t_end = memory[Island.n_contacts], memory[Island.y], memory[Request.t_end]
-        while memory[Output.next_sample] <= t_end:
-            if 2 * memory[Output.n_samples] > memory[Model.sample_capacity]:
+        while memory[OutputNumbers.next_sample] <= t_end:
+            if 2 * memory[OutputNumbers.n_samples] > memory[ModelNumbers.sample_capacity]:
                 return Status.PAUSED
-            index, memory[Island.time] = memory[Output.sample_index], memory[Output.next_sample]
+            index, memory[Island.time] = memory[OutputNumbers.sample_index], memory[OutputNumbers.next_sample]
             if index == 0:
                 memory[Island.time] += self.first * memory[Request.sample_interval]
             call("begin_event")
-            memory[Contact.mode][:n] = Mode.STICK
-            memory[Contact.event_impulse][:n, 0] = IMPULSE
+            memory[ContactRecord.mode][:n] = Mode.STICK
+            memory[ContactRecord.event_impulse][:n, 0] = IMPULSE
             call("record_event", modes.Cause.STEP if index else modes.Cause.START, -1, 0)
             place = call("begin_sample")
             memory.floats[place : place + len(y)] = y
@@ -86,7 +94,7 @@ class Judged(Blind):
     gain: float = parameter(0.0, doc="work that is none", unit="J")
 
     @property
-    def own(self) -> type[Part]:
+    def own(self) -> type[Singleton]:
         return Falling
 
     @property
@@ -108,7 +116,7 @@ class Judged(Blind):
         return {Tolerance.relative: 1e-9, Tolerance.impact: 1e-8}
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        n_q, n_u = memory[Model.n_q], memory[Model.n_u]
+        n_q, n_u = memory[ModelNumbers.n_q], memory[ModelNumbers.n_u]
         for _ in range(most_steps):
             before = memory[Island.time]
             status = Midpoint(self.step).advance(call, memory, 1, wary)

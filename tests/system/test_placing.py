@@ -128,7 +128,7 @@ def test_resting_rides_along(build: Any, motion: Any) -> None:
     ns.resting(system, body, position=(0.2, 0.3, 1.0))
     model = assemble(system, EventDriven())
     np.testing.assert_allclose(model.gaps(), 0.0, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(model.memory[owners.Contact.rate][:2], 0.0, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(model.memory[owners.ContactRecord.rate][:2], 0.0, rtol=0, atol=1e-14)
 
 
 @pytest.mark.slow

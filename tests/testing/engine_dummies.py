@@ -11,7 +11,7 @@ from nonsmooth.engine.memory.event_rows import CODE_HEAD
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
-from nonsmooth.steps import FloatRow, Life, Part, array, per
+from nonsmooth.steps import FloatRow, Life, Singleton, array, per
 from nonsmooth.system.system import System
 
 Fault = Callable[[Memory, int], None]
@@ -22,23 +22,23 @@ def _none(memory: Memory, call: int) -> None:
 
 
 def _push(memory: Memory, call: int) -> None:
-    if memory[owners.Island.time] == 0.0 and memory[owners.Model.n_bodies] == 1:
+    if memory[owners.Island.time] == 0.0 and memory[owners.ModelNumbers.n_bodies] == 1:
         memory[owners.Island.y][7] += 0.1  # the velocity, behind position and quaternion
 
 
 def _late(memory: Memory, call: int) -> None:
     if memory[owners.Island.time] == 0.0:
-        memory[owners.Output.next_sample] += 0.01
+        memory[owners.OutputNumbers.next_sample] += 0.01
 
 
 def _skip(memory: Memory, call: int) -> None:
-    if memory[owners.Output.sample_index] > 1000:
-        memory[owners.Output.sample_index] += 1
-        memory[owners.Output.next_sample] += memory[owners.Request.sample_interval]
+    if memory[owners.OutputNumbers.sample_index] > 1000:
+        memory[owners.OutputNumbers.sample_index] += 1
+        memory[owners.OutputNumbers.next_sample] += memory[owners.Request.sample_interval]
 
 
 def _gain(memory: Memory, call: int) -> None:
-    if memory[owners.Model.n_bodies] == 1:
+    if memory[owners.ModelNumbers.n_bodies] == 1:
         memory[owners.Totals.driven_work] += 0.01
 
 
@@ -53,34 +53,38 @@ def _forget(memory: Memory, call: int) -> None:
 
 def _turn(memory: Memory, call: int) -> None:
     """Turn the box that tumbles a little, at constant length of its quaternion."""
-    if memory[owners.Model.n_q] == 14:
+    if memory[owners.ModelNumbers.n_q] == 14:
         four = memory[owners.Island.y][10:14]
         four[:2] = 0.8 * four[0] - 0.6 * four[1], 0.6 * four[0] + 0.8 * four[1]
 
 
 def _throw(memory: Memory, call: int) -> None:
     """Throw the ball over the driven plate up."""
-    if memory[owners.Model.n_bodies] == 2 and memory[owners.Model.n_q] == 7 and memory[owners.Island.time] == 0.0:
+    if (
+        memory[owners.ModelNumbers.n_bodies] == 2
+        and memory[owners.ModelNumbers.n_q] == 7
+        and memory[owners.Island.time] == 0.0
+    ):
         memory[owners.Island.y][9] += 0.5
 
 
 def _sink(memory: Memory, call: int) -> None:
     """Overlook the contacts of the heap."""
-    if memory[owners.Model.n_bodies] == 11:
+    if memory[owners.ModelNumbers.n_bodies] == 11:
         _overlook(memory, call)
 
 
 def _open(memory: Memory, call: int) -> None:
     """Record the contact of the first event as open."""
-    if memory[owners.Output.integers_used] > CODE_HEAD:
-        memory[owners.Output.event_codes][CODE_HEAD + 1] = 0
+    if memory[owners.OutputNumbers.integers_used] > CODE_HEAD:
+        memory[owners.OutputNumbers.event_codes][CODE_HEAD + 1] = 0
 
 
 def _overlook(memory: Memory, call: int) -> None:
-    memory[owners.Island.n_contacts] = memory[owners.Model.n_spheres] = 0
+    memory[owners.Island.n_contacts] = memory[owners.ModelNumbers.n_spheres] = 0
 
 
-class _Attic(Part, key="attic"):
+class _Attic(Singleton, key="attic"):
     """An array for each of something that no system counts."""
 
     room: FloatRow = array(Life.STEP, per(1, "n_attics"), float, "", "Room.")
@@ -92,14 +96,14 @@ class Dummy(Engine):
 
     fault: Fault = _none
     later: Fault = _none
-    room: type[Part] | None = None
+    room: type[Singleton] | None = None
     calls: list[int] = field(default_factory=list, compare=False)
 
     def parameters(self) -> Mapping[str, Any]:
         return {}
 
     @property
-    def own(self) -> type[Part] | None:
+    def own(self) -> type[Singleton] | None:
         return self.room
 
     @property

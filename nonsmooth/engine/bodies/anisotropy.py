@@ -13,7 +13,7 @@ geometry keeps its unit tangents. ``stretch_1`` and ``stretch_2`` are the rows a
 from __future__ import annotations
 
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, at, frame_at, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, at, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Pair, Vector, dot, length
 
 _SIDE, _AXIS, _FORWARD, _BACKWARD, _ACROSS = 0, 1, 4, 5, 6
@@ -57,7 +57,7 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
 
 
 @kernel("v2(ws, Contact, v3, v3)")
-def _projected_axis(ws: Workspace, contact: Contact, t1: Vector, t2: Vector) -> Pair:
+def _projected_axis(ws: Workspace, contact: ContactRecord, t1: Vector, t2: Vector) -> Pair:
     """Unit vector along the projection of the law's axis to the tangent plane, in components along the unit tangents.
 
     The axis is fixed to one of the two bodies. If it is normal to the tangent plane, it has no projection. Then the

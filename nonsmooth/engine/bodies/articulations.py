@@ -20,7 +20,7 @@ from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.native.kernel import (
     Articulation,
     Floats,
-    Joint,
+    JointRecord,
     Workspace,
     at,
     call_pair,
@@ -43,7 +43,7 @@ def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, mo
 
 
 @kernel("void(ws, Joint, Articulation)")
-def _write_rows(ws: Workspace, joint: Joint, articulation: Articulation) -> None:
+def _write_rows(ws: Workspace, joint: JointRecord, articulation: Articulation) -> None:
     """Evaluate the rows of a joint, and write them to its articulation, the bodies that joints tie together.
 
     Written are the Jacobian A, the residuals [m], the rates A u [m/s] and the biases b [m/s^2], or without m if the row

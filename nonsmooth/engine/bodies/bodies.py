@@ -14,7 +14,7 @@ from nonsmooth.engine.bodies.equations import force_without_contacts
 from nonsmooth.engine.bodies.kinematics import entry_of_column, evaluate_contact
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import (
-    Body,
+    BodyRecord,
     Workspace,
     at,
     call_body,
@@ -29,7 +29,7 @@ from nonsmooth.engine.numerics.vectors import minus, opposite
 
 
 @kernel("void(ws, f8, i8, Body)")
-def _call_body(ws: Workspace, t: float, y: int, body: Body) -> None:
+def _call_body(ws: Workspace, t: float, y: int, body: BodyRecord) -> None:
     """Call the function of a body. It writes the output block of the body at time ``t`` [s] and the state at ``y``."""
     q, u = at(ws.floats, y + body.q), at(ws.floats, y + ws.model.n_q + body.u)
     call_body(body.function, t, q, u, at(ws.floats, body.parameters), at(ws.floats, body.out))
@@ -51,7 +51,7 @@ def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
 
 
 @kernel("b1(ws, f8, i8, Body)")
-def _is_evaluated_at(ws: Workspace, t: float, y: int, body: Body) -> bool:
+def _is_evaluated_at(ws: Workspace, t: float, y: int, body: BodyRecord) -> bool:
     """True if the last evaluation of a body was at time ``t`` [s] and the state at ``y``.
 
     ``y_evaluated`` holds q and u of the evaluation ``evaluated_version``. It is not the last one if the body was then
@@ -182,7 +182,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
 
 
 @kernel("void(ws, Body)")
-def _clear_forces(ws: Workspace, body: Body) -> None:
+def _clear_forces(ws: Workspace, body: BodyRecord) -> None:
     """Set the generalised forces of a body to zero before it is evaluated.
 
     Loads have added to them, and the function of a body need not write zeros. A body with a ballistic motion in closed

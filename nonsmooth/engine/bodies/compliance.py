@@ -14,7 +14,7 @@ from nonsmooth.engine.memory.blocks import DELASSUS, FORCE_AND_MOMENT, TRACTION,
 from nonsmooth.engine.memory.layout import FIRST_ROW, N_ACCOUNTS, NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
-    Contact,
+    ContactRecord,
     Floats,
     Workspace,
     at,
@@ -37,7 +37,7 @@ def evaluate_compliant_force(ws: Workspace, c: int) -> None:
 
 
 @kernel("void(ws, Contact)")
-def _evaluate_motion(ws: Workspace, contact: Contact) -> None:
+def _evaluate_motion(ws: Workspace, contact: ContactRecord) -> None:
     """Write the slip velocity [m/s] and the relative angular velocity [1/s] along t1, t2 and n for a traction law.
 
     They are those of the second body less the first, and go to ``problem.motion`` in the order of the law's argument:
@@ -131,7 +131,7 @@ def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
 
 
 @kernel("v3(Contact, f8, f8, f8)")
-def _in_world(contact: Contact, along_n: float, along_1: float, along_2: float) -> Vector:
+def _in_world(contact: ContactRecord, along_n: float, along_1: float, along_2: float) -> Vector:
     """World components of a vector, from its components along the axes n, t1 and t2 of a contact."""
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
     return (

@@ -19,7 +19,7 @@ from nonsmooth.engine.bodies.anisotropy import stretch_bias, stretch_tangents
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.native.kernel import (
-    Contact,
+    ContactRecord,
     Floats,
     Workspace,
     at,
@@ -345,7 +345,7 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
 
 
 @kernel("WitnessMotion(ws, Contact, v3, v3, v2)")
-def _witness_motion(ws: Workspace, contact: Contact, t1: Vector, t2: Vector, slip: Pair) -> WitnessMotion:
+def _witness_motion(ws: Workspace, contact: ContactRecord, t1: Vector, t2: Vector, slip: Pair) -> WitnessMotion:
     """Sliding of the witness points and turning of the normal of a contact, in components along its unit tangents.
 
     The witness points slide over their bodies at u and w, the normal turns by nu relative to the first body, and

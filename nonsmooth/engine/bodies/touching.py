@@ -11,7 +11,7 @@ from nonsmooth.engine.bodies.compliance import copy_inner_states, evaluate_compl
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian, evaluate_kinematics
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 
 
 @entry_point("b1(ws)")
@@ -37,7 +37,7 @@ def find_touching(ws: Workspace) -> bool:
 
 
 @kernel("b1(ws, Contact)")
-def _touches_and_approaches(ws: Workspace, contact: Contact) -> bool:
+def _touches_and_approaches(ws: Workspace, contact: ContactRecord) -> bool:
     """Write whether a contact touches, and evaluate it in that case. True if it touches, is rigid and approaches.
 
     A compliant contact has no impact, so its approach does not count.
@@ -55,7 +55,7 @@ def _touches_and_approaches(ws: Workspace, contact: Contact) -> bool:
 
 
 @kernel("b1(ws, Contact)")
-def _does_touch(ws: Workspace, contact: Contact) -> bool:
+def _does_touch(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact touches, by its gap and gap rate.
 
     A closed rigid contact touches. An open one touches if its gap is within the gap tolerance, or within the

@@ -14,7 +14,7 @@ from typing import Any
 
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
-from nonsmooth.engine.native.kernel import ActiveContact, Contact, Workspace, delassus_block, entry_point, kernel
+from nonsmooth.engine.native.kernel import ActiveContact, ContactRecord, Workspace, delassus_block, entry_point, kernel
 from nonsmooth.engine.numerics.arrays import clear
 from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import Pair
@@ -35,7 +35,7 @@ def assemble_delassus(ws: Workspace) -> None:
 
 
 @kernel("void(ws, Contact, Contact, i8)")
-def _write_block(ws: Workspace, contact: Contact, other: Contact, out: int) -> None:
+def _write_block(ws: Workspace, contact: ContactRecord, other: ContactRecord, out: int) -> None:
     """Write a block of the Delassus matrix at ``out``: accelerations of ``contact`` per unit force of ``other`` [1/kg].
 
     Rows and columns are n, t1, t2.

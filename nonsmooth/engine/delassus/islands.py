@@ -13,7 +13,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 
 _NO_GROUP = -1
 """Island of an articulation that has none yet."""
@@ -36,7 +36,7 @@ def _find_root(ws: Workspace, number: int) -> int:
 
 
 @kernel("i8(ws, Contact)")
-def _movable_articulation(ws: Workspace, contact: Contact) -> int:
+def _movable_articulation(ws: Workspace, contact: ContactRecord) -> int:
     """Articulation of a contact that is movable: the first such one, or simply the first if none is.
 
     An articulation is a body, or several that joints connect. Its set is the island of the contact.

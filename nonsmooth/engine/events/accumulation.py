@@ -33,7 +33,7 @@ from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.memory.event_rows import CLOSING_LOSS, DRIVEN_WORK
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
-from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _PART_AT_REST = 1.0 - 1e-6
@@ -332,7 +332,7 @@ def _has_creeping_contact(ws: Workspace) -> bool:
 
 
 @kernel("b1(ws, Contact)")
-def _is_approaching(ws: Workspace, contact: Contact) -> bool:
+def _is_approaching(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact touches, is rigid and approaches faster than the velocity tolerance."""
     return not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity
 

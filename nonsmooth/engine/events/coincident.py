@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import start_inner_states
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
 _LARGEST_DIFFERENCE = 1e-5
@@ -21,7 +21,7 @@ The relative error of the energy of an approach is its square, which is below th
 
 
 @kernel("b1(Contact, Contact)")
-def _coincide(one: Contact, other: Contact) -> bool:
+def _coincide(one: ContactRecord, other: ContactRecord) -> bool:
     """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
     if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
         return False

@@ -39,7 +39,7 @@ from nonsmooth.engine.memory.modes import (
     Status,
     Truncation,
 )
-from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 
@@ -240,7 +240,7 @@ def collide_without_approach(ws: Workspace) -> Status:
 
 
 @kernel("b1(ws, Contact)")
-def _has_touching_contact(ws: Workspace, contact: Contact) -> bool:
+def _has_touching_contact(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact of the same two frames touches. Then the bodies meet there, and not at this one."""
     for other in ws.contacts:
         if other.is_touching and other.frame_a == contact.frame_a and other.frame_b == contact.frame_b:

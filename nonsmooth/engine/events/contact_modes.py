@@ -19,7 +19,7 @@ from nonsmooth.engine.events.averaging import agree_on_averaged_modes, stays_ave
 from nonsmooth.engine.events.record import mode_code
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.memory.modes import Cause, Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, kernel, result
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel, result
 from nonsmooth.engine.numerics.vectors import length
 
 _VANISHED = 1e-9
@@ -59,7 +59,7 @@ def guess_modes(ws: Workspace, cause: Cause, which: int) -> None:
 
 
 @kernel("Mode(ws, Contact, Cause, i8)")
-def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> Mode:
+def _guessed_mode(ws: Workspace, contact: ContactRecord, cause: Cause, which: int) -> Mode:
     """Guess of the mode of a rigid contact that touches and does not separate, at an event of contact ``which``."""
     is_cause = contact.index == which
     if cause == Cause.STICK_TO_SLIP and (is_cause or _share_a_bound(ws, contact, which)):
@@ -74,7 +74,7 @@ def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> 
 
 
 @kernel("void(ws, Contact, Cause, i8)")
-def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> None:
+def _guess_compliant_mode(ws: Workspace, contact: ContactRecord, cause: Cause, which: int) -> None:
     """Guess the mode of a compliant contact at an event of contact ``which``, and whether its friction is unknown.
 
     Its normal force is known. A contact with a traction law has a known friction, too, and always slides. A contact
@@ -99,7 +99,7 @@ def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: 
 
 
 @kernel("b1(ws, Contact)")
-def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
+def _force_has_vanished(ws: Workspace, contact: ContactRecord) -> bool:
     """True if the normal force of a closed rigid contact is round-off, as is that of the contact which lifts off.
 
     Then both lift off together.
@@ -114,7 +114,7 @@ def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
 
 
 @kernel("b1(ws, Contact, i8)")
-def _share_a_bound(ws: Workspace, contact: Contact, which: int) -> bool:
+def _share_a_bound(ws: Workspace, contact: ContactRecord, which: int) -> bool:
     """True if the forces of a contact and of contact ``which`` are both redundant, so that they break away together."""
     # the sum of redundant friction obeys the sum of the bounds
     return contact.has_redundant_force and ws.contacts[which].has_redundant_force

@@ -47,7 +47,7 @@ from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Limit, Mode, Status
-from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _VANISHED = 1e-9
@@ -55,7 +55,7 @@ _VANISHED = 1e-9
 
 
 @kernel("Cause(Contact)")
-def _cause_of_closing(contact: Contact) -> Cause:
+def _cause_of_closing(contact: ContactRecord) -> Cause:
     """Cause of the event in which a contact closes: a rigid one collides, a compliant one only touches."""
     return Cause.TOUCH if contact.is_compliant else Cause.IMPACT
 

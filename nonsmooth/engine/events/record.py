@@ -29,7 +29,7 @@ from nonsmooth.engine.memory.event_rows import (
 )
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, NO_CONTACT, Cause, Mode, Truncation
-from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 NO_PHASES = 0
@@ -39,7 +39,7 @@ _CLOSED, _APPROACHES, _SLIPS = 1, 2, 4
 
 
 @kernel("i8(Contact)")
-def mode_code(contact: Contact) -> int:
+def mode_code(contact: ContactRecord) -> int:
     """Bits of Eq. (29) of a contact in its present mode (closed, approaches, slips): 0 if it is open."""
     if contact.mode == Mode.OPEN:
         return 0
@@ -99,7 +99,7 @@ def _write_accounts(ws: Workspace, out: int) -> None:
 
 
 @kernel("void(ws, Contact, i8)")
-def _write_contact(ws: Workspace, contact: Contact, out: int) -> None:
+def _write_contact(ws: Workspace, contact: ContactRecord, out: int) -> None:
     """Write the impulses of a contact in an event, and its state from which a run can resume, to offset ``out``."""
     for r in range(3):
         ws.floats[out + IMPULSES + r] = contact.event_impulse[r]
@@ -178,7 +178,7 @@ def _write_event_codes(ws: Workspace, codes: int, cause: Cause, which: int, phas
 
 
 @kernel("void(ws, Contact, i8)")
-def _write_contact_codes(ws: Workspace, contact: Contact, codes: int) -> None:
+def _write_contact_codes(ws: Workspace, contact: ContactRecord, codes: int) -> None:
     """Write the declared number of a contact and its code in an event, Eq. (29), to offset ``codes``."""
     before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, mode_code(contact) << AFTER
     ws.integers[codes] = contact.declared

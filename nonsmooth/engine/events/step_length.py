@@ -15,7 +15,7 @@ from nonsmooth.engine.flow.self_check import ADJACENT
 from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.modes import Limit, Mode, Status
 from nonsmooth.engine.memory.tableau import ORDER
-from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 
@@ -31,7 +31,7 @@ _ASTRAY = 2.0
 
 
 @kernel("f8(ws, Contact)")
-def _first_of_compliant(ws: Workspace, contact: Contact) -> float:
+def _first_of_compliant(ws: Workspace, contact: ContactRecord) -> float:
     """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
 
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.

@@ -14,7 +14,7 @@ from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.flow.step import LARGEST_EXPLICIT
 from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _EXPLICIT_PART = 1.5
@@ -30,7 +30,7 @@ _UNKNOWN_PART = 0.25
 
 
 @kernel("f8(ws, Contact, f8)")
-def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
+def _part_before_stop_of(ws: Workspace, contact: ContactRecord, h: float) -> float:
     """Part of the implicit step of ``h`` [s] to take, so that it ends at or before the stop of a slip.
 
     The stop is predicted from slip and slip acceleration at the start. If the slip stops at the end of the step, the
@@ -76,7 +76,7 @@ def part_before_stop(ws: Workspace, h: float) -> float:
 
 
 @kernel("b1(Contact)")
-def _has_coulomb_slip(contact: Contact) -> bool:
+def _has_coulomb_slip(contact: ContactRecord) -> bool:
     """True if a contact slides with friction that may stop it: by Coulomb's law, with instantaneous forces."""
     return contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged
 

@@ -21,7 +21,7 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Contact, Guard, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, GuardRecord, Workspace, kernel
 
 NO_BOUND = -1.0, 0.0, 0.0
 """Bounds of a gap's acceleration that were not evaluated. A bound that was evaluated is never negative."""
@@ -90,7 +90,7 @@ def arm_guards(ws: Workspace) -> None:
 
 
 @kernel("void(Guard)")
-def _start(guard: Guard) -> None:
+def _start(guard: GuardRecord) -> None:
     """Set a guard to its value at the end of the last step, not deflated."""
     # base is the value from which its growth counts if it is deflated afterwards
     guard.is_deflated = False
@@ -98,7 +98,7 @@ def _start(guard: Guard) -> None:
 
 
 @kernel("void(ws, Contact)")
-def _deflate_normal(ws: Workspace, contact: Contact) -> None:
+def _deflate_normal(ws: Workspace, contact: ContactRecord) -> None:
     """Deflate the normal guard if it starts about zero, so that its root at the start does not fire again.
 
     The guard is the gap of an open contact, or the distance of a closed compliant one to its reach, the gap up to which
@@ -119,7 +119,7 @@ def _deflate_normal(ws: Workspace, contact: Contact) -> None:
 
 
 @kernel("void(ws, Contact)")
-def _deflate_friction(ws: Workspace, contact: Contact) -> None:
+def _deflate_friction(ws: Workspace, contact: ContactRecord) -> None:
     """Deflate the friction guard of a sliding contact, its slip [m/s], if that has just begun and is about zero."""
     friction = friction_of(ws, contact)
     if contact.mode == Mode.SLIDE and friction.initial <= ws.tolerance.velocity:
@@ -128,7 +128,7 @@ def _deflate_friction(ws: Workspace, contact: Contact) -> None:
 
 
 @kernel("void(ws, Contact)")
-def _arm(ws: Workspace, contact: Contact) -> None:
+def _arm(ws: Workspace, contact: ContactRecord) -> None:
     """Arm the normal and the friction guard of a contact, so that they may fire, if they start above their thresholds.
 
     A gap that starts closed is armed at once: its guard is its growth, which is negative as soon as it closes further.

@@ -19,7 +19,7 @@ from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impul
 from nonsmooth.engine.delassus.delassus import add_response
 from nonsmooth.engine.flow.self_check import ALLOWED, energies_of_bodies, scale_energy, tolerated_gap
 from nonsmooth.engine.flow.spins import square_of_quaternion
-from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 
 _ALLOWED_PART = 0.1
 """Deviation of a gap from the linear model that is allowed, relative to the allowed error of a gap, or of energy."""
@@ -79,7 +79,7 @@ def _allowed_work(ws: Workspace) -> float:
 
 
 @kernel("f8(ws, Contact, f8, f8, f8)")
-def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force: float, work: float) -> float:
+def _relative_deviation(ws: Workspace, contact: ContactRecord, deviation: float, force: float, work: float) -> float:
     """Absolute ``deviation`` of a gap [m] from the linear model, relative to the allowed deviation.
 
     Allowed is a part of the gap that the tolerances allow, but not more than lets the ``force`` [N] do the ``work``

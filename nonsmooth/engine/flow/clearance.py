@@ -22,7 +22,7 @@ from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Contact, Floats, Workspace, entry_point, frame_at, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Floats, Workspace, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 _CURVED = 4.0
@@ -182,7 +182,7 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
 
 
 @kernel("b1(ws, Contact, f8)")
-def _will_be_doubtful(ws: Workspace, contact: Contact, h: float) -> bool:
+def _will_be_doubtful(ws: Workspace, contact: ContactRecord, h: float) -> bool:
     """True if the gap of a contact may close within the time ``h`` [s], by the speeds at its start."""
     faces = contact.mode == Mode.OPEN and contact.past_feature_at_start <= 0.0
     return faces and normal_of(ws, contact).at_end <= 2.0 * h * contact.speed_at_start

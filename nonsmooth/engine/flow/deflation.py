@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.flow.guard_numbers import first_end_guard, first_user_guard, is_of_open_contact
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE
-from nonsmooth.engine.native.kernel import Guard, Workspace, kernel
+from nonsmooth.engine.native.kernel import GuardRecord, Workspace, kernel
 
 
 @kernel("f8(ws, i8, f8, f8)")
@@ -43,7 +43,7 @@ def deflate(ws: Workspace, elapsed: float) -> None:
 
 
 @kernel("void(Guard, f8, f8)")
-def start_from_zero(guard: Guard, slack: float, rate: float) -> None:
+def start_from_zero(guard: GuardRecord, slack: float, rate: float) -> None:
     """Deflate a guard that starts about zero: its growth takes the place of its value, so that this root is left out.
 
     The growth counts from zero, or from the value of the guard if that is negative, lowered by ``slack`` in its unit.

@@ -26,7 +26,7 @@ from nonsmooth.engine.flow.guards import has_fired
 from nonsmooth.engine.flow.self_check import ADJACENT, NEGLIGIBLE, fail_check
 from nonsmooth.engine.memory.layout import PARTS
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel, part_end, result
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel, part_end, result
 from nonsmooth.engine.numerics.vectors import distance
 
 LARGEST_DISPLACEMENT = 0.02
@@ -52,7 +52,7 @@ class GapBounds(NamedTuple):
 
 
 @kernel("void(ws, f8, f8, Contact)")
-def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: Contact) -> None:
+def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: ContactRecord) -> None:
     """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry.
 
     Within the step the state is that of the interpolant, at its ends ``y`` and ``y_new``. ``y_stage`` is overwritten.
@@ -73,7 +73,7 @@ def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: Contac
 
 
 @kernel("f8(ws, f8, Contact)")
-def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
+def _acceleration_bound(ws: Workspace, h: float, contact: ContactRecord) -> float:
     """Bound of the acceleration with which a gap closes within the step of ``h`` [s], from those at its ends [m/s^2].
 
     Each bound grows with the length of the step. The difference of the two is added, as within the step the
@@ -92,14 +92,14 @@ def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
 
 
 @kernel("f8(ws, Contact, f8)")
-def _gap_above_start(ws: Workspace, contact: Contact, gap: float) -> float:
+def _gap_above_start(ws: Workspace, contact: ContactRecord, gap: float) -> float:
     """A gap [m], or its growth from the start value if it was closed when the step began (a deflated guard)."""
     guard = normal_of(ws, contact)
     return float(gap - guard.base) if guard.is_deflated else gap
 
 
 @kernel("void(ws, Contact, f8)")
-def _write_gap_guard(ws: Workspace, contact: Contact, elapsed: float) -> None:
+def _write_gap_guard(ws: Workspace, contact: ContactRecord, elapsed: float) -> None:
     """Write the rate and the guard of a gap that was evaluated after ``elapsed`` [s] of the step."""
     # a copy, because later evaluations of the contact overwrite normal_rate
     contact.gap_rate = contact.normal_rate
@@ -130,7 +130,7 @@ def evaluate_slip_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
 
 
 @kernel("void(ws, f8, f8, Contact, i8)")
-def _store_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) -> None:
+def _store_end(ws: Workspace, h: float, theta: float, contact: ContactRecord, n: int) -> None:
     """Store end ``n`` of the parts of a step: the gap as evaluated last, at the fraction ``theta``. Writes its guard.
 
     Stored are time, gap, gap rate, distance past the features, and offset of the witness point from the body's origin.
@@ -145,7 +145,7 @@ def _store_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) 
 
 
 @kernel("void(ws, f8, f8, Contact, i8)")
-def _evaluate_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) -> None:
+def _evaluate_end(ws: Workspace, h: float, theta: float, contact: ContactRecord, n: int) -> None:
     """Evaluate the gap of a contact at the fraction ``theta`` of the step of ``h`` [s], and store it as end ``n``.
 
     End ``n`` is one of the ends of the parts of the step between which the gap is bounded.
@@ -194,7 +194,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
 
 
 @kernel("f8(ws, f8, Contact, f8, b1)")
-def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> float:
+def _first_closing_of(ws: Workspace, h: float, contact: ContactRecord, high: float, is_evaluated: bool) -> float:
     """Fraction of the step, up to ``high``, at which a gap has closed, or 0 if it stays open.
 
     ``is_evaluated`` is true if the contact was evaluated at ``high``. The step is cut into parts, searched from the
@@ -235,7 +235,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
 
 
 @kernel("void(ws, Contact)")
-def _write_first_end(ws: Workspace, contact: Contact) -> None:
+def _write_first_end(ws: Workspace, contact: ContactRecord) -> None:
     """Write gap, rate and geometry at the start of the step, which are known, as end 0 of its parts."""
     left = part_end(ws.floats, ws.step.part_ends.start, 0)
     left.theta, left.gap = 0.0, _gap_above_start(ws, contact, contact.gap_at_start)
@@ -244,7 +244,7 @@ def _write_first_end(ws: Workspace, contact: Contact) -> None:
 
 
 @kernel("void(ws, f8, Contact, f8, b1)")
-def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> None:
+def _write_last_end(ws: Workspace, h: float, contact: ContactRecord, high: float, is_evaluated: bool) -> None:
     """Write the fraction ``high`` of the step of ``h`` [s] as end 1 of its parts: the end of the search for closings.
 
     Values at the end of the step are known. Elsewhere the contact is evaluated, unless it ``is_evaluated`` there.
@@ -261,7 +261,7 @@ def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_e
 
 
 @kernel("GapBounds(ws, f8, Contact)")
-def _bounds_of(ws: Workspace, h: float, contact: Contact) -> GapBounds:
+def _bounds_of(ws: Workspace, h: float, contact: ContactRecord) -> GapBounds:
     """Bounds of the motion of a gap within the step of ``h`` [s], from those at its ends.
 
     The sum of two bounds is used, because within the step a speed may exceed both.
@@ -275,7 +275,7 @@ def _bounds_of(ws: Workspace, h: float, contact: Contact) -> GapBounds:
 
 
 @kernel("b1(ws, f8, Contact, i8, f8)")
-def _is_undecided(ws: Workspace, h: float, contact: Contact, n: int, speed: float) -> bool:
+def _is_undecided(ws: Workspace, h: float, contact: ContactRecord, n: int, speed: float) -> bool:
     """True if the part of the step between ends 0 and ``n``, which the bounds do not decide, must be halved.
 
     Else the gaps at its ends decide. A part of the length of the time tolerance is not halved. Nor is a short part if

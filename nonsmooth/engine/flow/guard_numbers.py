@@ -6,7 +6,7 @@ The number of a guard gives its kind and its contact, so a guard that has fired 
 from __future__ import annotations
 
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Contact, Guard, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, GuardRecord, Workspace, kernel
 
 
 @kernel("i8(i8)")
@@ -52,25 +52,25 @@ def number_of_guards(ws: Workspace) -> int:
 
 
 @kernel("Guard(ws, Contact)")
-def normal_of(ws: Workspace, contact: Contact) -> Guard:
+def normal_of(ws: Workspace, contact: ContactRecord) -> GuardRecord:
     """Record of the normal guard of a contact: its gap, its normal force, or the distance to its reach."""
     return ws.guards[normal_guard(contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
-def friction_of(ws: Workspace, contact: Contact) -> Guard:
+def friction_of(ws: Workspace, contact: ContactRecord) -> GuardRecord:
     """Record of the friction guard of a contact: the distance to its static bound, or its slip."""
     return ws.guards[friction_guard(ws, contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
-def end_of(ws: Workspace, contact: Contact) -> Guard:
+def end_of(ws: Workspace, contact: ContactRecord) -> GuardRecord:
     """Record of the end guard of a contact: the distance to the end of its features."""
     return ws.guards[first_end_guard(ws) + contact.index]
 
 
 @kernel("Contact(ws, i8)")
-def contact_at(ws: Workspace, i: int) -> Contact:
+def contact_at(ws: Workspace, i: int) -> ContactRecord:
     """Contact of the normal or friction guard ``i``."""
     return ws.contacts[contact_of(ws, i)]
 

@@ -9,7 +9,7 @@ from nonsmooth.engine.flow.deflation import deflate
 from nonsmooth.engine.flow.flow import right_hand_side, value_of_normal_guard, value_of_slip_guard
 from nonsmooth.engine.flow.guard_numbers import end_of, first_user_guard, friction_of, normal_of
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_guard, entry_point, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, at, call_guard, entry_point, kernel
 
 NO_FEATURE = -1
 """Number of features that is stored for a contact whose change of features is no event."""
@@ -19,7 +19,7 @@ gap tolerance past the end, and must not end at once."""
 
 
 @kernel("f8(ws, Contact)")
-def feature_guard(ws: Workspace, contact: Contact) -> float:
+def feature_guard(ws: Workspace, contact: ContactRecord) -> float:
     """End guard of a closed contact [m]: the distance to the end of its features, negative past it.
 
     Features are the faces, edges or corners in contact. If they are others than at the start of the step, the sign of a
@@ -33,7 +33,7 @@ def feature_guard(ws: Workspace, contact: Contact) -> float:
 
 
 @kernel("b1(ws, Contact)")
-def has_other_features(ws: Workspace, contact: Contact) -> bool:
+def has_other_features(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact whose end guard fired has passed to other features, False if its features ended."""
     # after a change the witness points are within the new features, so the distance past their end is not positive
     return contact.past_feature <= ws.tolerance.gap
@@ -69,7 +69,7 @@ def write_guards(ws: Workspace, t: float, y: int, forces_are_known: bool) -> Non
 
 
 @kernel("void(ws, Contact)")
-def _write_gap(ws: Workspace, contact: Contact) -> None:
+def _write_gap(ws: Workspace, contact: ContactRecord) -> None:
     """Evaluate the geometry and the rates of an open contact, and write its gap as its normal guard."""
     evaluate_kinematics(ws, contact.index)
     normal_of(ws, contact).value = contact.gap
@@ -103,7 +103,7 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
 
 
 @kernel("void(ws, Contact)")
-def _write_force_guards(ws: Workspace, contact: Contact) -> None:
+def _write_force_guards(ws: Workspace, contact: ContactRecord) -> None:
     """Write the normal and the friction guard of a closed contact, whose force was evaluated.
 
     The friction guard is the distance to the static bound if the contact sticks, else the slip.
@@ -138,7 +138,7 @@ def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
 
 
 @kernel("void(ws, f8, i8, Contact)")
-def _evaluate_ballistic_bodies_of(ws: Workspace, t: float, y: int, contact: Contact) -> None:
+def _evaluate_ballistic_bodies_of(ws: Workspace, t: float, y: int, contact: ContactRecord) -> None:
     """Evaluate the ballistic bodies among the two of a contact, at time ``t`` [s] and state ``y``.
 
     Bodies in ballistic motion follow a closed form, so the right-hand side does not evaluate them.

@@ -23,7 +23,7 @@ from nonsmooth.engine.flow.guard_numbers import friction_of, normal_of
 from nonsmooth.engine.flow.step import explicit_step
 from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Body, Contact, Guard, Workspace, frame_at, kernel
+from nonsmooth.engine.native.kernel import BodyRecord, ContactRecord, GuardRecord, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import SHRINK, dense_state, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 
@@ -47,13 +47,13 @@ def _is_at_rest(ws: Workspace, number: int, frame: int) -> bool:
 
 
 @kernel("b1(ws, Contact)")
-def _has_body_at_rest(ws: Workspace, contact: Contact) -> bool:
+def _has_body_at_rest(ws: Workspace, contact: ContactRecord) -> bool:
     """True if one of the two bodies of a contact is driven and does not move."""
     return _is_at_rest(ws, contact.body_a, contact.frame_a) or _is_at_rest(ws, contact.body_b, contact.frame_b)
 
 
 @kernel("i8(ws, Contact)")
-def _independent_body(ws: Workspace, contact: Contact) -> int:
+def _independent_body(ws: Workspace, contact: ContactRecord) -> int:
     """Body that sticks by this contact alone to a body at rest and has no own step yet, or ``_NO_BODY``.
 
     Such a body acts on nothing else, so it may take a step of its own. It must not be the only body with velocities:
@@ -100,7 +100,7 @@ def _group_independent_bodies(ws: Workspace) -> int:
 
 
 @kernel("void(Guard, f8, b1)")
-def _extend_range(guard: Guard, value: float, is_first: bool) -> None:
+def _extend_range(guard: GuardRecord, value: float, is_first: bool) -> None:
     """Extend the range of a guard's values by ``value``, or start it there if it ``is_first``."""
     # the range is stored from base to at_end, which are free until the next common step writes the guards
     guard.base = value if is_first else min(guard.base, value)
@@ -131,7 +131,7 @@ def _extend_ranges(ws: Workspace, is_first: bool) -> None:
 
 
 @kernel("b1(Guard)")
-def _keeps_distance(guard: Guard) -> bool:
+def _keeps_distance(guard: GuardRecord) -> bool:
     """True if the samples of a guard, ``base`` to ``at_end``, are positive and differ too little for a root between."""
     # base is the least sample, at_end the largest one
     return guard.base > 0.0 and guard.base >= _LARGEST_DROP * guard.at_end
@@ -160,7 +160,7 @@ def _find_step(ws: Workspace, usual: float, longest: float) -> float:
 
 
 @kernel("void(ws, Body, f8)")
-def _store_step(ws: Workspace, body: Body, h: float) -> None:
+def _store_step(ws: Workspace, body: BodyRecord, h: float) -> None:
     """Give a body an own step of ``h`` [s] from the present time. Stores its start and slopes for the interpolant.
 
     They are those of the coordinates and velocities of the body alone, in all stages of the step taken last.
@@ -231,7 +231,7 @@ def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
 
 
 @kernel("b1(ws, Contact)")
-def _has_drifted(ws: Workspace, contact: Contact) -> bool:
+def _has_drifted(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a closed contact has left its constraints by more than ``_DRIFT`` tolerances, at the end of the step.
 
     Constraints are a gap and a gap rate of zero, and no slip if it sticks. A compliant contact constrains only its

@@ -34,7 +34,16 @@ from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE, allowed_gap, e
 from nonsmooth.engine.flow.spins import normalise, square_of_quaternion
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.native.kernel import Articulation, Body, Contact, Workspace, entry_point, frame_at, kernel, result
+from nonsmooth.engine.native.kernel import (
+    Articulation,
+    BodyRecord,
+    ContactRecord,
+    Workspace,
+    entry_point,
+    frame_at,
+    kernel,
+    result,
+)
 from nonsmooth.engine.numerics.vectors import cross, dot, minus
 
 _ROUND_OFF = 8.0 * 2.0**-52
@@ -227,7 +236,7 @@ def _allowed_motion(ws: Workspace, i: int) -> float:
 
 
 @kernel("f8(ws, Contact, i8)")
-def _speed_at(ws: Workspace, contact: Contact, number: int) -> float:
+def _speed_at(ws: Workspace, contact: ContactRecord, number: int) -> float:
     """Speed of the witness point of a contact on body ``number`` [m/s], 0 if the contact is not on that body."""
     fastest = 0.0
     for side in range(2):
@@ -241,7 +250,7 @@ def _speed_at(ws: Workspace, contact: Contact, number: int) -> float:
 
 
 @kernel("f8(ws, Body, i8)")
-def _allowed_motion_by_gaps(ws: Workspace, body: Body, i: int) -> float:
+def _allowed_motion_by_gaps(ws: Workspace, body: BodyRecord, i: int) -> float:
     """Change of coordinate ``i`` of a body by a projection of the allowed gaps of its contacts, in its unit.
 
     The angle that corresponds to a gap depends on the offset of the contact point. So each contact alone pushes the
@@ -265,7 +274,7 @@ def _allowed_motion_by_gaps(ws: Workspace, body: Body, i: int) -> float:
 
 
 @kernel("b1(ws, Body)")
-def _is_displaced(ws: Workspace, body: Body) -> bool:
+def _is_displaced(ws: Workspace, body: BodyRecord) -> bool:
     """True if a body has velocities in ``y_stage`` that are not zero, so that the projection displaces it."""
     first = ws.step.y_stage.start + ws.model.n_q + body.u
     for i in range(first, first + body.n_u):

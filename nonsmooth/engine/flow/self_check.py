@@ -15,7 +15,7 @@ from nonsmooth.engine.bodies.equations import energies, inverse_mass
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_compliance, frame_at, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, at, call_compliance, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Pair as EnergyPair
 from nonsmooth.engine.numerics.vectors import minus
 from nonsmooth.engine.pairs.overlaps import check_pairs
@@ -41,7 +41,7 @@ def fail_check(ws: Workspace, status: Status, number: int, found: float, allowed
 
 
 @kernel("f8(Contact)")
-def held_gap(contact: Contact) -> float:
+def held_gap(contact: ContactRecord) -> float:
     """Gap that a projection must close [m]. Past the end of the features the gap is only a distance, so it is 0."""
     return float(contact.gap if contact.past_feature <= 0.0 else 0.0)
 
@@ -76,7 +76,7 @@ def allowed_gap(ws: Workspace, c: int) -> float:
 
 
 @kernel("b1(ws, Contact)")
-def _has_closed_contact(ws: Workspace, contact: Contact) -> bool:
+def _has_closed_contact(ws: Workspace, contact: ContactRecord) -> bool:
     """True if some contact of the same two frames as ``contact`` is closed: other features may then overlap."""
     for other in ws.contacts:
         if other.mode != Mode.OPEN and other.frame_a == contact.frame_a and other.frame_b == contact.frame_b:
@@ -129,7 +129,7 @@ def check_gaps(ws: Workspace) -> None:
 
 
 @kernel("f8(ws, Contact, f8)")
-def _stored_energy(ws: Workspace, contact: Contact, depth: float) -> float:
+def _stored_energy(ws: Workspace, contact: ContactRecord, depth: float) -> float:
     """Energy of a compliant contact at a ``depth`` [m]: the integral of its force at rest [J].
 
     Gauss's three-point rule is exact for polynomials of degree five.
@@ -145,7 +145,7 @@ def _stored_energy(ws: Workspace, contact: Contact, depth: float) -> float:
 
 
 @kernel("f8(ws, Contact, b1)")
-def _deepest_other(ws: Workspace, contact: Contact, after: bool) -> float:
+def _deepest_other(ws: Workspace, contact: ContactRecord, after: bool) -> float:
     """Least gap of the other closed contacts of the same two frames, or 0 [m]; closed before or ``after`` an event.
 
     Its depth is that at which a contact may replace another one. After the event, the modes are those in

@@ -28,7 +28,7 @@ from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
 from nonsmooth.engine.impact.state import NOISE, state_of
 from nonsmooth.engine.impact.step_length import first_step
 from nonsmooth.engine.memory.modes import NO_CONTACT, ImpactOutcome, Phase, Truncation
-from nonsmooth.engine.native.kernel import ActiveContact, Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ActiveContact, ContactRecord, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.arrays import copy_numbers
 
 LARGE = 16
@@ -115,7 +115,7 @@ def _gather(ws: Workspace) -> float:
 
 
 @kernel("void(Contact)")
-def _clear(contact: Contact) -> None:
+def _clear(contact: ContactRecord) -> None:
     """Set the impulse and the energies of a contact to zero, and its phase to idle, before the first window."""
     contact.window_phase, contact.window_sticks, contact.n_waves = Phase.IDLE, False, 0
     for r in range(3):
@@ -177,7 +177,7 @@ def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
 
 
 @kernel("void(ws, Contact, i8)")
-def _add(ws: Workspace, contact: Contact, layer: int) -> None:
+def _add(ws: Workspace, contact: ContactRecord, layer: int) -> None:
     """Add a contact to the window, in a ``layer`` counted from the contacts that are not idle.
 
     The last layer is the rim.
@@ -217,7 +217,7 @@ def _load(ws: Workspace) -> None:
 
 
 @kernel("void(ws, ActiveContact, Contact)")
-def _load_state(ws: Workspace, active: ActiveContact, contact: Contact) -> None:
+def _load_state(ws: Workspace, active: ActiveContact, contact: ContactRecord) -> None:
     """Continue the phase, the deformation and the energy of a contact. Impulses and accounts start from zero."""
     state = state_of(ws, active)
     for r in range(3):

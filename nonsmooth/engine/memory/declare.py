@@ -4,9 +4,9 @@ A declaration has the type, unit and life of a number, and one sentence. Its own
 Everything else follows from it: the compiled records and those of plain mode, allocation, checkpoints, the identity
 of a model, the poison of a debug run, and the page of the internals.
 
-An owner is a :class:`Record`, of which there are many (``ws.contacts[c].gap``), or a :class:`Part`, of which there is
-one (``ws.tolerance.gap``). A class of declarations is also what editors and type checkers see: ``contact.gap`` is a
-float, and "find usages" works.
+An owner is a :class:`Record`, of which there are many (``ws.contacts[c].gap``), or a :class:`Singleton`, of which
+there is one (``ws.tolerance.gap``). A class of declarations is also what editors and type checkers see:
+``contact.gap`` is a float, and "find usages" works.
 """
 
 from __future__ import annotations
@@ -112,7 +112,7 @@ class Declaration:
     @property
     def is_scalar(self) -> bool:
         """True if it is one number of a part, False if it is an array or a number of each record."""
-        return self.size is None and issubclass(self.owner, Part)
+        return self.size is None and issubclass(self.owner, Singleton)
 
     @property
     def is_float(self) -> bool:
@@ -204,7 +204,7 @@ class Record(Owner):
                 setattr(cls, name, replace(declared, owner=cls))
 
 
-class Part(Owner):
+class Singleton(Owner):
     """Base of the owners of which there is one."""
 
     def __init_subclass__(cls, key: str) -> None:

@@ -12,9 +12,9 @@ import numpy as np
 
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.blocks import GUARD, PAIR, UNTOUCHED
-from nonsmooth.engine.memory.declare import Declaration, Part
-from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
-from nonsmooth.engine.memory.owners.model import Coefficients, Model
+from nonsmooth.engine.memory.declare import Declaration, Singleton
+from nonsmooth.engine.memory.owners.contact import ContactRecord, DeclaredContact
+from nonsmooth.engine.memory.owners.model import Coefficients, ModelNumbers
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
     COUNTS,
@@ -128,7 +128,7 @@ def output_block(size: int) -> list[float]:
 
 def counts_in(record: np.void) -> Counts:
     """The counts that size the arrays of a workspace (bodies, contacts, ...), from its record of scalars."""
-    return {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
+    return {name: record[f"{ModelNumbers.key}.{name}"].item() for name in COUNTS}
 
 
 def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray) -> np.ndarray:
@@ -140,7 +140,7 @@ def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.
     # the declaration may be a view of the storage of another one
     storage, start = storage_of(declared), int(record[declared.key])
     numbers = numbers[start : start + length_of(storage, counts)]
-    if issubclass(declared.owner, Part):
+    if issubclass(declared.owner, Singleton):
         return numbers
     # entries from one record to the next, position of the declaration in a record, and number of records
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
@@ -182,11 +182,11 @@ class Memory:
     tables: int
     references: tuple[tuple[int, int, int], ...] = ()
     written: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
-    own: tuple[type[Part], ...] = ()
+    own: tuple[type[Singleton], ...] = ()
     owner: Memory | None = None
 
     def __getitem__(self, declared: Any) -> Any:
-        """A scalar, or a view of an array: ``memory[Island.time]``, ``memory[Contact.gap]``.
+        """A scalar, or a view of an array: ``memory[Island.time]``, ``memory[ContactRecord.gap]``.
 
         Of records, the first axis is the record; the second is the number, if each record has several.
         """
@@ -204,8 +204,8 @@ class Memory:
         return int(self.record[declared.key])
 
     def declared(self, declared: Any) -> np.ndarray:
-        """View of a number of all declared contacts: ``memory.declared(Contact.mode)``."""
-        # memory[Contact.mode] has those on the neighbour list only, with their newest values
+        """View of a number of all declared contacts: ``memory.declared(ContactRecord.mode)``."""
+        # memory[ContactRecord.mode] has those on the neighbour list only, with their newest values
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:
@@ -274,7 +274,7 @@ class Memory:
         return tuple(lengths_of((*OWNERS, *self.own), of_floats, self._counts) for of_floats in (True, False))
 
 
-def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Memory:
+def allocate(counts: Mapping[str, int], own: tuple[type[Singleton], ...] = ()) -> Memory:
     """Workspace with all arrays for the given counts, all of ``COUNTS``. :class:`Heap` appends the blocks.
 
     ``own`` are the parts that an engine adds. All numbers have their values before any run, and the coefficients of the
@@ -287,7 +287,7 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Mem
     # blocks and tables, still empty, begin behind the arrays
     memory = Memory(scalars, floats, integers, blocks=n_floats, tables=n_floats, own=own)
     # guards behind the block that the kinematics of a contact writes: they change if it writes too many numbers
-    memory[Contact.geometry][:, PAIR:] = UNTOUCHED
+    memory[ContactRecord.geometry][:, PAIR:] = UNTOUCHED
     memory[Coefficients.nodes] = tableau.NODES
     memory[Coefficients.stages] = np.ravel(tableau.STAGES)
     memory[Coefficients.error_weights] = tableau.ERROR
@@ -302,7 +302,7 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Mem
 
 @functools.lru_cache(maxsize=16)
 def _laid(
-    counts: tuple[tuple[str, int], ...], own: tuple[type[Part], ...]
+    counts: tuple[tuple[str, int], ...], own: tuple[type[Singleton], ...]
 ) -> tuple[tuple[float, ...], tuple[int, int]]:
     """Values of the record of scalars before any run, and the numbers of floats and of integers.
 
@@ -310,7 +310,7 @@ def _laid(
     systems that differ in their parameters only have the same one, and often follow each other.
     """
     owners, known = (*OWNERS, *own), dict(counts)
-    values = {**scalars_of(owners), **{f"{Model.key}.{name}": number for name, number in counts}}
+    values = {**scalars_of(owners), **{f"{ModelNumbers.key}.{name}": number for name, number in counts}}
     totals: list[int] = []
     # all floats are one array, all integers another: offsets begin at 0 in each
     for of_floats in (True, False):

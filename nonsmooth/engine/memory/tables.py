@@ -1,6 +1,6 @@
 """Where the numbers of the field table are: scalars in one record, all floats in one array, all integers in another.
 
-Each scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record. So is the offset of
+Each scalar of a :class:`~nonsmooth.engine.memory.declare.Singleton` is an entry of the record. So is the offset of
 each array among the floats or integers. Entries are named by owner and field: ``"island.time"``, ``"contacts.gap"``.
 The sizes are functions of the counts of a system: another number of bodies or contacts gives other offsets, and no new
 compilation. The numbers of an engine of another kind come last.
@@ -16,8 +16,8 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.declare import Declaration, Part, declarations
-from nonsmooth.engine.memory.owners.model import Model
+from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
+from nonsmooth.engine.memory.owners.model import ModelNumbers
 from nonsmooth.engine.memory.sizes import Counts, Size
 from nonsmooth.engine.memory.workspace import PARTS, RECORDS
 
@@ -99,25 +99,25 @@ SCALARS = np.dtype(_entries(OWNERS), align=True)
 """The record of scalars."""
 N_SCALARS = len(SCALARS.names or ())
 """Number of its entries."""
-COUNTS = tuple(name for name, one in declarations(Model).items() if one.kind is int and one.size is None)
+COUNTS = tuple(name for name, one in declarations(ModelNumbers).items() if one.kind is int and one.size is None)
 """Counts that size the arrays, and the other integers of a model."""
-CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOAT_ARRAYS, *INTEGER_ARRAYS))
+CONSTANT_SCALARS = frozenset((*(f"{ModelNumbers.key}.{name}" for name in COUNTS), *FLOAT_ARRAYS, *INTEGER_ARRAYS))
 """Scalars that never change after the allocation of the workspace: counts and offsets."""
 
 
-def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
+def kept_scalars(own: Iterable[type[Singleton]]) -> NDArray[np.bool_]:
     """For each entry of the record of scalars, with the parts ``own`` of an engine, True if it outlives a step."""
     kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and one.is_scalar}
     return np.array([name in kept for name in record_with(own).names or ()])
 
 
-def record_with(own: Iterable[type[Part]]) -> np.dtype[np.void]:
+def record_with(own: Iterable[type[Singleton]]) -> np.dtype[np.void]:
     """Type of the record of scalars of an engine that adds the parts ``own``, whose scalars come last."""
     return _record_with(tuple(own))
 
 
 @functools.cache
-def _record_with(own: tuple[type[Part], ...]) -> np.dtype[np.void]:
+def _record_with(own: tuple[type[Singleton], ...]) -> np.dtype[np.void]:
     """:func:`record_with`, cached by a tuple, because each run needs it."""
     # without parts of the engine, the common type itself
     entries = _entries(own)

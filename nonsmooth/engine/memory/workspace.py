@@ -6,39 +6,39 @@ from collections.abc import Mapping, Sequence
 from typing import Any, get_args, get_type_hints
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.declare import Part, Record
+from nonsmooth.engine.memory.declare import Record, Singleton
 
 
 class Workspace:
     """All numbers of one trajectory, by owner."""
 
-    model: owners.Model
+    model: owners.ModelNumbers
     options: owners.Options
     tolerance: owners.Tolerance
     coefficients: owners.Coefficients
     request: owners.Request
     totals: owners.Totals
     run: owners.Run
-    output: owners.Output
+    output: owners.OutputNumbers
     island: owners.Island
     step: owners.Step
     event: owners.Event
     impact: owners.Impact
     problem: owners.Problem
 
-    bodies: Sequence[owners.Body]
+    bodies: Sequence[owners.BodyRecord]
     articulations: Sequence[owners.Articulation]
-    joints: Sequence[owners.Joint]
-    loads: Sequence[owners.Load]
-    contacts: Sequence[owners.Contact]
+    joints: Sequence[owners.JointRecord]
+    loads: Sequence[owners.LoadRecord]
+    contacts: Sequence[owners.ContactRecord]
     declared_contacts: Sequence[owners.DeclaredContact]
     actives: Sequence[owners.ActiveContact]
     unknowns: Sequence[owners.Unknown]
-    guards: Sequence[owners.Guard]
+    guards: Sequence[owners.GuardRecord]
     own_guards: Sequence[owners.OwnGuard]
     impact_guards: Sequence[owners.ImpactGuard]
-    spheres: Sequence[owners.Sphere]
-    half_spaces: Sequence[owners.HalfSpace]
+    spheres: Sequence[owners.BoundingSphere]
+    half_spaces: Sequence[owners.HalfSpaceRecord]
     searches: Sequence[owners.Search]
     pairs: Sequence[owners.Pair]
     carriers: Sequence[owners.Carrier]
@@ -49,20 +49,20 @@ class Workspace:
     """All integers."""
 
 
-def _owners() -> tuple[dict[str, type[Part]], dict[str, type[Record]]]:
+def _owners() -> tuple[dict[str, type[Singleton]], dict[str, type[Record]]]:
     """Parts and records of the workspace by name, from its type hints."""
-    parts, records = dict[str, type[Part]](), dict[str, type[Record]]()
+    parts, records = dict[str, type[Singleton]](), dict[str, type[Record]]()
     for name, hint in get_type_hints(Workspace).items():
         # records are hinted as sequences of their owner, parts by their owner, all floats and integers as Any
         if get_args(hint):
             records[name] = get_args(hint)[0]
-        elif isinstance(hint, type) and issubclass(hint, Part):
+        elif isinstance(hint, type) and issubclass(hint, Singleton):
             parts[name] = hint
     return parts, records
 
 
 _parts, _records = _owners()
-PARTS: Mapping[str, type[Part]] = _parts
+PARTS: Mapping[str, type[Singleton]] = _parts
 """Owners of which there is one, by their names in the workspace."""
 RECORDS: Mapping[str, type[Record]] = _records
 """Owners of which there are many, by their names in the workspace."""

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numba
 
-from nonsmooth.engine.memory.declare import Part
+from nonsmooth.engine.memory.declare import Singleton
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.native.address_calls import by_address
 from nonsmooth.engine.native.callees import KERNELS, Kernel, callees_of
@@ -52,7 +52,7 @@ def kernel(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
     return _kernel(signature_of(signature))
 
 
-def own_kernel(own: type[Part], signature: str) -> Callable[[Callable[..., Any]], Any]:
+def own_kernel(own: type[Singleton], signature: str) -> Callable[[Callable[..., Any]], Any]:
     """Decorator of a kernel of an engine that adds numbers of its own, the part ``own``, to the workspace."""
     return _kernel(signature_of(signature, workspace_with(own)))
 
@@ -88,7 +88,7 @@ def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], A
     return decorate
 
 
-def add_step(function: Callable[..., Any], own: type[Part], signature: str, fingerprint: Fingerprint) -> str:
+def add_step(function: Callable[..., Any], own: type[Singleton], signature: str, fingerprint: Fingerprint) -> str:
     """Register the step function of a plug-in's engine. Its name for ``call_entry``, whose first call compiles it.
 
     ``own`` is the part of the workspace that the engine adds. The machine code is kept on disk if ``fingerprint`` gives

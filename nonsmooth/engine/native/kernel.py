@@ -29,13 +29,13 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
-from nonsmooth.engine.memory.declare import Part
+from nonsmooth.engine.memory.declare import Singleton
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
-from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
-from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
-from nonsmooth.engine.memory.owners.guards import Guard, ImpactGuard, OwnGuard
-from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
+from nonsmooth.engine.memory.owners.bodies import Articulation, BodyRecord, JointRecord, LoadRecord
+from nonsmooth.engine.memory.owners.contact import ContactRecord, DeclaredContact
+from nonsmooth.engine.memory.owners.guards import GuardRecord, ImpactGuard, OwnGuard
+from nonsmooth.engine.memory.owners.neighbours import BoundingSphere, Carrier, HalfSpaceRecord, Pair, Search
 from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.engine.memory.written import PACKED
 from nonsmooth.engine.native.entries import Fingerprint
@@ -90,9 +90,9 @@ entry_point: _Decorator
 """Decorator of a function of the engine that is compiled apart and called by its address, from Python too."""
 result: Callable[[_Class], _Class]
 """Decorator of a named tuple of numbers that a kernel may return. Signatures use the name of its class."""
-own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]]
+own_kernel: Callable[[type[Singleton], str], Callable[[_Function], _Function]]
 """Decorator of a kernel of an engine that adds a part of its own to the workspace."""
-add_step: Callable[[Callable[..., Any], type[Part], str, Fingerprint], str]
+add_step: Callable[[Callable[..., Any], type[Singleton], str, Fingerprint], str]
 """``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the returned name."""
 
 copy_fields: Callable[[Any, Any], None]

@@ -15,7 +15,7 @@ from typing import Any, get_type_hints
 from numba import types
 from numba.extending import lower_builtin
 
-from nonsmooth.engine.memory.declare import Part
+from nonsmooth.engine.memory.declare import Singleton
 from nonsmooth.engine.memory.modes import ENUMERATIONS
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.numba_names import AbstractTemplate, AttributeTemplate, infer_getattr, signature
@@ -69,7 +69,7 @@ def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
     return known[returned.strip()](*[known[name] for name in names])
 
 
-def workspace_with(own: type[Part]) -> Any:
+def workspace_with(own: type[Singleton]) -> Any:
     """Numba type of the workspace of an engine that adds a part ``own``: numbers that the other engines do not have."""
     return WorkspaceType({own.key: own})
 

@@ -17,7 +17,7 @@ from typing import Any
 from numba import types
 from numba.extending import intrinsic, lower_builtin, make_attribute_wrapper, models, register_model, type_callable
 
-from nonsmooth.engine.memory.declare import Declaration, Part, declarations
+from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
 from nonsmooth.engine.memory.fields import Field, Fields, fields_of
 from nonsmooth.engine.memory.tables import N_SCALARS, record_with
 from nonsmooth.engine.memory.workspace import PARTS, RECORDS
@@ -79,14 +79,14 @@ FLOAT_ROW, INTEGER_ROW = RowType(FLOATS), RowType(INTEGERS)
 class PartType(View):
     """The numbers of an owner that exists once, in the workspace of an engine that adds the owners ``own``."""
 
-    def __init__(self, name: str, owner: type[Part], own: tuple[type[Part], ...]) -> None:
+    def __init__(self, name: str, owner: type[Singleton], own: tuple[type[Singleton], ...]) -> None:
         """Take the declarations of the owner. Numba compares types by their names.
 
         So the name of the type has those of the scalars that an engine adds, which come after ``N_SCALARS`` others.
         """
         self.arguments = name, owner, own
         self.fields, self.names = declarations(owner), record_with(own).names or ()
-        super().__init__(name=f"Part({', '.join((name, *self.names[N_SCALARS:]))})")
+        super().__init__(name=f"Singleton({', '.join((name, *self.names[N_SCALARS:]))})")
 
     def type_of(self, name: str) -> Any:
         """Numba type of a scalar or an array by its name; None if there is none, which is an error where it is used."""
@@ -223,7 +223,7 @@ _SEQUENCES = {name: Sequence(types_of[owner.__name__], owner.length) for name, o
 class WorkspaceType(View):
     """The numbers of one trajectory, by owner. ``own`` are parts that an engine adds."""
 
-    def __init__(self, own: Mapping[str, type[Part]]) -> None:
+    def __init__(self, own: Mapping[str, type[Singleton]]) -> None:
         """Make the types of all parts. Numba compares types by name: it lists the scalars that ``own`` adds."""
         self.arguments, added = (own,), tuple(own.values())
         names = record_with(added).names or ()

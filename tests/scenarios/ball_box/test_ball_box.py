@@ -54,8 +54,8 @@ def _forces(scenario: BallBox, solution: ns.Solution) -> tuple[np.ndarray, np.nd
     model.memory[owners.Request.t_end] = model.memory[owners.Request.sample_interval] = 1e-6
     call_entry("advance", model.memory, 10, 0)
     n = int(model.memory[owners.Island.n_contacts])
-    first = [again.contacts[c].first for c in model.memory[owners.Contact.declared][:n]]
-    force = model.memory[owners.Contact.force][:n][:, 0]
+    first = [again.contacts[c].first for c in model.memory[owners.ContactRecord.declared][:n]]
+    force = model.memory[owners.ContactRecord.force][:n][:, 0]
     on_floor = np.array([body is again.bodies[0] for body in first])
     on_walls = np.array([any(body is wall for wall in again.bodies[1:5]) for body in first])
     return force[on_floor], force[on_walls]

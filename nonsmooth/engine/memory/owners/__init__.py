@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
-from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
-from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
-from nonsmooth.engine.memory.owners.guards import Guard, ImpactGuard, OwnGuard
+from nonsmooth.engine.memory.owners.bodies import Articulation, BodyRecord, JointRecord, LoadRecord
+from nonsmooth.engine.memory.owners.contact import ContactRecord, DeclaredContact
+from nonsmooth.engine.memory.owners.guards import GuardRecord, ImpactGuard, OwnGuard
 from nonsmooth.engine.memory.owners.instant import Event, Impact, Problem
 from nonsmooth.engine.memory.owners.island import Island, Step
-from nonsmooth.engine.memory.owners.model import Coefficients, Model, Options, Tolerance
-from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
-from nonsmooth.engine.memory.owners.run import Output, Request, Run, Totals
+from nonsmooth.engine.memory.owners.model import Coefficients, ModelNumbers, Options, Tolerance
+from nonsmooth.engine.memory.owners.neighbours import BoundingSphere, Carrier, HalfSpaceRecord, Pair, Search
+from nonsmooth.engine.memory.owners.run import OutputNumbers, Request, Run, Totals

@@ -10,7 +10,7 @@ _PARAMETER, _REUSED = Life.PARAMETER, Life.REUSED
 
 
 @final
-class Body(Record, key="bodies", capacity="n_bodies", length="model.n_bodies"):
+class BodyRecord(Record, key="bodies", capacity="n_bodies", length="model.n_bodies"):
     """A body."""
 
     q: int = whole(_PARAMETER, "First of its coordinates among all.")
@@ -66,7 +66,7 @@ class Articulation(Record, key="articulations", capacity="n_articulations", leng
 
 
 @final
-class Joint(Record, key="joints", capacity="n_joints", length="model.n_joints"):
+class JointRecord(Record, key="joints", capacity="n_joints", length="model.n_joints"):
     """A joint between two bodies of an articulation."""
 
     function: int = address(_PARAMETER, "Address of the function that writes its rows.")
@@ -83,7 +83,7 @@ class Joint(Record, key="joints", capacity="n_joints", length="model.n_joints"):
 
 
 @final
-class Load(Record, key="loads", capacity="n_loads", length="model.n_loads"):
+class LoadRecord(Record, key="loads", capacity="n_loads", length="model.n_loads"):
     """A load on two bodies: a spring, a damper, a force of the user."""
 
     function: int = address(_PARAMETER, "Address of the function that writes force, point and moment.")

@@ -30,7 +30,7 @@ _SLIDE_B, _TURN_B = blocks.SIDE_B + blocks.SLIDE_MATRIX, blocks.SIDE_B + blocks.
 
 
 @final
-class Contact(Record, key="contacts", capacity="n_slots", length="island.n_contacts"):
+class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n_contacts"):
     """A contact of the active list: one pair of features of two bodies that are near each other.
 
     Directions are n, the normal from the first body to the second, and the tangents t1 and t2.
@@ -206,11 +206,11 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
 
 
 if TYPE_CHECKING:
-    DeclaredContact = Contact
+    DeclaredContact = ContactRecord
 else:
 
     @final
     class DeclaredContact(
-        Record, key="declared_contacts", capacity="n_declared", length="model.n_declared", copies=Contact
+        Record, key="declared_contacts", capacity="n_declared", length="model.n_declared", copies=ContactRecord
     ):
         """What is known of a contact while it is not listed: its parameters and its state."""

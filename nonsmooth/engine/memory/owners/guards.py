@@ -12,7 +12,7 @@ _STEP, _REUSED, _IMPACT = Life.STEP, Life.REUSED, Life.IMPACT
 
 
 @final
-class Guard(Record, key="guards", capacity=all_guards, length="model.n_slots"):
+class GuardRecord(Record, key="guards", capacity=all_guards, length="model.n_slots"):
     """A guard of the motion: the normal, friction and end guards of the contacts, and those of the user."""
 
     value: float = real(_STEP, "", "Value where it was evaluated last.")

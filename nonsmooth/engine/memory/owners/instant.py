@@ -8,7 +8,7 @@ from nonsmooth.engine.memory.declare import (
     FloatRow,
     IntegerRow,
     Life,
-    Part,
+    Singleton,
     floats,
     integers,
     one_of,
@@ -33,7 +33,7 @@ _EVENT = Life.EVENT
 
 
 @final
-class Event(Part, key="event"):
+class Event(Singleton, key="event"):
     """Numbers of one event."""
 
     n_recorded: int = whole(_EVENT, "Number of records of the instant so far.")
@@ -49,7 +49,7 @@ _IMPACT = Life.IMPACT
 
 
 @final
-class Impact(Part, key="impact"):
+class Impact(Singleton, key="impact"):
     """Numbers of one impact, or of one window of a large impact."""
 
     lone_contact: int = whole(_IMPACT, "Active contact whose impulse is the clock, or -1.")
@@ -84,7 +84,7 @@ _SOLUTION = Life.SOLUTION
 
 
 @final
-class Problem(Part, key="problem"):
+class Problem(Singleton, key="problem"):
     """Numbers of the contact problem of one group of contacts."""
 
     n_active: int = whole(_SOLUTION, "Number of contacts of the problem.")

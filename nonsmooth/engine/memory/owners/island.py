@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.declare import (
     FloatRow,
     IntegerRow,
     Life,
-    Part,
+    Singleton,
     floats,
     integers,
     one_of,
@@ -33,7 +33,7 @@ _STATE, _REUSED, _DERIVED, _STEP = Life.STATE, Life.REUSED, Life.DERIVED, Life.S
 
 
 @final
-class Island(Part, key="island"):
+class Island(Singleton, key="island"):
     """The motion of what one clock drives: today the whole system."""
 
     # --- state --------------------------------------------------------------------------------------------------------
@@ -116,7 +116,7 @@ class Island(Part, key="island"):
 
 
 @final
-class Step(Part, key="step"):
+class Step(Singleton, key="step"):
     """Numbers of one step."""
 
     limit: Limit = one_of(Limit, _STEP, "What limited the step.")

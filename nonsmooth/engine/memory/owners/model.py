@@ -8,7 +8,7 @@ from nonsmooth.engine.memory.declare import (
     FloatRow,
     IntegerRow,
     Life,
-    Part,
+    Singleton,
     address,
     floats,
     integers,
@@ -26,7 +26,7 @@ _PARAMETER = Life.PARAMETER
 
 
 @final
-class Model(Part, key="model"):
+class ModelNumbers(Singleton, key="model"):
     """Sizes of a system, and what holds for all of its contacts.
 
     Counts size the workspace. Another number of bodies or contacts recompiles nothing.
@@ -66,7 +66,7 @@ class Model(Part, key="model"):
 
 
 @final
-class Options(Part, key="options"):
+class Options(Singleton, key="options"):
     """Options of the engine, and what the laws of a system need of it."""
 
     impact_map: int = address(_PARAMETER, "Address of the impact law that maps velocities, or 0.")
@@ -76,7 +76,7 @@ class Options(Part, key="options"):
 
 
 @final
-class Tolerance(Part, key="tolerance"):
+class Tolerance(Singleton, key="tolerance"):
     """Tolerances of time, gaps and velocities, and of the integration."""
 
     gap: float = real(_PARAMETER, "m", "Gap that counts as zero.")
@@ -91,7 +91,7 @@ class Tolerance(Part, key="tolerance"):
 
 
 @final
-class Coefficients(Part, key="coefficients"):
+class Coefficients(Singleton, key="coefficients"):
     """Coefficients of the Runge-Kutta pairs."""
 
     nodes: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Times of the explicit stages within a step.")

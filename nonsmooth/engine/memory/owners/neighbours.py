@@ -11,7 +11,7 @@ _PARAMETER, _REUSED = Life.PARAMETER, Life.REUSED
 
 
 @final
-class Sphere(Record, key="spheres", capacity="n_spheres", length="model.n_spheres"):
+class BoundingSphere(Record, key="spheres", capacity="n_spheres", length="model.n_spheres"):
     """A bounding sphere about the origin of a frame, which holds all bounded shapes that the frame carries."""
 
     frame: int = whole(_PARAMETER, "Offset of the frame.")
@@ -27,7 +27,7 @@ class Sphere(Record, key="spheres", capacity="n_spheres", length="model.n_sphere
 
 
 @final
-class HalfSpace(Record, key="half_spaces", capacity="n_half_spaces", length="model.n_half_spaces"):
+class HalfSpaceRecord(Record, key="half_spaces", capacity="n_half_spaces", length="model.n_half_spaces"):
     """An unbounded shape in a declared contact."""
 
     contact: int = whole(_PARAMETER, "Declared contact.")

@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.declare import (
     FloatRow,
     IntegerRow,
     Life,
-    Part,
+    Singleton,
     address,
     floats,
     integers,
@@ -25,7 +25,7 @@ _REQUEST, _STATE, _OUTPUT = Life.REQUEST, Life.STATE, Life.OUTPUT
 
 
 @final
-class Request(Part, key="request"):
+class Request(Singleton, key="request"):
     """What a call requests."""
 
     t_end: float = real(_REQUEST, "s", "End time.")
@@ -41,7 +41,7 @@ class Request(Part, key="request"):
 
 
 @final
-class Totals(Part, key="totals"):
+class Totals(Singleton, key="totals"):
     """Energies and counts of a run since its start."""
 
     driven_work: float = real(_STATE, "J", "Work of driven bodies at instants.")
@@ -59,7 +59,7 @@ class Totals(Part, key="totals"):
 
 
 @final
-class Run(Part, key="run"):
+class Run(Singleton, key="run"):
     """How a run is going, and why it ended."""
 
     has_started: bool = question(_STATE, "The start is recorded.")
@@ -85,7 +85,7 @@ class Run(Part, key="run"):
 
 
 @final
-class Output(Part, key="output"):
+class OutputNumbers(Singleton, key="output"):
     """Buffers of events and samples, which Python empties between calls."""
 
     n_events: int = whole(_OUTPUT, "Number of events in the buffers.")
