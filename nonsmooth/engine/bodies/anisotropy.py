@@ -56,7 +56,7 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     contact.axis_2 = _combined(contact.stretch_2, t1, t2)
 
 
-@kernel("v2(ws, Contact, v3, v3)")
+@kernel("v2(ws, ContactRecord, v3, v3)")
 def _projected_axis(ws: Workspace, contact: ContactRecord, t1: Vector, t2: Vector) -> Pair:
     """Unit vector along the projection of the law's axis to the tangent plane, in components along the unit tangents.
 

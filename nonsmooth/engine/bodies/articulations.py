@@ -42,7 +42,7 @@ def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, mo
     return float(dot(axis, velocity) + moment[0] * spin[0] + moment[1] * spin[1] + moment[2] * spin[2])
 
 
-@kernel("void(ws, Joint, Articulation)")
+@kernel("void(ws, JointRecord, Articulation)")
 def _write_rows(ws: Workspace, joint: JointRecord, articulation: Articulation) -> None:
     """Evaluate the rows of a joint, and write them to its articulation, the bodies that joints tie together.
 

@@ -28,7 +28,7 @@ from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import minus, opposite
 
 
-@kernel("void(ws, f8, i8, Body)")
+@kernel("void(ws, f8, i8, BodyRecord)")
 def _call_body(ws: Workspace, t: float, y: int, body: BodyRecord) -> None:
     """Call the function of a body. It writes the output block of the body at time ``t`` [s] and the state at ``y``."""
     q, u = at(ws.floats, y + body.q), at(ws.floats, y + ws.model.n_q + body.u)
@@ -50,7 +50,7 @@ def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
         ws.island.free_time = math.nan
 
 
-@kernel("b1(ws, f8, i8, Body)")
+@kernel("b1(ws, f8, i8, BodyRecord)")
 def _is_evaluated_at(ws: Workspace, t: float, y: int, body: BodyRecord) -> bool:
     """True if the last evaluation of a body was at time ``t`` [s] and the state at ``y``.
 
@@ -181,7 +181,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
         _evaluate_articulations(ws, y)
 
 
-@kernel("void(ws, Body)")
+@kernel("void(ws, BodyRecord)")
 def _clear_forces(ws: Workspace, body: BodyRecord) -> None:
     """Set the generalised forces of a body to zero before it is evaluated.
 

@@ -36,7 +36,7 @@ def evaluate_compliant_force(ws: Workspace, c: int) -> None:
     contact.compliant_force = call_compliance(contact.normal_function, depth, rate, contact.closing_rate, parameters)
 
 
-@kernel("void(ws, Contact)")
+@kernel("void(ws, ContactRecord)")
 def _evaluate_motion(ws: Workspace, contact: ContactRecord) -> None:
     """Write the slip velocity [m/s] and the relative angular velocity [1/s] along t1, t2 and n for a traction law.
 
@@ -130,7 +130,7 @@ def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
             ws.floats[inner_states_at(ws, contact.index, out) + i] = ws.floats[source + i]
 
 
-@kernel("v3(Contact, f8, f8, f8)")
+@kernel("v3(ContactRecord, f8, f8, f8)")
 def _in_world(contact: ContactRecord, along_n: float, along_1: float, along_2: float) -> Vector:
     """World components of a vector, from its components along the axes n, t1 and t2 of a contact."""
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2

@@ -344,7 +344,7 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
             stretch_bias(ws, c)
 
 
-@kernel("WitnessMotion(ws, Contact, v3, v3, v2)")
+@kernel("WitnessMotion(ws, ContactRecord, v3, v3, v2)")
 def _witness_motion(ws: Workspace, contact: ContactRecord, t1: Vector, t2: Vector, slip: Pair) -> WitnessMotion:
     """Sliding of the witness points and turning of the normal of a contact, in components along its unit tangents.
 

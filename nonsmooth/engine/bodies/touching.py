@@ -36,7 +36,7 @@ def find_touching(ws: Workspace) -> bool:
     return is_approaching
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _touches_and_approaches(ws: Workspace, contact: ContactRecord) -> bool:
     """Write whether a contact touches, and evaluate it in that case. True if it touches, is rigid and approaches.
 
@@ -54,7 +54,7 @@ def _touches_and_approaches(ws: Workspace, contact: ContactRecord) -> bool:
     return not contact.is_compliant and contact.normal_rate < -ws.tolerance.velocity
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _does_touch(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact touches, by its gap and gap rate.
 

@@ -34,7 +34,7 @@ def assemble_delassus(ws: Workspace) -> None:
             _write_block(ws, contact, other, ws.island.delassus.start + DELASSUS * block)
 
 
-@kernel("void(ws, Contact, Contact, i8)")
+@kernel("void(ws, ContactRecord, ContactRecord, i8)")
 def _write_block(ws: Workspace, contact: ContactRecord, other: ContactRecord, out: int) -> None:
     """Write a block of the Delassus matrix at ``out``: accelerations of ``contact`` per unit force of ``other`` [1/kg].
 

@@ -35,7 +35,7 @@ def _find_root(ws: Workspace, number: int) -> int:
     return root
 
 
-@kernel("i8(ws, Contact)")
+@kernel("i8(ws, ContactRecord)")
 def _movable_articulation(ws: Workspace, contact: ContactRecord) -> int:
     """Articulation of a contact that is movable: the first such one, or simply the first if none is.
 

@@ -331,7 +331,7 @@ def _has_creeping_contact(ws: Workspace) -> bool:
     return False
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _is_approaching(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact touches, is rigid and approaches faster than the velocity tolerance."""
     return not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity

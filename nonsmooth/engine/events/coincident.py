@@ -20,7 +20,7 @@ The relative error of the energy of an approach is its square, which is below th
 """
 
 
-@kernel("b1(Contact, Contact)")
+@kernel("b1(ContactRecord, ContactRecord)")
 def _coincide(one: ContactRecord, other: ContactRecord) -> bool:
     """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
     if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:

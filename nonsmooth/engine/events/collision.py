@@ -239,7 +239,7 @@ def collide_without_approach(ws: Workspace) -> Status:
     return collide(ws, Cause.PAINLEVE, which, seed)
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _has_touching_contact(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact of the same two frames touches. Then the bodies meet there, and not at this one."""
     for other in ws.contacts:

@@ -58,7 +58,7 @@ def guess_modes(ws: Workspace, cause: Cause, which: int) -> None:
     group_members(ws)
 
 
-@kernel("Mode(ws, Contact, Cause, i8)")
+@kernel("Mode(ws, ContactRecord, Cause, i8)")
 def _guessed_mode(ws: Workspace, contact: ContactRecord, cause: Cause, which: int) -> Mode:
     """Guess of the mode of a rigid contact that touches and does not separate, at an event of contact ``which``."""
     is_cause = contact.index == which
@@ -73,7 +73,7 @@ def _guessed_mode(ws: Workspace, contact: ContactRecord, cause: Cause, which: in
     return Mode.SLIDE if length(contact.slip) > ws.tolerance.velocity else Mode.STICK
 
 
-@kernel("void(ws, Contact, Cause, i8)")
+@kernel("void(ws, ContactRecord, Cause, i8)")
 def _guess_compliant_mode(ws: Workspace, contact: ContactRecord, cause: Cause, which: int) -> None:
     """Guess the mode of a compliant contact at an event of contact ``which``, and whether its friction is unknown.
 
@@ -98,7 +98,7 @@ def _guess_compliant_mode(ws: Workspace, contact: ContactRecord, cause: Cause, w
         contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _force_has_vanished(ws: Workspace, contact: ContactRecord) -> bool:
     """True if the normal force of a closed rigid contact is round-off, as is that of the contact which lifts off.
 
@@ -113,7 +113,7 @@ def _force_has_vanished(ws: Workspace, contact: ContactRecord) -> bool:
     return not contact.is_compliant and contact.mode != Mode.OPEN and is_small
 
 
-@kernel("b1(ws, Contact, i8)")
+@kernel("b1(ws, ContactRecord, i8)")
 def _share_a_bound(ws: Workspace, contact: ContactRecord, which: int) -> bool:
     """True if the forces of a contact and of contact ``which`` are both redundant, so that they break away together."""
     # the sum of redundant friction obeys the sum of the bounds

@@ -54,7 +54,7 @@ _VANISHED = 1e-9
 """Normal force that counts as zero when a static bound is reached, relative to that at the start of the step."""
 
 
-@kernel("Cause(Contact)")
+@kernel("Cause(ContactRecord)")
 def _cause_of_closing(contact: ContactRecord) -> Cause:
     """Cause of the event in which a contact closes: a rigid one collides, a compliant one only touches."""
     return Cause.TOUCH if contact.is_compliant else Cause.IMPACT

@@ -38,7 +38,7 @@ _CLOSED, _APPROACHES, _SLIPS = 1, 2, 4
 """Bits of a code of Eq. (29)."""
 
 
-@kernel("i8(Contact)")
+@kernel("i8(ContactRecord)")
 def mode_code(contact: ContactRecord) -> int:
     """Bits of Eq. (29) of a contact in its present mode (closed, approaches, slips): 0 if it is open."""
     if contact.mode == Mode.OPEN:
@@ -98,7 +98,7 @@ def _write_accounts(ws: Workspace, out: int) -> None:
     ws.floats[out + 2], ws.floats[out + 3] = ws.totals.friction_loss, ws.totals.closing_loss
 
 
-@kernel("void(ws, Contact, i8)")
+@kernel("void(ws, ContactRecord, i8)")
 def _write_contact(ws: Workspace, contact: ContactRecord, out: int) -> None:
     """Write the impulses of a contact in an event, and its state from which a run can resume, to offset ``out``."""
     for r in range(3):
@@ -177,7 +177,7 @@ def _write_event_codes(ws: Workspace, codes: int, cause: Cause, which: int, phas
     ws.integers[codes + TRUNCATED] = 1 if ws.event.truncation != Truncation.NONE and phases > 0 else 0
 
 
-@kernel("void(ws, Contact, i8)")
+@kernel("void(ws, ContactRecord, i8)")
 def _write_contact_codes(ws: Workspace, contact: ContactRecord, codes: int) -> None:
     """Write the declared number of a contact and its code in an event, Eq. (29), to offset ``codes``."""
     before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, mode_code(contact) << AFTER

@@ -30,7 +30,7 @@ _ASTRAY = 2.0
 """A step leads gaps astray by no more than so many times what ends an averaging."""
 
 
-@kernel("f8(ws, Contact)")
+@kernel("f8(ws, ContactRecord)")
 def _first_of_compliant(ws: Workspace, contact: ContactRecord) -> float:
     """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
 

@@ -29,7 +29,7 @@ _UNKNOWN_PART = 0.25
 """Part of a step that is taken if no stop is predicted, because the slip does not decelerate at the start."""
 
 
-@kernel("f8(ws, Contact, f8)")
+@kernel("f8(ws, ContactRecord, f8)")
 def _part_before_stop_of(ws: Workspace, contact: ContactRecord, h: float) -> float:
     """Part of the implicit step of ``h`` [s] to take, so that it ends at or before the stop of a slip.
 
@@ -75,7 +75,7 @@ def part_before_stop(ws: Workspace, h: float) -> float:
     return part
 
 
-@kernel("b1(Contact)")
+@kernel("b1(ContactRecord)")
 def _has_coulomb_slip(contact: ContactRecord) -> bool:
     """True if a contact slides with friction that may stop it: by Coulomb's law, with instantaneous forces."""
     return contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged

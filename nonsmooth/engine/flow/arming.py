@@ -89,7 +89,7 @@ def arm_guards(ws: Workspace) -> None:
         end.is_armed = end.initial > 0.0
 
 
-@kernel("void(Guard)")
+@kernel("void(GuardRecord)")
 def _start(guard: GuardRecord) -> None:
     """Set a guard to its value at the end of the last step, not deflated."""
     # base is the value from which its growth counts if it is deflated afterwards
@@ -97,7 +97,7 @@ def _start(guard: GuardRecord) -> None:
     guard.base = guard.initial = guard.at_end
 
 
-@kernel("void(ws, Contact)")
+@kernel("void(ws, ContactRecord)")
 def _deflate_normal(ws: Workspace, contact: ContactRecord) -> None:
     """Deflate the normal guard if it starts about zero, so that its root at the start does not fire again.
 
@@ -118,7 +118,7 @@ def _deflate_normal(ws: Workspace, contact: ContactRecord) -> None:
         start_from_zero(normal, round_off, -contact.gap_rate_at_end)
 
 
-@kernel("void(ws, Contact)")
+@kernel("void(ws, ContactRecord)")
 def _deflate_friction(ws: Workspace, contact: ContactRecord) -> None:
     """Deflate the friction guard of a sliding contact, its slip [m/s], if that has just begun and is about zero."""
     friction = friction_of(ws, contact)
@@ -127,7 +127,7 @@ def _deflate_friction(ws: Workspace, contact: ContactRecord) -> None:
         start_from_zero(friction, slack=NEGLIGIBLE * ws.tolerance.velocity, rate=0.0)
 
 
-@kernel("void(ws, Contact)")
+@kernel("void(ws, ContactRecord)")
 def _arm(ws: Workspace, contact: ContactRecord) -> None:
     """Arm the normal and the friction guard of a contact, so that they may fire, if they start above their thresholds.
 

@@ -78,7 +78,7 @@ def _allowed_work(ws: Workspace) -> float:
     return float(_ALLOWED_PART * ALLOWED * ws.tolerance.relative * (energies_of_bodies(ws)[0] + scale_energy(ws)))
 
 
-@kernel("f8(ws, Contact, f8, f8, f8)")
+@kernel("f8(ws, ContactRecord, f8, f8, f8)")
 def _relative_deviation(ws: Workspace, contact: ContactRecord, deviation: float, force: float, work: float) -> float:
     """Absolute ``deviation`` of a gap [m] from the linear model, relative to the allowed deviation.
 

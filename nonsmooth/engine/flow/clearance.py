@@ -181,7 +181,7 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
 
-@kernel("b1(ws, Contact, f8)")
+@kernel("b1(ws, ContactRecord, f8)")
 def _will_be_doubtful(ws: Workspace, contact: ContactRecord, h: float) -> bool:
     """True if the gap of a contact may close within the time ``h`` [s], by the speeds at its start."""
     faces = contact.mode == Mode.OPEN and contact.past_feature_at_start <= 0.0

@@ -42,7 +42,7 @@ def deflate(ws: Workspace, elapsed: float) -> None:
         guard.value = deflated(ws, i, guard.value, elapsed)
 
 
-@kernel("void(Guard, f8, f8)")
+@kernel("void(GuardRecord, f8, f8)")
 def start_from_zero(guard: GuardRecord, slack: float, rate: float) -> None:
     """Deflate a guard that starts about zero: its growth takes the place of its value, so that this root is left out.
 

@@ -51,7 +51,7 @@ class GapBounds(NamedTuple):
     """Radius of the smaller shape about its origin [m]."""
 
 
-@kernel("void(ws, f8, f8, Contact)")
+@kernel("void(ws, f8, f8, ContactRecord)")
 def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: ContactRecord) -> None:
     """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry.
 
@@ -72,7 +72,7 @@ def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: Contac
     evaluate_geometry(ws, contact.index)
 
 
-@kernel("f8(ws, f8, Contact)")
+@kernel("f8(ws, f8, ContactRecord)")
 def _acceleration_bound(ws: Workspace, h: float, contact: ContactRecord) -> float:
     """Bound of the acceleration with which a gap closes within the step of ``h`` [s], from those at its ends [m/s^2].
 
@@ -91,14 +91,14 @@ def _acceleration_bound(ws: Workspace, h: float, contact: ContactRecord) -> floa
     return float(max(start, end) + abs(end - start))
 
 
-@kernel("f8(ws, Contact, f8)")
+@kernel("f8(ws, ContactRecord, f8)")
 def _gap_above_start(ws: Workspace, contact: ContactRecord, gap: float) -> float:
     """A gap [m], or its growth from the start value if it was closed when the step began (a deflated guard)."""
     guard = normal_of(ws, contact)
     return float(gap - guard.base) if guard.is_deflated else gap
 
 
-@kernel("void(ws, Contact, f8)")
+@kernel("void(ws, ContactRecord, f8)")
 def _write_gap_guard(ws: Workspace, contact: ContactRecord, elapsed: float) -> None:
     """Write the rate and the guard of a gap that was evaluated after ``elapsed`` [s] of the step."""
     # a copy, because later evaluations of the contact overwrite normal_rate
@@ -129,7 +129,7 @@ def evaluate_slip_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
     ws.guards[i].value = deflated(ws, i, value_of_slip_guard(ws, c), theta * h)
 
 
-@kernel("void(ws, f8, f8, Contact, i8)")
+@kernel("void(ws, f8, f8, ContactRecord, i8)")
 def _store_end(ws: Workspace, h: float, theta: float, contact: ContactRecord, n: int) -> None:
     """Store end ``n`` of the parts of a step: the gap as evaluated last, at the fraction ``theta``. Writes its guard.
 
@@ -144,7 +144,7 @@ def _store_end(ws: Workspace, h: float, theta: float, contact: ContactRecord, n:
     end.past, end.offset = contact.past_feature, arm_of(ws, contact.index)
 
 
-@kernel("void(ws, f8, f8, Contact, i8)")
+@kernel("void(ws, f8, f8, ContactRecord, i8)")
 def _evaluate_end(ws: Workspace, h: float, theta: float, contact: ContactRecord, n: int) -> None:
     """Evaluate the gap of a contact at the fraction ``theta`` of the step of ``h`` [s], and store it as end ``n``.
 
@@ -193,7 +193,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     return bool(g0 + s * (r0 - 0.5 * acceleration * s) >= -ws.tolerance.gap)
 
 
-@kernel("f8(ws, f8, Contact, f8, b1)")
+@kernel("f8(ws, f8, ContactRecord, f8, b1)")
 def _first_closing_of(ws: Workspace, h: float, contact: ContactRecord, high: float, is_evaluated: bool) -> float:
     """Fraction of the step, up to ``high``, at which a gap has closed, or 0 if it stays open.
 
@@ -234,7 +234,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: ContactRecord, high: flo
     return 0.0
 
 
-@kernel("void(ws, Contact)")
+@kernel("void(ws, ContactRecord)")
 def _write_first_end(ws: Workspace, contact: ContactRecord) -> None:
     """Write gap, rate and geometry at the start of the step, which are known, as end 0 of its parts."""
     left = part_end(ws.floats, ws.step.part_ends.start, 0)
@@ -243,7 +243,7 @@ def _write_first_end(ws: Workspace, contact: ContactRecord) -> None:
     left.offset = contact.offset_at_start
 
 
-@kernel("void(ws, f8, Contact, f8, b1)")
+@kernel("void(ws, f8, ContactRecord, f8, b1)")
 def _write_last_end(ws: Workspace, h: float, contact: ContactRecord, high: float, is_evaluated: bool) -> None:
     """Write the fraction ``high`` of the step of ``h`` [s] as end 1 of its parts: the end of the search for closings.
 
@@ -260,7 +260,7 @@ def _write_last_end(ws: Workspace, h: float, contact: ContactRecord, high: float
         _evaluate_end(ws, h, high, contact, n=1)
 
 
-@kernel("GapBounds(ws, f8, Contact)")
+@kernel("GapBounds(ws, f8, ContactRecord)")
 def _bounds_of(ws: Workspace, h: float, contact: ContactRecord) -> GapBounds:
     """Bounds of the motion of a gap within the step of ``h`` [s], from those at its ends.
 
@@ -274,7 +274,7 @@ def _bounds_of(ws: Workspace, h: float, contact: ContactRecord) -> GapBounds:
     return GapBounds(contact.speed_at_start + contact.speed_at_end, acceleration, turning, radius)
 
 
-@kernel("b1(ws, f8, Contact, i8, f8)")
+@kernel("b1(ws, f8, ContactRecord, i8, f8)")
 def _is_undecided(ws: Workspace, h: float, contact: ContactRecord, n: int, speed: float) -> bool:
     """True if the part of the step between ends 0 and ``n``, which the bounds do not decide, must be halved.
 

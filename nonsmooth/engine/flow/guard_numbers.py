@@ -51,25 +51,25 @@ def number_of_guards(ws: Workspace) -> int:
     return int(first_end_guard(ws) + ws.island.n_contacts)
 
 
-@kernel("Guard(ws, Contact)")
+@kernel("GuardRecord(ws, ContactRecord)")
 def normal_of(ws: Workspace, contact: ContactRecord) -> GuardRecord:
     """Record of the normal guard of a contact: its gap, its normal force, or the distance to its reach."""
     return ws.guards[normal_guard(contact.index)]
 
 
-@kernel("Guard(ws, Contact)")
+@kernel("GuardRecord(ws, ContactRecord)")
 def friction_of(ws: Workspace, contact: ContactRecord) -> GuardRecord:
     """Record of the friction guard of a contact: the distance to its static bound, or its slip."""
     return ws.guards[friction_guard(ws, contact.index)]
 
 
-@kernel("Guard(ws, Contact)")
+@kernel("GuardRecord(ws, ContactRecord)")
 def end_of(ws: Workspace, contact: ContactRecord) -> GuardRecord:
     """Record of the end guard of a contact: the distance to the end of its features."""
     return ws.guards[first_end_guard(ws) + contact.index]
 
 
-@kernel("Contact(ws, i8)")
+@kernel("ContactRecord(ws, i8)")
 def contact_at(ws: Workspace, i: int) -> ContactRecord:
     """Contact of the normal or friction guard ``i``."""
     return ws.contacts[contact_of(ws, i)]

@@ -18,7 +18,7 @@ _END_DISTANCE = 2.0
 gap tolerance past the end, and must not end at once."""
 
 
-@kernel("f8(ws, Contact)")
+@kernel("f8(ws, ContactRecord)")
 def feature_guard(ws: Workspace, contact: ContactRecord) -> float:
     """End guard of a closed contact [m]: the distance to the end of its features, negative past it.
 
@@ -32,7 +32,7 @@ def feature_guard(ws: Workspace, contact: ContactRecord) -> float:
     return distance if distance < 0.0 or is_unchanged else -distance
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def has_other_features(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a contact whose end guard fired has passed to other features, False if its features ended."""
     # after a change the witness points are within the new features, so the distance past their end is not positive
@@ -68,7 +68,7 @@ def write_guards(ws: Workspace, t: float, y: int, forces_are_known: bool) -> Non
             normal_of(ws, contact).value = 1.0
 
 
-@kernel("void(ws, Contact)")
+@kernel("void(ws, ContactRecord)")
 def _write_gap(ws: Workspace, contact: ContactRecord) -> None:
     """Evaluate the geometry and the rates of an open contact, and write its gap as its normal guard."""
     evaluate_kinematics(ws, contact.index)
@@ -102,7 +102,7 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
         end_of(ws, contact).value = feature_guard(ws, contact) if may_end else 1.0
 
 
-@kernel("void(ws, Contact)")
+@kernel("void(ws, ContactRecord)")
 def _write_force_guards(ws: Workspace, contact: ContactRecord) -> None:
     """Write the normal and the friction guard of a closed contact, whose force was evaluated.
 
@@ -137,7 +137,7 @@ def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
         _evaluate_ballistic_bodies_of(ws, t, y, ws.contacts[ws.step.not_facing[i]])
 
 
-@kernel("void(ws, f8, i8, Contact)")
+@kernel("void(ws, f8, i8, ContactRecord)")
 def _evaluate_ballistic_bodies_of(ws: Workspace, t: float, y: int, contact: ContactRecord) -> None:
     """Evaluate the ballistic bodies among the two of a contact, at time ``t`` [s] and state ``y``.
 

@@ -46,13 +46,13 @@ def _is_at_rest(ws: Workspace, number: int, frame: int) -> bool:
     return ws.bodies[number].n_u == 0 and squares == 0.0
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _has_body_at_rest(ws: Workspace, contact: ContactRecord) -> bool:
     """True if one of the two bodies of a contact is driven and does not move."""
     return _is_at_rest(ws, contact.body_a, contact.frame_a) or _is_at_rest(ws, contact.body_b, contact.frame_b)
 
 
-@kernel("i8(ws, Contact)")
+@kernel("i8(ws, ContactRecord)")
 def _independent_body(ws: Workspace, contact: ContactRecord) -> int:
     """Body that sticks by this contact alone to a body at rest and has no own step yet, or ``_NO_BODY``.
 
@@ -99,7 +99,7 @@ def _group_independent_bodies(ws: Workspace) -> int:
     return int(ws.island.n_integrated)
 
 
-@kernel("void(Guard, f8, b1)")
+@kernel("void(GuardRecord, f8, b1)")
 def _extend_range(guard: GuardRecord, value: float, is_first: bool) -> None:
     """Extend the range of a guard's values by ``value``, or start it there if it ``is_first``."""
     # the range is stored from base to at_end, which are free until the next common step writes the guards
@@ -130,7 +130,7 @@ def _extend_ranges(ws: Workspace, is_first: bool) -> None:
             normal.is_armed = False
 
 
-@kernel("b1(Guard)")
+@kernel("b1(GuardRecord)")
 def _keeps_distance(guard: GuardRecord) -> bool:
     """True if the samples of a guard, ``base`` to ``at_end``, are positive and differ too little for a root between."""
     # base is the least sample, at_end the largest one
@@ -159,7 +159,7 @@ def _find_step(ws: Workspace, usual: float, longest: float) -> float:
     return 0.0
 
 
-@kernel("void(ws, Body, f8)")
+@kernel("void(ws, BodyRecord, f8)")
 def _store_step(ws: Workspace, body: BodyRecord, h: float) -> None:
     """Give a body an own step of ``h`` [s] from the present time. Stores its start and slopes for the interpolant.
 
@@ -230,7 +230,7 @@ def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
     return h
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _has_drifted(ws: Workspace, contact: ContactRecord) -> bool:
     """True if a closed contact has left its constraints by more than ``_DRIFT`` tolerances, at the end of the step.
 

@@ -235,7 +235,7 @@ def _allowed_motion(ws: Workspace, i: int) -> float:
     )
 
 
-@kernel("f8(ws, Contact, i8)")
+@kernel("f8(ws, ContactRecord, i8)")
 def _speed_at(ws: Workspace, contact: ContactRecord, number: int) -> float:
     """Speed of the witness point of a contact on body ``number`` [m/s], 0 if the contact is not on that body."""
     fastest = 0.0
@@ -249,7 +249,7 @@ def _speed_at(ws: Workspace, contact: ContactRecord, number: int) -> float:
     return float(fastest)
 
 
-@kernel("f8(ws, Body, i8)")
+@kernel("f8(ws, BodyRecord, i8)")
 def _allowed_motion_by_gaps(ws: Workspace, body: BodyRecord, i: int) -> float:
     """Change of coordinate ``i`` of a body by a projection of the allowed gaps of its contacts, in its unit.
 
@@ -273,7 +273,7 @@ def _allowed_motion_by_gaps(ws: Workspace, body: BodyRecord, i: int) -> float:
     return float(_LARGEST_CORRECTION * total)
 
 
-@kernel("b1(ws, Body)")
+@kernel("b1(ws, BodyRecord)")
 def _is_displaced(ws: Workspace, body: BodyRecord) -> bool:
     """True if a body has velocities in ``y_stage`` that are not zero, so that the projection displaces it."""
     first = ws.step.y_stage.start + ws.model.n_q + body.u

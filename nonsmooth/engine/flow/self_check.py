@@ -40,7 +40,7 @@ def fail_check(ws: Workspace, status: Status, number: int, found: float, allowed
         ws.run.failure, ws.run.failed_number, ws.run.found, ws.run.allowed = status, number, found, allowed
 
 
-@kernel("f8(Contact)")
+@kernel("f8(ContactRecord)")
 def held_gap(contact: ContactRecord) -> float:
     """Gap that a projection must close [m]. Past the end of the features the gap is only a distance, so it is 0."""
     return float(contact.gap if contact.past_feature <= 0.0 else 0.0)
@@ -75,7 +75,7 @@ def allowed_gap(ws: Workspace, c: int) -> float:
     return float(tolerated_gap(ws, c) + change)
 
 
-@kernel("b1(ws, Contact)")
+@kernel("b1(ws, ContactRecord)")
 def _has_closed_contact(ws: Workspace, contact: ContactRecord) -> bool:
     """True if some contact of the same two frames as ``contact`` is closed: other features may then overlap."""
     for other in ws.contacts:
@@ -128,7 +128,7 @@ def check_gaps(ws: Workspace) -> None:
             fail_check(ws, Status.GAP_UNEXPLAINED, contact.index, gap, allowed_gap(ws, contact.index))
 
 
-@kernel("f8(ws, Contact, f8)")
+@kernel("f8(ws, ContactRecord, f8)")
 def _stored_energy(ws: Workspace, contact: ContactRecord, depth: float) -> float:
     """Energy of a compliant contact at a ``depth`` [m]: the integral of its force at rest [J].
 
@@ -144,7 +144,7 @@ def _stored_energy(ws: Workspace, contact: ContactRecord, depth: float) -> float
     return float(depth * total)
 
 
-@kernel("f8(ws, Contact, b1)")
+@kernel("f8(ws, ContactRecord, b1)")
 def _deepest_other(ws: Workspace, contact: ContactRecord, after: bool) -> float:
     """Least gap of the other closed contacts of the same two frames, or 0 [m]; closed before or ``after`` an event.
 

@@ -114,7 +114,7 @@ def _gather(ws: Workspace) -> float:
     return fastest
 
 
-@kernel("void(Contact)")
+@kernel("void(ContactRecord)")
 def _clear(contact: ContactRecord) -> None:
     """Set the impulse and the energies of a contact to zero, and its phase to idle, before the first window."""
     contact.window_phase, contact.window_sticks, contact.n_waves = Phase.IDLE, False, 0
@@ -176,7 +176,7 @@ def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
         begin = end
 
 
-@kernel("void(ws, Contact, i8)")
+@kernel("void(ws, ContactRecord, i8)")
 def _add(ws: Workspace, contact: ContactRecord, layer: int) -> None:
     """Add a contact to the window, in a ``layer`` counted from the contacts that are not idle.
 
@@ -216,7 +216,7 @@ def _load(ws: Workspace) -> None:
         _load_state(ws, active, contact)
 
 
-@kernel("void(ws, ActiveContact, Contact)")
+@kernel("void(ws, ActiveContact, ContactRecord)")
 def _load_state(ws: Workspace, active: ActiveContact, contact: ContactRecord) -> None:
     """Continue the phase, the deformation and the energy of a contact. Impulses and accounts start from zero."""
     state = state_of(ws, active)

@@ -1,6 +1,6 @@
 """The numba types of a kernel's arguments and result, from the text of its signature.
 
-``"f8(ws, Contact)"`` takes the workspace and a contact, and returns a float. All names are listed in
+``"f8(ws, ContactRecord)"`` takes the workspace and a contact, and returns a float. All names are listed in
 :mod:`nonsmooth.engine.native.kernel`. No name stands for an array: kernels reach arrays through the workspace.
 
 ``_replace`` of a named tuple works as in Python. Numba lacks it.
@@ -58,7 +58,7 @@ def result(kind: Any) -> Any:
 
 
 def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
-    """Numba signature of a kernel from a text as ``"f8(ws, Contact)"``: result, then arguments in parentheses.
+    """Numba signature of a kernel from a text as ``"f8(ws, ContactRecord)"``: result, then arguments in parentheses.
 
     ``workspace`` is the type of ``ws``, which an engine with numbers of its own replaces (:func:`workspace_with`).
     """
