@@ -14,8 +14,8 @@ What counts
    ``.``, ``?`` or ``!`` before a blank, or with its paragraph, item or cell; not behind the abbreviations of
    ``_SHORT`` and initials.  A colon or semicolon does not end it.
 6. *Long*: a sentence of more than 25 words, in cells too.
-7. *Word*: a word that a plainer one replaces (``_TABLE``).  Words that also have their usual meaning (unit, wall, way, plain) are
-   looked for in the forms that are private here; the rest by the word.
+7. *Word*: a word that a plainer one replaces (``_TABLE``).  Words that also have their usual meaning (unit, wall, way,
+   plain) are looked for in the forms that are private here; the rest by the word.
 """
 
 from __future__ import annotations
