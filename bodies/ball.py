@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from bodies.free import FreeBody
-from bodies.inertia import STEEL, check_mass, density_field, mass_field
-from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+
+from .free import FreeBody
+from .inertia import STEEL, check_mass, density_field, mass_field
+from .shapes.sphere import Sphere
 
 
 @final

@@ -9,16 +9,17 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.ball import Ball
-from bodies.free import FreeBody, TensorBody
-from bodies.inertia import parallel_axis, tensor_of, without_round_off
-from bodies.shapes.moved_shape import moved
-from bodies.values import unit_quaternion, vector
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.look import Look
 from nonsmooth.rotations import rotation
+
+from .ball import Ball
+from .free import FreeBody, TensorBody
+from .inertia import parallel_axis, tensor_of, without_round_off
+from .shapes.moved_shape import moved
+from .values import unit_quaternion, vector
 
 
 @final

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import final
 
-from bodies.inertia import density_field, mass_field, moments_of
-from bodies.shapes.cone import Cone, inner_radius
-from bodies.shapes.frustum import USUAL, check_feet, check_rounding
-from bodies.solid_body import SolidBody
 from nonsmooth.parameters import parameter
+
+from .inertia import density_field, mass_field, moments_of
+from .shapes.cone import Cone, inner_radius
+from .shapes.frustum import USUAL, check_feet, check_rounding
+from .solid_body import SolidBody
 
 
 @final

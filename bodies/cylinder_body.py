@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from bodies.inertia import density_field, mass_field, moments_of
-from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.frustum import USUAL, check_feet, check_rounding
-from bodies.solid_body import SolidBody
 from nonsmooth.parameters import parameter
+
+from .inertia import density_field, mass_field, moments_of
+from .shapes.cylinder import Cylinder
+from .shapes.frustum import USUAL, check_feet, check_rounding
+from .solid_body import SolidBody
 
 
 @final

@@ -6,12 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from bodies.free import FreeBody
-from bodies.inertia import check_mass, mass_field, moments_of
-from bodies.shapes.disc import Disc
-from bodies.shapes.frustum import USUAL, check_feet, check_rounding
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+
+from .free import FreeBody
+from .inertia import check_mass, mass_field, moments_of
+from .shapes.disc import Disc
+from .shapes.frustum import USUAL, check_feet, check_rounding
 
 
 @final

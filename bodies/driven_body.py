@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
-from bodies.motions.harmonic import Harmonic
-from bodies.prescribed import Driven
-from bodies.shapes.sphere import Sphere
-from bodies.values import check_carried
 from nonsmooth.interfaces import Shape
+
+from .motions.harmonic import Harmonic
+from .prescribed import Driven
+from .shapes.sphere import Sphere
+from .values import check_carried
 
 
 @final

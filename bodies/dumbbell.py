@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from bodies.free import FreeBody
-from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
+
+from .free import FreeBody
+from .shapes.sphere import Sphere
 
 
 @final

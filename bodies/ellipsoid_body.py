@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from bodies.inertia import density_field, mass_field
-from bodies.shapes.ellipsoid import Ellipsoid
-from bodies.solid_body import SolidBody
 from nonsmooth.parameters import parameter
+
+from .inertia import density_field, mass_field
+from .shapes.ellipsoid import Ellipsoid
+from .solid_body import SolidBody
 
 
 @final

@@ -10,9 +10,6 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import places_behind_frame, put, rotation_of
-from bodies.inertia import Triple, check_inertia, tensor_of
-from bodies.values import Word, check_carried, read_start
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
@@ -20,6 +17,10 @@ from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from .blocks import places_behind_frame, put, rotation_of
+from .inertia import Triple, check_inertia, tensor_of
+from .values import Word, check_carried, read_start
 
 _WORDS: dict[str, Word] = {
     "position": (3, (0.0, 0.0, 0.0), "m"),

@@ -9,12 +9,13 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.free import TensorBody
-from bodies.inertia import density_field, mass_field, tensor_in
-from bodies.shapes.hull import ConvexHull
-from bodies.solid_body import SolidBody
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
+
+from .free import TensorBody
+from .inertia import density_field, mass_field, tensor_in
+from .shapes.hull import ConvexHull
+from .solid_body import SolidBody
 
 
 @final

@@ -7,10 +7,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from bodies.values import vector
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
+
+from .values import vector
 
 Triple = tuple[float, float, float]
 

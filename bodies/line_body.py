@@ -8,13 +8,14 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import places_behind_frame, pose_of, write_pose
-from bodies.values import Word, check_carried, read_start, unit_quaternion, unit_vector, vector
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
+
+from .blocks import places_behind_frame, pose_of, write_pose
+from .values import Word, check_carried, read_start, unit_quaternion, unit_vector, vector
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
 _RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=1, n_u=1)

@@ -7,16 +7,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
-from bodies.free import TensorBody
-from bodies.inertia import density_field, mass_field, mass_of, tensor_in
-from bodies.meshes.decomposition import Decomposition
-from bodies.meshes.mesh import Mesh, Surface, check_surface_of
-from bodies.shapes.hull import ConvexHull
-from bodies.shapes.polytope import MOST_VERTICES
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
+
+from .free import TensorBody
+from .inertia import density_field, mass_field, mass_of, tensor_in
+from .meshes.decomposition import Decomposition
+from .meshes.mesh import Mesh, Surface, check_surface_of
+from .shapes.hull import ConvexHull
+from .shapes.polytope import MOST_VERTICES
+from .shapes.triangle_mesh import TriangleMesh
 
 
 @final

@@ -8,15 +8,16 @@ from typing import final
 
 import numpy as np
 
-from bodies.blocks import POSE
-from bodies.prescribed import Prescribed
-from bodies.shapes.plane import Plane
-from bodies.values import unit_quaternion, vector
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
+
+from .blocks import POSE
+from .prescribed import Prescribed
+from .shapes.plane import Plane
+from .values import unit_quaternion, vector
 
 _PLANES = 5
 

@@ -9,13 +9,14 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import places_behind_frame, put
-from bodies.values import Word, check_carried, read_start
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
+
+from .blocks import places_behind_frame, put
+from .values import Word, check_carried, read_start
 
 _WORDS: dict[str, Word] = {
     "position": (2, (0.0, 0.0), "m"),

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from bodies.prescribed import Driven
-from bodies.shapes.plane import Plane
 from nonsmooth.interfaces import Shape
+
+from .prescribed import Driven
+from .shapes.plane import Plane
 
 
 @final

@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from bodies.motions.rest import Rest
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Motion
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Value
+
+from .motions.rest import Rest
 
 
 @dataclass(frozen=True)

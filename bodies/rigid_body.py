@@ -8,13 +8,14 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.free import TensorBody
-from bodies.inertia import read_tensor
-from bodies.shapes.sphere import Sphere
-from bodies.values import check_carried
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
+
+from .free import TensorBody
+from .inertia import read_tensor
+from .shapes.sphere import Sphere
+from .values import check_carried
 
 
 @final

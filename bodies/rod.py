@@ -7,11 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
-from bodies.free import FreeBody
-from bodies.inertia import density_field, mass_field, mass_of
-from bodies.shapes.capsule import Capsule
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
+
+from .free import FreeBody
+from .inertia import density_field, mass_field, mass_of
+from .shapes.capsule import Capsule
 
 
 @final

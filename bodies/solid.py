@@ -9,17 +9,18 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.free import TensorBody
-from bodies.inertia import density_field, mass_field, tensor_in
-from bodies.shapes.box import Box
-from bodies.shapes.moved_shape import moved
-from bodies.shapes.triangle_mesh import TriangleMesh
-from bodies.solid_body import SolidBody
-from bodies.values import unit_quaternion
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexShape, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.rotations import rotation
+
+from .free import TensorBody
+from .inertia import density_field, mass_field, tensor_in
+from .shapes.box import Box
+from .shapes.moved_shape import moved
+from .shapes.triangle_mesh import TriangleMesh
+from .solid_body import SolidBody
+from .values import unit_quaternion
 
 
 @final

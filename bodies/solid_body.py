@@ -5,10 +5,11 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import final
 
-from bodies.free import FreeBody
-from bodies.inertia import mass_of
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ConvexShape, Shape
+
+from .free import FreeBody
+from .inertia import mass_of
+from .shapes.triangle_mesh import TriangleMesh
 
 
 class SolidBody(FreeBody):

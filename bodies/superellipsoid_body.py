@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from bodies.inertia import density_field, mass_field, moments_of
-from bodies.shapes.superellipsoid import EXPONENT, Superellipsoid
-from bodies.solid_body import SolidBody
 from nonsmooth.parameters import parameter
+
+from .inertia import density_field, mass_field, moments_of
+from .shapes.superellipsoid import EXPONENT, Superellipsoid
+from .solid_body import SolidBody
 
 
 @final

@@ -6,14 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
 
-from bodies.free import TensorBody
-from bodies.inertia import density_field, mass_field
-from bodies.shapes.egg import Egg
-from bodies.shapes.moved_shape import MovedShape
-from bodies.shapes.support_shape import SupportShape
-from bodies.solid_body import SolidBody
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
+
+from .free import TensorBody
+from .inertia import density_field, mass_field
+from .shapes.egg import Egg
+from .shapes.moved_shape import MovedShape
+from .shapes.support_shape import SupportShape
+from .solid_body import SolidBody
 
 
 @final

@@ -7,13 +7,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.blocks import stand_still
-from bodies.prescribed import Prescribed
-from bodies.shapes.plane import Plane
-from bodies.values import unit_vector, vector
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import Value
 from nonsmooth.vectors import perpendiculars
+
+from .blocks import stand_still
+from .prescribed import Prescribed
+from .shapes.plane import Plane
+from .values import unit_vector, vector
 
 
 @final

@@ -6,10 +6,8 @@ Its names are listed in ``__init__.pyi``.
 from typing import Any
 
 from nonsmooth.lazy_names import lazy_names
-from nonsmooth.plugins.hiding import check_hidden
 
 _get, __dir__, __all__ = lazy_names(__name__, __file__)
-check_hidden()
 
 
 def __getattr__(name: str) -> Any:

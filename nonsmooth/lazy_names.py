@@ -40,9 +40,9 @@ def lazy_names(package: str, file: str) -> Names:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
         module = modules[name]
         # a stub may name modules of its own package, too
-        if module == package:
-            return importlib.import_module(f"{module}.{name}")
-        value = getattr(importlib.import_module(module), name)
+        if module in (package, "."):
+            return importlib.import_module(f"{package}.{name}")
+        value = getattr(importlib.import_module(module, package), name)
         setattr(sys.modules[package], name, value)
         return value
 

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Ball, Plate, Rest
-from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import Ball, Plate, Rest
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System

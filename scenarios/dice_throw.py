@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Box, BoxBody, Plate, Rest
-from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import Box, BoxBody, Plate, Rest
 from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.solids import draw_solids
+
+from .solids import draw_solids
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

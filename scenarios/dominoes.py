@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Box, PlanarBody, Plate, Rest
-from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import Box, PlanarBody, Plate, Rest
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import EllipsoidBody, Plate, Rest
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import EllipsoidBody, Plate, Rest
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System

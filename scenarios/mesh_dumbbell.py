@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Dumbbell, RigidBody, TriangleMesh, Triangles
 from nonsmooth import charts
+from nonsmooth.bodies import Dumbbell, RigidBody, TriangleMesh, Triangles
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import UnusualValue, parameter
@@ -20,8 +20,9 @@ from nonsmooth.rotations import rotation
 from nonsmooth.runs.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.dumbbell import DumbbellScenario
-from scenarios.dumbbell.scenario import GRAVITY
+
+from .dumbbell import DumbbellScenario
+from .dumbbell.scenario import GRAVITY
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import HullBody, Plate, Polyhedron, Rest
-from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import HullBody, Plate, Polyhedron, Rest
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.solids import draw_solids
+
+from .solids import draw_solids
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

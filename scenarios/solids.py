@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Polyhedron
+from nonsmooth.bodies import Polyhedron
 from nonsmooth.rotations import rotation
 
 if TYPE_CHECKING:

@@ -14,16 +14,17 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bodies.generalised.checks import GRAVITY, Sampler, check_equations, check_signatures
-from bodies.generalised.coordinate import Coordinate
-from bodies.generalised.equations import Equations, UserFunction, evaluator, own_names
-from bodies.generalised.example import cart_pendulum
-from bodies.generalised.frames import Function, MovingFrame
-from bodies.values import Word, read_start
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import Value, parameter
+
+from ..values import Word, read_start
+from .checks import GRAVITY, Sampler, check_equations, check_signatures
+from .coordinate import Coordinate
+from .equations import Equations, UserFunction, evaluator, own_names
+from .example import cart_pendulum
+from .frames import Function, MovingFrame
 
 _TAKEN = ("t", "q", "u", "out", "gravity_x", "gravity_y", "gravity_z")
 

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies.generalised.equations import GUARD, LEADING, Equations, UserFunction, own_names, places, probe
 from nonsmooth.binding.call import body_caller
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.parameters import Value
+
+from .equations import GUARD, LEADING, Equations, UserFunction, own_names, places, probe
 
 Vector = NDArray[np.float64]
 

@@ -9,11 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from bodies.generalised.frames import Function, MovingFrame
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import at
 from nonsmooth.types import Floats
+
+from .frames import Function, MovingFrame
 
 LEADING = {
     "mass": ("q", "out"),

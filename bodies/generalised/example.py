@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bodies.generalised.coordinate import Coordinate
-from bodies.generalised.frames import PointFrame
-from bodies.shapes.sphere import Sphere
 from nonsmooth.types import Floats
+
+from ..shapes.sphere import Sphere
+from .coordinate import Coordinate
+from .frames import PointFrame
 
 
 def _mass(q: Floats, out: Floats, cart: float, bob: float, length: float) -> None:

@@ -7,10 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from bodies.values import check_carried
 from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.interfaces import Shape
 from nonsmooth.types import Floats
+
+from ..values import check_carried
 
 Function = Callable[..., None]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import AXES, JointRow, RowsJoint, on_planes
+from .rows import AXES, JointRow, RowsJoint, on_planes
 
 
 @final

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import JointRow, RowKind, RowsJoint
 from nonsmooth.parameters import parameter
+
+from .rows import JointRow, RowKind, RowsJoint
 
 
 @final

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import JointRow, Point, RowsJoint, on_planes, right_angle
 from nonsmooth.vectors import perpendiculars, unit_vector
+
+from .rows import JointRow, Point, RowsJoint, on_planes, right_angle
 
 
 @final

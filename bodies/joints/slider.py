@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import JointRow, Point, RowsJoint, on_planes, parallel_axes
-from bodies.values import turned_back
 from nonsmooth.vectors import perpendiculars, unit_vector
+
+from ..values import turned_back
+from .rows import JointRow, Point, RowsJoint, on_planes, parallel_axes
 
 
 @final

@@ -7,11 +7,12 @@ import warnings
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies.meshes.integrals import volume_of, winding_number
-from bodies.meshes.topology import Integers, edge_counts, half_edges, shells
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import UnusualValue
+
+from .integrals import volume_of, winding_number
+from .topology import Integers, edge_counts, half_edges, shells
 
 FLAT = 1e-12
 """Height over longest edge below which a triangle has no area."""

@@ -7,9 +7,10 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.topology import Integers, neighbours
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
+
+from .topology import Integers, neighbours
 
 FLATNESS = 1e-6
 """Depth of a dent that counts as none, over the largest extent: files with few digits have such dents in flat faces."""

@@ -13,11 +13,12 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.mesh import Mesh
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Component, UnusualValue, parameter
 from nonsmooth.user_cache import user_cache
+
+from .mesh import Mesh
 
 _FAR_OFF = 0.1
 """Part of the volume by which the pieces may miss it before a warning says so."""

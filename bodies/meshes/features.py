@@ -8,9 +8,10 @@ from typing import TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies.meshes.convexity import BENT
-from bodies.meshes.topology import Integers, neighbours
 from nonsmooth.interfaces.body import Vector
+
+from .convexity import BENT
+from .topology import Integers, neighbours
 
 Edge: TypeAlias = tuple[int, int, int, int]
 Bools: TypeAlias = NDArray[np.bool_]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from bodies.meshes.topology import Integers
 from nonsmooth.interfaces.body import Vector
+
+from .topology import Integers
 
 
 def volume_of(vertices: Vector, faces: Integers) -> float:

@@ -12,14 +12,15 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes import convexity
-from bodies.meshes.checks import check_finite, check_indices, check_surface
-from bodies.meshes.integrals import mass_properties
-from bodies.meshes.repair import repaired
-from bodies.meshes.topology import Integers, merge_equal
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import UnusualValue
+
+from . import convexity
+from .checks import check_finite, check_indices, check_surface
+from .integrals import mass_properties
+from .repair import repaired
+from .topology import Integers, merge_equal
 
 
 @final

@@ -9,12 +9,13 @@ from typing import final
 
 import numpy as np
 
-from bodies.meshes.counting import LARGEST, check_count, count_triangles
-from bodies.meshes.mesh import Mesh, Surface, checked, metres
-from bodies.meshes.topology import Integers, merge_equal
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Rule, check_number
+
+from .counting import LARGEST, check_count, count_triangles
+from .mesh import Mesh, Surface, checked, metres
+from .topology import Integers, merge_equal
 
 
 @final

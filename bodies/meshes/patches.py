@@ -10,11 +10,12 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from bodies.meshes.features import Bools, Features
-from bodies.meshes.topology import Integers
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.notices import say
+
+from .features import Bools, Features
+from .topology import Integers
 
 _AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
 """Pairs of near faces that are looked at together, and more of which are refused."""

@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from bodies.meshes.checks import flat_triangles
-from bodies.meshes.integrals import areas_of, volume_of
-from bodies.meshes.topology import Integers, edge_counts, half_edges, merge_equal, neighbours, shells
 from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces.body import Vector
+
+from .checks import flat_triangles
+from .integrals import areas_of, volume_of
+from .topology import Integers, edge_counts, half_edges, merge_equal, neighbours, shells
 
 Repaired = tuple[Vector, Integers, str]
 

@@ -9,10 +9,11 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.integrals import areas_of, winding_number
-from bodies.meshes.topology import Integers, shells
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.solid import Piece, SolidRegion
+
+from .integrals import areas_of, winding_number
+from .topology import Integers, shells
 
 _LOOKED_AT = 32
 """Triangles under which points inside are sought: the largest of every shell, so many of all, but one of each."""

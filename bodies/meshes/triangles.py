@@ -7,8 +7,9 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.mesh import Mesh, Surface, checked
 from nonsmooth.errors import InvalidInput
+
+from .mesh import Mesh, Surface, checked
 
 
 @final

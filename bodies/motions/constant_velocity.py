@@ -7,12 +7,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.blocks import pose_of, put
-from bodies.values import unit_quaternion, unit_vector, vector
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
+
+from ..blocks import pose_of, put
+from ..values import unit_quaternion, unit_vector, vector
 
 
 def _evaluate(

@@ -7,14 +7,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias, final
 
-from bodies.blocks import put, rotation_of
-from bodies.motions.function_check import Function, check_linear, check_turn
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
+
+from ..blocks import put, rotation_of
+from .function_check import Function, check_linear, check_turn
 
 Evaluator: TypeAlias = Callable[..., None]
 

@@ -7,11 +7,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.blocks import pose_of, stand_still
-from bodies.values import unit_quaternion, vector
 from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import Value, parameter
+
+from ..blocks import pose_of, stand_still
+from ..values import unit_quaternion, vector
 
 
 @final

@@ -10,8 +10,6 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import pose_of, write_pose
-from bodies.values import unit_quaternion
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import ACCELERATION, VELOCITY
 from nonsmooth.errors import InvalidInput
@@ -19,6 +17,9 @@ from nonsmooth.interfaces import Motion
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ..blocks import pose_of, write_pose
+from ..values import unit_quaternion
 
 _SAME_TIME = 1e-6
 _SAME_PLACE = 1e-3

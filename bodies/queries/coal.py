@@ -8,11 +8,12 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.topology import Integers
-from bodies.queries.geometries import Made
-from bodies.queries.library import Library
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.distance_backend import Place
+
+from ..meshes.topology import Integers
+from .geometries import Made
+from .library import Library
 
 _TOLERANCE = 1e-12
 """Of the distance [m]; the search for a depth fails with it, so that no depth is asked for."""

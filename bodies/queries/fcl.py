@@ -7,13 +7,14 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.topology import Integers
-from bodies.queries.geometries import Made
-from bodies.queries.library import Library
-from bodies.shapes.sphere import Sphere
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.distance_backend import Place
+
+from ..meshes.topology import Integers
+from ..shapes.sphere import Sphere
+from ..shapes.triangle_mesh import TriangleMesh
+from .geometries import Made
+from .library import Library
 
 SCALE = 1e6
 """Factor by which everything is enlarged: the tolerance of FCL is 1e-6 whatever the size of the bodies."""

@@ -10,21 +10,22 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.checks import flat_triangles
-from bodies.meshes.topology import Integers
-from bodies.shapes.box import Box
-from bodies.shapes.capsule import Capsule
-from bodies.shapes.cone import Cone
-from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.ellipsoid import Ellipsoid
-from bodies.shapes.hull import ConvexHull
-from bodies.shapes.placement import with_axes
-from bodies.shapes.sphere import Sphere
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import DistanceBackend, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.vectors import perpendiculars
+
+from ..meshes.checks import flat_triangles
+from ..meshes.topology import Integers
+from ..shapes.box import Box
+from ..shapes.capsule import Capsule
+from ..shapes.cone import Cone
+from ..shapes.cylinder import Cylinder
+from ..shapes.ellipsoid import Ellipsoid
+from ..shapes.hull import ConvexHull
+from ..shapes.placement import with_axes
+from ..shapes.sphere import Sphere
+from ..shapes.triangle_mesh import TriangleMesh
 
 
 @final

@@ -8,16 +8,17 @@ from typing import final
 
 import numpy as np
 
-from bodies.meshes.integrals import winding_number
-from bodies.queries.geometries import MAKERS, GeometryMaker, Made
-from bodies.shapes.box import Box
-from bodies.shapes.hull import ConvexHull
-from bodies.shapes.sphere import Sphere
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.errors import DoubtfulDistance
 from nonsmooth.interfaces import ConvexShape, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.distance_backend import Place, Separation
+
+from ..meshes.integrals import winding_number
+from ..shapes.box import Box
+from ..shapes.hull import ConvexHull
+from ..shapes.sphere import Sphere
+from ..shapes.triangle_mesh import TriangleMesh
+from .geometries import MAKERS, GeometryMaker, Made
 
 _DOUBT = 1e-3
 """Part of distance and size by which an answer may exceed the lower bound, which is no better than the direction."""

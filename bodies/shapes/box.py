@@ -9,15 +9,16 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.placement import turned, with_axes
-from bodies.shapes.polyhedron import Polyhedron
-from bodies.shapes.polytope import Polytope, polytope_of
-from bodies.shapes.swept_solid import draw_swept, swept_solid
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from .placement import turned, with_axes
+from .polyhedron import Polyhedron
+from .polytope import Polytope, polytope_of
+from .swept_solid import draw_swept, swept_solid
 
 _THINNEST = 1e-5
 """The core is at least so thick, in units of the largest half-length."""

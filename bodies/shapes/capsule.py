@@ -8,13 +8,14 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.drawing import arc, revolved
-from bodies.shapes.placement import about_axis
-from bodies.shapes.polyhedron import SweptPolytope
-from bodies.shapes.polytope import Polytope
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from .drawing import arc, revolved
+from .placement import about_axis
+from .polyhedron import SweptPolytope
+from .polytope import Polytope
 
 
 @final

@@ -8,8 +8,12 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.drawing import revolved
-from bodies.shapes.frustum import (
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import parameter
+from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from .drawing import revolved
+from .frustum import (
     FEET_OF_FACE,
     Frustum,
     Point,
@@ -20,11 +24,8 @@ from bodies.shapes.frustum import (
     on_axis,
     rims_over_faces,
 )
-from bodies.shapes.placement import about_axis, across_axis, farthest_on_circle
-from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
-from nonsmooth.interfaces.body import Vector
-from nonsmooth.parameters import parameter
-from nonsmooth.vectors import UNIT_PART, unit_vector
+from .placement import about_axis, across_axis, farthest_on_circle
+from .revolution import draw_swept_frustum, swept_frustum
 
 
 def inner_radius(radius: float, height: float) -> float:

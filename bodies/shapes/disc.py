@@ -8,13 +8,14 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.drawing import revolved
-from bodies.shapes.frustum import Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers
-from bodies.shapes.placement import across_axis, farthest_on_circle
-from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from .drawing import revolved
+from .frustum import Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers
+from .placement import across_axis, farthest_on_circle
+from .revolution import draw_swept_frustum, swept_frustum
 
 
 @final

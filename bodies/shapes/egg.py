@@ -8,10 +8,11 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.support_shape import SupportShape
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
+
+from .support_shape import SupportShape
 
 _LEAST = 0.01
 

@@ -8,12 +8,13 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.drawing import arc, revolved
-from bodies.shapes.placement import turned, with_axes
-from bodies.shapes.smooth import SmoothShape, core_numbers
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from .drawing import arc, revolved
+from .placement import turned, with_axes
+from .smooth import SmoothShape, core_numbers
 
 
 @final

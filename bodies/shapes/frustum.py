@@ -9,11 +9,12 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.placement import turned
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexPart, ConvexShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.vectors import perpendiculars
+
+from .placement import turned
 
 Point = tuple[float, float, float]
 LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN, SWEEP = 2, 3, 4, 5, 6, 11, 18, 19, 20

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from bodies.shapes.ground import Ground
 from nonsmooth.parameters import parameter
+
+from .ground import Ground
 
 
 @final

@@ -8,14 +8,15 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.shapes.drawing import solid_of
-from bodies.shapes.placement import with_axes
-from bodies.shapes.polyhedron import Polyhedron
-from bodies.shapes.polytope import Polytope, polytope_of, read_points
-from bodies.shapes.swept_solid import draw_swept, swept_solid
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from .drawing import solid_of
+from .placement import with_axes
+from .polyhedron import Polyhedron
+from .polytope import Polytope, polytope_of, read_points
+from .swept_solid import draw_swept, swept_solid
 
 
 @final

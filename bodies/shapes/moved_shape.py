@@ -9,17 +9,18 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.shapes.egg import Egg
-from bodies.shapes.placement import with_axes
-from bodies.shapes.smooth import SmoothShape
-from bodies.shapes.support_shape import SupportShape
-from bodies.values import product
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.rotations import rotation
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from ..values import product
+from .egg import Egg
+from .placement import with_axes
+from .smooth import SmoothShape
+from .support_shape import SupportShape
 
 
 @final

@@ -8,10 +8,11 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.polytope import Polytope
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexPart, ConvexShape
 from nonsmooth.interfaces.body import Vector
+
+from .polytope import Polytope
 
 
 class SweptPolytope(ConvexShape):

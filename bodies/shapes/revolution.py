@@ -7,11 +7,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bodies.shapes.drawing import arc, revolved
-from bodies.shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP
-from bodies.shapes.placement import about_axis
-from bodies.shapes.swept_solid import Integrals
 from nonsmooth.interfaces.body import Vector
+
+from .drawing import arc, revolved
+from .frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP
+from .placement import about_axis
+from .swept_solid import Integrals
 
 _NODES = 24
 """Of Gauss' rule on every piece; the integrands are polynomials of at most the sixth order in sine and cosine."""

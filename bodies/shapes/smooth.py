@@ -8,11 +8,12 @@ from abc import abstractmethod
 
 import numpy as np
 
-from bodies.shapes.drawing import arc, revolved
-from bodies.shapes.placement import turned
-from bodies.shapes.support_function import FUNCTION, OF_FUNCTION, support_of
 from nonsmooth.interfaces import ConvexPart, ConvexShape
 from nonsmooth.interfaces.body import Vector
+
+from .drawing import arc, revolved
+from .placement import turned
+from .support_function import FUNCTION, OF_FUNCTION, support_of
 
 
 class SmoothShape(ConvexShape):

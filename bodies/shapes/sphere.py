@@ -8,10 +8,11 @@ from typing import final
 
 import numpy as np
 
-from bodies.shapes.drawing import arc, revolved
-from bodies.shapes.smooth import SmoothShape, core_numbers
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
+
+from .drawing import arc, revolved
+from .smooth import SmoothShape, core_numbers
 
 
 @final

@@ -10,12 +10,13 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.shapes import smooth
-from bodies.shapes.smooth import SmoothShape
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from . import smooth
+from .smooth import SmoothShape
 
 EXPONENT: Mapping[str, Any] = MappingProxyType({"minimum": 0.2, "maximum": 1.8})
 """Bounds of an exponent."""

@@ -12,13 +12,14 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.shapes.drawing import arc, revolved, solid_of
-from bodies.shapes.smooth import SmoothShape
-from bodies.shapes.support_function import OF_FUNCTION
 from nonsmooth.binding.methods import bind_support
 from nonsmooth.binding.source import described, line_of
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
+
+from .drawing import arc, revolved, solid_of
+from .smooth import SmoothShape
+from .support_function import OF_FUNCTION
 
 _SHARPEST, _FLATTEST = 1e-3, 1e3
 """Radii of curvature that a shape may have, in units of its size."""

@@ -15,9 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies.shapes.drawing import check_fineness, solid_of
-from bodies.shapes.polytope import Polytope
 from nonsmooth.interfaces.body import Vector
+
+from .drawing import check_fineness, solid_of
+from .polytope import Polytope
 
 Integrals = tuple[float, Vector, Vector]
 """Volume [m^3], centroid [m], inertia tensor at density 1 about the centroid [m^5]."""

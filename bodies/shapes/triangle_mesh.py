@@ -9,18 +9,19 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.features import Features, features_of
-from bodies.meshes.mesh import Surface, check_surface_of
-from bodies.meshes.solid import MeshSolid
-from bodies.meshes.topology import Integers
-from bodies.meshes.triangles import Triangles
-from bodies.shapes.placement import with_axes
-from bodies.shapes.polytope import MOST_VERTICES
 from nonsmooth.interfaces import ConvexPart, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
+
+from ..meshes.features import Features, features_of
+from ..meshes.mesh import Surface, check_surface_of
+from ..meshes.solid import MeshSolid
+from ..meshes.topology import Integers
+from ..meshes.triangles import Triangles
+from .placement import with_axes
+from .polytope import MOST_VERTICES
 
 
 @final

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, final
 
-from laws.friction.axis import axis_parameter, body_parameter, check_axis
 from nonsmooth.certificates import lies_in_half_ellipses
 from nonsmooth.interfaces import AnisotropicFrictionLaw
 from nonsmooth.parameters import Value, parameter
+
+from .axis import axis_parameter, body_parameter, check_axis
 
 
 def _coefficient(speed: float, strongest: float) -> float:

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
-from laws.impact.natural_map import find_zero, is_unbounded, sweep
-from laws.impact.pyramid import solve_on_pyramids
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Array, Floats
+
+from .natural_map import find_zero, is_unbounded, sweep
+from .pyramid import solve_on_pyramids
 
 _SWEEPS = 100
 _NARROW = (0.0, 0.25, 0.06, 0.015, 0.004, 0.001, 3e-4, 1e-4)

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from laws.impact.power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 from nonsmooth.parameters import parameter
+
+from .power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 
 
 def _efficiency(rate: float, restitution: float) -> float:

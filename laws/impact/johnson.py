@@ -7,8 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from laws.impact.power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 from nonsmooth.parameters import parameter
+
+from .power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 
 
 def johnson_restitution(speed: float, elastic_speed: float) -> float:

@@ -9,11 +9,12 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from laws.impact.cone import follows_cone, solve_rebound
-from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Array, Floats
+
+from .cone import follows_cone, solve_rebound
+from .power import duration_parameter
 
 
 def _impulses(

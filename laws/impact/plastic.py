@@ -8,10 +8,11 @@ from typing import final
 
 import numpy as np
 
-from laws.impact.cone import follows_cone, solve_rebound
-from laws.impact.power import duration_parameter
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.types import Array, Floats
+
+from .cone import follows_cone, solve_rebound
+from .power import duration_parameter
 
 
 def _impulses(n: int, delassus: Floats, rates: Floats, out: Floats, friction: Floats) -> None:

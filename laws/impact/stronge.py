@@ -7,13 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from laws.impact.power import duration_parameter
-from laws.impact.slip_path import Matrix, Path, along_path, friction_from_rest, runs_straight, way_of_slip
 from nonsmooth.certificates import follows_map
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Array, Floats
+
+from .power import duration_parameter
+from .slip_path import Matrix, Path, along_path, friction_from_rest, runs_straight, way_of_slip
 
 _REST = 1e-9
 """A slip below this, relative to the approach, is none."""

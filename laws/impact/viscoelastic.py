@@ -7,10 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from laws.impact.hertz import hertz_stiffness
-from laws.impact.power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 from nonsmooth.compiled import compiled
 from nonsmooth.parameters import parameter
+
+from .hertz import hertz_stiffness
+from .power import PowerProcess, duration_parameter, exponent_parameter, stiffness_parameter
 
 _C1 = 0.501086
 _B2, _B3, _B4 = 1.15345, 0.577977, 0.532178

@@ -32,7 +32,6 @@ from nonsmooth.interfaces import (
     Shape,
     TangentialLaw,
 )
-from nonsmooth.plugins.hiding import hidden_packages
 
 _GROUPS: dict[str, tuple[str, tuple[type, ...]]] = {
     "bodies": ("body", (Body,)),
@@ -215,9 +214,7 @@ def _usable(point: EntryPoint, group: str) -> Any:
         loaded = point.load()
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
-        raise PluginError(
-            " ".join([f"{_title(group, point.name)} cannot be loaded: {reason}.", *hidden_packages()])
-        ) from error
+        raise PluginError(f"{_title(group, point.name)} cannot be loaded: {reason}.") from error
     found = fault(loaded, GROUPS[group])
     if found is not None:
         raise PluginError(f"{_title(group, point.name)} {found}")

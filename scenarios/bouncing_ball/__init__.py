@@ -1,5 +1,5 @@
 """A ball on a vibrating table (scenario.py), its orbits in closed form (orbits.py) and figures (figures.py)."""
 
-from scenarios.bouncing_ball.scenario import BouncingBall
+from .scenario import BouncingBall
 
 __all__ = ["BouncingBall"]

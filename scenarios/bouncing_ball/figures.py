@@ -14,13 +14,14 @@ from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
-from scenarios.bouncing_ball import orbits
+
+from . import orbits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from scenarios.bouncing_ball.scenario import BouncingBall
+    from .scenario import BouncingBall
 
 Floats = NDArray[np.float64]
 

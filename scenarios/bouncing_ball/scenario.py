@@ -10,17 +10,18 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Ball, Harmonic, Plate
-from laws import EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.bodies import Ball, Harmonic, Plate
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.modes import mode_shares
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.bouncing_ball import figures as draw
-from scenarios.bouncing_ball import orbits
+
+from . import figures as draw
+from . import orbits
 
 Floats = NDArray[np.float64]
 

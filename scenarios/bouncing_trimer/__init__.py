@@ -1,5 +1,5 @@
 """A rigid triangle of balls on a vibrating plate (scenario.py), its attractors (motion.py), figures (figures.py)."""
 
-from scenarios.bouncing_trimer.scenario import BouncingTrimer
+from .scenario import BouncingTrimer
 
 __all__ = ["BouncingTrimer"]

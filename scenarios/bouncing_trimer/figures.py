@@ -13,13 +13,14 @@ from nonsmooth import charts
 from nonsmooth.errors import RunFailed
 from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
-from scenarios.bouncing_trimer.motion import GRAVITY
+
+from .motion import GRAVITY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from scenarios.bouncing_trimer.scenario import BouncingTrimer
+    from .scenario import BouncingTrimer
 
 Floats = NDArray[np.float64]
 Ran: TypeAlias = "tuple[BouncingTrimer, Solution]"

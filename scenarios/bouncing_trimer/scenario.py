@@ -10,16 +10,17 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Ball, Compound, Harmonic, Part, Plate
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.bodies import Ball, Compound, Harmonic, Part, Plate
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.bouncing_trimer import figures as draw
-from scenarios.bouncing_trimer.motion import GRAVITY, NAMES, TrimerMotion, summary
+
+from . import figures as draw
+from .motion import GRAVITY, NAMES, TrimerMotion, summary
 
 Floats = NDArray[np.float64]
 

@@ -1,5 +1,5 @@
 """A disc that strikes two balls (scenario.py), the cases in closed form (closed_forms.py), figures (figures.py)."""
 
-from scenarios.disc_ball.scenario import DiscBall
+from .scenario import DiscBall
 
 __all__ = ["DiscBall"]

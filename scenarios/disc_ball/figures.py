@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from nonsmooth import charts
 from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
-from scenarios.disc_ball.closed_forms import one_after_the_other, symmetric
+
+from .closed_forms import one_after_the_other, symmetric
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from scenarios.disc_ball.scenario import DiscBall
+    from .scenario import DiscBall
 
 Floats = NDArray[np.float64]
 

@@ -10,15 +10,16 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Ball
-from laws import EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.bodies import Ball
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.disc_ball import figures as draw
-from scenarios.disc_ball.closed_forms import half_angle, symmetric
+
+from . import figures as draw
+from .closed_forms import half_angle, symmetric
 
 Floats = NDArray[np.float64]
 

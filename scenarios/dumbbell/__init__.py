@@ -8,6 +8,6 @@ To be read in this order:
 4. ``figures.py``, with ``portraits.py`` and ``trace.py``: Figs. 2 to 11.
 """
 
-from scenarios.dumbbell.scenario import DumbbellScenario
+from .scenario import DumbbellScenario
 
 __all__ = ["DumbbellScenario"]

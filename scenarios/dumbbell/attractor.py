@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Solution
-from scenarios.dumbbell import coordinates
+
+from . import coordinates
 
 if TYPE_CHECKING:
-    from scenarios.dumbbell.scenario import DumbbellScenario
+    from .scenario import DumbbellScenario
 
 Floats = NDArray[np.float64]
 

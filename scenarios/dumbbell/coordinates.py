@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from nonsmooth.rotations import cross
 
 if TYPE_CHECKING:
-    from scenarios.dumbbell.scenario import DumbbellScenario
+    from .scenario import DumbbellScenario
 
 Floats = NDArray[np.float64]
 

@@ -12,15 +12,16 @@ from numpy.typing import NDArray
 from nonsmooth import charts
 from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
-from scenarios.dumbbell import portraits
-from scenarios.dumbbell.attractor import Settled
-from scenarios.dumbbell.trace import Trace, note
+
+from . import portraits
+from .attractor import Settled
+from .trace import Trace, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from scenarios.dumbbell.scenario import DumbbellScenario
+    from .scenario import DumbbellScenario
 
 Floats = NDArray[np.float64]
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nonsmooth import charts
-from scenarios.dumbbell.coordinates import NAMES
-from scenarios.dumbbell.trace import Flags, Floats, Trace, note
+
+from .coordinates import NAMES
+from .trace import Flags, Floats, Trace, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -13,16 +13,17 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Dumbbell, Harmonic, Plate
-from laws import Coulomb, Unilateral, closing_time, effective_modulus
+from nonsmooth.bodies import Dumbbell, Harmonic, Plate
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, ImpactLaw, Run, Scenario
+from nonsmooth.laws import Coulomb, Unilateral, closing_time, effective_modulus
 from nonsmooth.parameters import UnusualValue, parameter, rules
 from nonsmooth.plugins.file import find
 from nonsmooth.solution.modes import mode_shares
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.dumbbell import attractor, coordinates, figures
+
+from . import attractor, coordinates, figures
 
 Floats = NDArray[np.float64]
 

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.parameters import rules
 from nonsmooth.solution.solution import Solution
-from scenarios.dumbbell.coordinates import DumbbellMotion
+
+from .coordinates import DumbbellMotion
 
 if TYPE_CHECKING:
-    from scenarios.dumbbell.scenario import DumbbellScenario
+    from .scenario import DumbbellScenario
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]

@@ -1,5 +1,5 @@
 """A part, given as a mesh, that falls on flat ground (scenario.py), and its figures (figures.py)."""
 
-from scenarios.mesh_drop.scenario import MeshDrop
+from .scenario import MeshDrop
 
 __all__ = ["MeshDrop"]

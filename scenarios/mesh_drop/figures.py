@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies.meshes.topology import neighbours
 from nonsmooth import charts
 from nonsmooth.solution.solution import Solution
-from scenarios.solids import directions_of_view
+
+from ..solids import directions_of_view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from scenarios.mesh_drop.scenario import MeshDrop
+    from .scenario import MeshDrop
 
 Floats = NDArray[np.float64]
 
@@ -27,8 +27,8 @@ _LIGHT = np.array([-0.48, 0.6, 0.64])
 """Direction of the light as seen: right, up, towards the eye."""
 _STILL = 1e-9
 """Kinetic energy over that of the fall below which the part lies still."""
-_SHARP = math.cos(math.radians(20.0))
-"""Edges at which the surface turns by more are drawn."""
+_SHARP = math.radians(20.0)
+"""Edges at which the surface turns by more are drawn [rad]."""
 
 
 def poses(scenario: MeshDrop, solution: Solution) -> Figure:
@@ -56,6 +56,7 @@ def poses(scenario: MeshDrop, solution: Solution) -> Figure:
 def _part(ax: Axes, scenario: MeshDrop, seen: Floats) -> None:
     """Draw the triangles that face the eye, the farthest first, with the sharp edges of each."""
     from matplotlib.collections import LineCollection, PolyCollection
+    from trimesh import Trimesh
 
     faces = scenario.body.mesh.faces
     corners = seen[faces]
@@ -64,13 +65,15 @@ def _part(ax: Axes, scenario: MeshDrop, seen: Floats) -> None:
     front = np.flatnonzero(normals[:, 2] > 0.0)
     order = front[np.argsort(np.mean(corners[front, :, 2], axis=1))]
     shade = 0.45 + 0.5 * np.maximum(normals @ _LIGHT, 0.0)
-    pairs = neighbours(faces)
-    sharp = np.einsum("ni,ni->n", normals[pairs[:, 0] // 3], normals[pairs[:, 1] // 3]) < _SHARP
-    drawn = {int(half) for half in pairs[sharp].ravel()}
+    surface = Trimesh(seen, faces, process=False)
+    sharp = surface.face_adjacency_edges[surface.face_adjacency_angles > _SHARP]
+    drawn = {frozenset(edge) for edge in sharp.tolist()}
     for layer, i in enumerate(order, 2):
         triangle, shown = corners[i, :, :2], str(float(shade[i]))
         ax.add_collection(PolyCollection([triangle], color=shown, linewidth=0.3, zorder=layer))
-        edges = [triangle[[k, (k + 1) % 3]] for k in range(3) if 3 * int(i) + k in drawn]
+        edges = [
+            triangle[[k, (k + 1) % 3]] for k in range(3) if frozenset(faces[i, [k, (k + 1) % 3]].tolist()) in drawn
+        ]
         if edges:
             ax.add_collection(LineCollection(edges, color="black", linewidth=0.7, zorder=layer))
 

@@ -10,17 +10,17 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import MeshBody, MeshFile, Plate, Triangles
-from bodies.meshes.mesh import METRES, Surface
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.bodies import METRES, MeshBody, MeshFile, Plate, Surface, Triangles
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.placing.starts import at_height
 from nonsmooth.rotations import rotation
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.mesh_drop import figures as draw
+
+from . import figures as draw
 
 Floats = NDArray[np.float64]
 

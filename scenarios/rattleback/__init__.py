@@ -1,5 +1,5 @@
 """The rattleback (scenario.py), and the equations of its rolling, by which it is judged (rolling.py)."""
 
-from scenarios.rattleback.scenario import Rattleback
+from .scenario import Rattleback
 
 __all__ = ["Rattleback"]

@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Ellipsoid, Plate, Rest, RigidBody
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import Ellipsoid, Plate, Rest, RigidBody
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rattleback.rolling import contact_point, roll
+
+from .rolling import contact_point, roll
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

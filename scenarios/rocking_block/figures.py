@@ -10,13 +10,14 @@ from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
-from scenarios.rocking_block import housner
+
+from . import housner
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from scenarios.rocking_block.scenario import RockingBlock
-    from scenarios.rocking_block.spatial import RockingBlock3D
+    from .scenario import RockingBlock
+    from .spatial import RockingBlock3D
 
 _HEIGHT = "height over the ground [m]"
 

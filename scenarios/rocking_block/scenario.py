@@ -10,15 +10,16 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import PlanarBody, Plate, Point, Rest
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.bodies import PlanarBody, Plate, Point, Rest
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rocking_block import figures as draw
-from scenarios.rocking_block.housner import frictionless_fall
+
+from . import figures as draw
+from .housner import frictionless_fall
 
 Floats = NDArray[np.float64]
 

@@ -10,15 +10,16 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import BoxBody, Plate, Rest
+from nonsmooth.bodies import BoxBody, Plate, Rest
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.placing.starts import touching
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rocking_block import figures as draw
-from scenarios.rocking_block.scenario import GRAVITY, laws_of
+
+from . import figures as draw
+from .scenario import GRAVITY, laws_of
 
 Floats = NDArray[np.float64]
 

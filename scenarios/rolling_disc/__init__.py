@@ -4,6 +4,6 @@
 ``air_film.py`` is the load by which the disc settles, ``tilt_guard.py`` the guard that ends its run.
 """
 
-from scenarios.rolling_disc.scenario import RollingDisc
+from .scenario import RollingDisc
 
 __all__ = ["RollingDisc"]

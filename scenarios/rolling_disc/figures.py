@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from nonsmooth import charts
 from nonsmooth.solution.solution import Solution
-from scenarios.rolling_disc import steady
+
+from . import steady
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from scenarios.rolling_disc.scenario import RollingDisc
+    from .scenario import RollingDisc
 
 Floats = NDArray[np.float64]
 

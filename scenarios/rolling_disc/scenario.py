@@ -10,17 +10,18 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import DiscBody, Plate, Rest
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.bodies import DiscBody, Plate, Rest
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rolling_disc import figures as draw
-from scenarios.rolling_disc import steady
-from scenarios.rolling_disc.air_film import AirFilm
-from scenarios.rolling_disc.tilt_guard import TiltGuard
+
+from . import figures as draw
+from . import steady
+from .air_film import AirFilm
+from .tilt_guard import TiltGuard
 
 Floats = NDArray[np.float64]
 

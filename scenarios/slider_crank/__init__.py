@@ -1,5 +1,5 @@
 """A slider-crank mechanism with clearance (scenario.py) and its equations of motion (mechanism.py)."""
 
-from scenarios.slider_crank.scenario import SliderCrank
+from .scenario import SliderCrank
 
 __all__ = ["SliderCrank"]

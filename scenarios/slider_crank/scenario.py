@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Coordinate, GeneralisedBody, Plate, Point, Rest, TurningFrame
-from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import Coordinate, GeneralisedBody, Plate, Point, Rest, TurningFrame
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.slider_crank import mechanism
+
+from . import mechanism
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,5 +1,5 @@
 """Painleve's rod (scenario.py), the closed forms of its contact (paradox.py) and its figures (figures.py)."""
 
-from scenarios.sliding_rod.scenario import SlidingRod
+from .scenario import SlidingRod
 
 __all__ = ["SlidingRod"]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from scenarios.sliding_rod.scenario import SlidingRod
+    from .scenario import SlidingRod
 
 Floats = NDArray[np.float64]
 

@@ -10,16 +10,17 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Plate, Rest, RigidBody, Sphere
-from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.bodies import Plate, Rest, RigidBody, Sphere
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.sliding_rod import figures as draw
-from scenarios.sliding_rod.paradox import RodContact
+
+from . import figures as draw
+from .paradox import RodContact
 
 Floats = NDArray[np.float64]
 

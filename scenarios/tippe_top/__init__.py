@@ -1,5 +1,5 @@
 """The tippe top (scenario.py), and the friction of its contact disc (friction.py)."""
 
-from scenarios.tippe_top.scenario import TippeTop
+from .scenario import TippeTop
 
 __all__ = ["TippeTop"]

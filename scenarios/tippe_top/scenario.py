@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import Plate, Rest, RigidBody, Sphere
-from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import Plate, Rest, RigidBody, Sphere
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, FrictionLaw, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.tippe_top.friction import SpinningCoulomb
+
+from .friction import SpinningCoulomb
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,5 +1,5 @@
 """A two-link arm on a belt (scenario.py), its equations of motion (arm.py), and its paradox (painleve.py)."""
 
-from scenarios.two_link_arm.scenario import TwoLinkArm
+from .scenario import TwoLinkArm
 
 __all__ = ["TwoLinkArm"]

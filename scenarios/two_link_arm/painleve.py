@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from scenarios.two_link_arm.arm import mass, tip_jacobian
+from .arm import mass, tip_jacobian
 
 
 def second_angle(theta_1: float, height_ratio: float) -> float:

@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Plane, Point, PointFrame
-from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import charts
+from nonsmooth.bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Plane, Point, PointFrame
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.two_link_arm import arm, painleve
+
+from . import arm, painleve
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,5 +1,5 @@
 """The woodpecker toy (scenario.py): a bird on a sleeve that pecks its way down a pole; its equations (toy.py)."""
 
-from scenarios.woodpecker.scenario import Woodpecker
+from .scenario import Woodpecker
 
 __all__ = ["Woodpecker"]

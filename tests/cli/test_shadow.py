@@ -1,4 +1,4 @@
-"""A user's own module of the name of one of our packages."""
+"""A user's own module of the name of one of our packages does no harm, and no class exists twice."""
 
 from __future__ import annotations
 
@@ -16,47 +16,67 @@ Start = Callable[..., subprocess.Popen[str]]
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("words", [("list", "laws"), ("run", "tiny"), ("show", "ball"), ("show", "dumbbell")])
 @pytest.mark.parametrize(
-    ("file", "content", "words"),
-    [
-        ("laws.py", "1 +", ("list", "laws")),
-        ("laws/__init__.py", "", ("list", "laws")),
-        ("laws.py", "", ("run", "tiny")),  # not the file's own group: a scenario that needs the laws
-        ("bodies.py", "import laws", ("show", "ball")),
-    ],
+    ("file", "content"),
+    [("laws.py", "1 +"), ("laws/__init__.py", ""), ("bodies.py", "import laws"), ("scenarios.py", "")],
 )
-def test_the_file_that_hides_a_package_is_named(
-    start: Start, tmp_path: Path, file: str, content: str, words: tuple[str, ...]
-) -> None:
+def test_commands_go_as_ever(start: Start, tmp_path: Path, file: str, content: str, words: tuple[str, ...]) -> None:
+    process = start(*words)
+    expected, _ = process.communicate(timeout=120)
     own = tmp_path / file
     own.parent.mkdir(exist_ok=True)
     own.write_text(content)
     process = start(*words)
     output, errors = process.communicate(timeout=120)
-    package = own.relative_to(tmp_path).parts[0].removesuffix(".py")
-    assert f"The file {own} hides the package {package!r} that comes with nonsmooth: rename it." in errors
-    assert "Traceback" not in errors
-    assert process.returncode == (0 if words[0] == "list" else 1)
-    # what is said of a name goes on in the lines below it, farther in
-    listed = [line.split()[0] for line in output.splitlines() if not line.startswith("   ")]
-    # the only law of another package is in a scenario that imports laws of the hidden one
-    assert listed == (["laws:", "none"] if words[0] == "list" else [])
+    assert (process.returncode, errors) == (0, "")
+    assert output == expected
 
 
-@pytest.mark.slow
-def test_a_script_is_told_when_it_imports_nonsmooth(tmp_path: Path) -> None:
-    """Of the file that hides a package, and not of a folder without modules, which hides none."""
-    own = tmp_path / "bodies.py"
-    own.touch()
-    (tmp_path / "laws").mkdir()
-    (tmp_path / "scenarios.py").touch()  # which no script imports
-    (tmp_path / "script.py").write_text("import nonsmooth\nfrom laws import Coulomb\nfrom bodies import Ball\n")
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    words = [sys.executable, "script.py"]
-    done = subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True)
-    told = (
-        f"script.py:1: HiddenPackage: The file {own} hides the package 'bodies' that comes with nonsmooth: rename it."
+def _run(folder: Path, script: str) -> str:
+    (folder / "script.py").write_text(script)
+    words = [sys.executable, "-W", "error", "script.py"]
+    done = subprocess.run(
+        words, cwd=folder, env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False
     )
-    assert told in done.stderr
-    assert done.stderr.count("HiddenPackage") == 1
-    assert "cannot import name 'Ball'" in done.stderr.splitlines()[-1]
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_a_script_has_its_own_module_and_the_package(tmp_path: Path) -> None:
+    (tmp_path / "bodies.py").write_text("Mine = 1\n")
+    script = "from bodies import Mine\nfrom nonsmooth.bodies import Ball\nprint(Ball(0.1).radius, Mine)\n"
+    assert _run(tmp_path, script) == "0.1 1\n"
+
+
+@pytest.mark.parametrize(
+    "imports",
+    [
+        ("bodies", "nonsmooth.bodies"),
+        ("nonsmooth.bodies", "bodies"),
+        ("bodies.shapes.box", "nonsmooth.bodies.shapes.box"),
+        ("nonsmooth.bodies.shapes.box", "bodies.shapes.box"),
+        ("laws.friction.coulomb", "nonsmooth.laws.friction.coulomb"),
+        ("scenarios.dumbbell.scenario", "nonsmooth.scenarios.dumbbell.scenario"),
+    ],
+)
+def test_both_names_are_one_module(tmp_path: Path, imports: tuple[str, str]) -> None:
+    """In either order, and its specification is that of the longer name."""
+    script = f"""
+import sys, {imports[0]}, {imports[1]}
+a, b = (sys.modules[name] for name in {imports!r})
+assert a is b
+assert a.__spec__.name == a.__name__ == {max(imports, key=len)!r}
+"""
+    assert _run(tmp_path, script) == ""
+
+
+def test_a_module_that_is_missing_is_named(tmp_path: Path) -> None:
+    script = """
+import bodies
+try:
+    import bodies.nothing
+except ModuleNotFoundError as error:
+    print(error)
+"""
+    assert _run(tmp_path, script) == "No module named 'bodies.nothing'\n"

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
-from bodies.shapes.placement import turned
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import NORMAL, POSITION, ROTATION, TANGENT
 from nonsmooth.types import Floats
+
+from ...shapes.placement import turned
 
 
 @compiled

@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 
-from bodies.shapes.polytope import Polytope
+from ...shapes.polytope import Polytope
 
 FACE = 5
 """Floats of a face: outward normal, distance of its plane from the origin, depth of the body behind it."""

@@ -8,18 +8,19 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
-from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
-from bodies.contacts.features.vertex_face import Nearest, nearest_feature
-from bodies.contacts.features.writing import write_flat, write_principal, write_round
-from bodies.shapes.polyhedron import SweptPolytope
-from bodies.shapes.polytope import Point
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.polyhedron import SweptPolytope
+from ...shapes.polytope import Point
+from .frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from .polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
+from .vertex_face import Nearest, nearest_feature
+from .writing import write_flat, write_principal, write_round
 
 END = 3e-10
 """So far before its end, in units of the size of the bodies, an edge gives its contact to the vertex, and the vertex

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world
-from bodies.contacts.features.polytope_tables import EDGE, FACE
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
+
+from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
+from .polytope_tables import EDGE, FACE
 
 REACH = 1e-9
 """A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import write_tangent
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import (
     GAP,
@@ -22,6 +20,9 @@ from nonsmooth.engine.memory.blocks import (
 )
 from nonsmooth.interfaces import Shape
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from .frames import write_tangent
 
 
 @compiled

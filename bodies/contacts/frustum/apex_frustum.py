@@ -6,12 +6,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import across
-from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.features.swept_vertex import END, NEAR
-from bodies.contacts.features.writing import write_round
-from bodies.contacts.frustum.apex_swept import past_apex
-from bodies.contacts.frustum.frustum import (
+from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, without_feet
+from ..features.frames import across
+from ..features.polytope_tables import Numbers
+from ..features.swept_vertex import END, NEAR
+from ..features.writing import write_round
+from .apex_swept import past_apex
+from .frustum import (
     HIGH_RIM,
     LOW_RIM,
     axis_in_world,
@@ -20,12 +26,7 @@ from bodies.contacts.frustum.frustum import (
     part_names,
     part_number,
 )
-from bodies.contacts.frustum.frustum_writing import write_side, write_two
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, without_feet
-from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
-from nonsmooth.types import Floats
+from .frustum_writing import write_side, write_two
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, swap: float, first: Floats, second: Floats, size: float) -> None:

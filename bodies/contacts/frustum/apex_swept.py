@@ -8,19 +8,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import vector_in_body, vector_in_world
-from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
-from bodies.contacts.features.swept_vertex import END, write_vertex_over
-from bodies.contacts.features.vertex_face import nearest_feature
-from bodies.contacts.frustum.frustum import axis_in_world, center_in_world
-from bodies.contacts.frustum.frustum_writing import size_of_both
-from bodies.shapes.frustum import COS, HIGH, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...shapes.frustum import COS, HIGH, SIDE, SIN, SWEEP, Frustum
+from ...shapes.polyhedron import SweptPolytope
+from ..features.frames import vector_in_body, vector_in_world
+from ..features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
+from ..features.swept_vertex import END, write_vertex_over
+from ..features.vertex_face import nearest_feature
+from .frustum import axis_in_world, center_in_world
+from .frustum_writing import size_of_both
 
 
 @compiled

@@ -7,10 +7,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
-from bodies.contacts.features.writing import write_sweep
-from bodies.contacts.frustum.frustum import FLANK, center_in_world, write_part
-from bodies.contacts.frustum.frustum_writing import (
+from nonsmooth.engine.memory.blocks import SIDE_A
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
+from ...shapes.polyhedron import SweptPolytope
+from ..features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
+from ..features.writing import write_sweep
+from ..smooth.smooth_core import axes_in_world, forth
+from .frustum import FLANK, center_in_world, write_part
+from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
     overlap_at,
@@ -18,13 +26,6 @@ from bodies.contacts.frustum.frustum_writing import (
     size_of_both,
     write_crossing,
 )
-from bodies.contacts.smooth.smooth_core import axes_in_world, forth
-from bodies.shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.polyhedron import SweptPolytope
-from nonsmooth.engine.memory.blocks import SIDE_A
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
-from nonsmooth.types import Floats
 
 
 def evaluate_flank_edge(

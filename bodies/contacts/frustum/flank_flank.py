@@ -7,15 +7,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import tangent_of
-from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.frustum.frustum import FLANK, axis_in_world, center_in_world
-from bodies.contacts.frustum.frustum_writing import overlap_of, past_border, write_side, write_two
-from bodies.shapes.frustum import COS, LOW, SIDE, SIN, Frustum
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...shapes.frustum import COS, LOW, SIDE, SIN, Frustum
+from ..features.frames import tangent_of
+from ..features.polytope_tables import Numbers
+from .frustum import FLANK, axis_in_world, center_in_world
+from .frustum_writing import overlap_of, past_border, write_side, write_two
 
 PARALLEL = 0.01
 """Sine of the angle between two sides' lines below which they do not cross; then the rims hold."""

@@ -11,15 +11,16 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from bodies.blocks import Vector3
-from bodies.contacts.features.frames import point_in_world, vector_in_world
-from bodies.contacts.features.writing import write_flat, write_principal, write_round
-from bodies.contacts.plane.plane_rim import FLATTEST
-from bodies.contacts.surface.mesh_point import Corner
-from bodies.contacts.surface.surface_tables import Numbers
-from bodies.shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
+from ..features.frames import point_in_world, vector_in_world
+from ..features.writing import write_flat, write_principal, write_round
+from ..plane.plane_rim import FLATTEST
+from ..surface.mesh_point import Corner
+from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """The parts; the flank is the side."""

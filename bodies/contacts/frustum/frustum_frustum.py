@@ -8,12 +8,19 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
-from bodies.contacts.features.frames import across, point_in_world
-from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.features.vertex_face import REACH
-from bodies.contacts.frustum.apex_frustum import ApexFrustum
-from bodies.contacts.frustum.flank_flank import FlankFlank
-from bodies.contacts.frustum.frustum import (
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+from ...shapes.cylinder import Cylinder
+from ...shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
+from ..features.frames import across, point_in_world
+from ..features.polytope_tables import Numbers
+from ..features.vertex_face import REACH
+from ..plane.plane_rim import FLATTEST
+from .apex_frustum import ApexFrustum
+from .flank_flank import FlankFlank
+from .frustum import (
     HIGH_CAP,
     LOW_CAP,
     LOW_RIM,
@@ -22,15 +29,9 @@ from bodies.contacts.frustum.frustum import (
     least_height,
     nearest_part,
 )
-from bodies.contacts.frustum.frustum_writing import overlap_of, past_border, write_side, write_two
-from bodies.contacts.frustum.rim_flank import RimFlank
-from bodies.contacts.frustum.rim_rim import RimRim
-from bodies.contacts.plane.plane_rim import FLATTEST
-from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
-from nonsmooth.types import Floats
+from .frustum_writing import overlap_of, past_border, write_side, write_two
+from .rim_flank import RimFlank
+from .rim_rim import RimRim
 
 _OTHERS: tuple[type[ContactKinematics], ...] = (FlankFlank, RimFlank, RimRim, ApexFrustum)
 _ON_SIDE = 0.01

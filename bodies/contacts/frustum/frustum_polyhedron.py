@@ -8,13 +8,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import Vector3, put
-from bodies.contacts.features.frames import across, point_in_world, vector_in_body, write_tangent
-from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
-from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
-from bodies.contacts.features.writing import write_round
-from bodies.contacts.frustum.flank_edge import FlankEdge
-from bodies.contacts.frustum.frustum import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+from ...blocks import Vector3, put
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ...shapes.polyhedron import Polyhedron
+from ..features.frames import across, point_in_world, vector_in_body, write_tangent
+from ..features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
+from ..features.vertex_face import DEEP, REACH, height_over
+from ..features.writing import write_round
+from .flank_edge import FlankEdge
+from .frustum import (
     FLANK,
     HIGH_CAP,
     LOW_CAP,
@@ -25,17 +33,10 @@ from bodies.contacts.frustum.frustum import (
     tip_past_rim,
     write_part,
 )
-from bodies.contacts.frustum.frustum_swept import FrustumSwept, check_number
-from bodies.contacts.frustum.frustum_writing import size_of_both
-from bodies.contacts.frustum.rim_edge import RimEdge
-from bodies.contacts.frustum.rim_face import RimFace
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.polyhedron import Polyhedron
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
-from nonsmooth.types import Floats
+from .frustum_swept import FrustumSwept, check_number
+from .frustum_writing import size_of_both
+from .rim_edge import RimEdge
+from .rim_face import RimFace
 
 
 @compiled

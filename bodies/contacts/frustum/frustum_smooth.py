@@ -11,10 +11,24 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, write_tangent
-from bodies.contacts.features.writing import write_sweep
-from bodies.contacts.frustum.frustum import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ...shapes.smooth import SmoothShape
+from ..features.frames import point_in_world, write_tangent
+from ..features.writing import write_sweep
+from ..smooth.boxy_newton import Answer
+from ..smooth.inscribed import gauge, no_shorter_way
+from ..smooth.round_search import up_hills
+from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
+from ..smooth.smooth_newton import widest_of_round, write_surface
+from ..smooth.smooth_starts import starts_of, uphill
+from .frustum import (
     FLANK,
     HIGH_CAP,
     HIGH_RIM,
@@ -26,20 +40,7 @@ from bodies.contacts.frustum.frustum import (
     part_number,
     write_part,
 )
-from bodies.contacts.frustum.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
-from bodies.contacts.smooth.boxy_newton import Answer
-from bodies.contacts.smooth.inscribed import gauge, no_shorter_way
-from bodies.contacts.smooth.round_search import up_hills
-from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
-from bodies.contacts.smooth.smooth_newton import widest_of_round, write_surface
-from bodies.contacts.smooth.smooth_starts import starts_of, uphill
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.smooth import SmoothShape
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
-from nonsmooth.types import Floats
+from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
 
 Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, float, float, float]
 """The frustum, its rims, a point, the core, its axes and its centre in those of the frustum, the size of both."""

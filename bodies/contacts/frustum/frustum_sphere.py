@@ -6,10 +6,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import across, point_in_world
-from bodies.contacts.features.writing import place_sphere, write_round, write_sweep
-from bodies.contacts.frustum.frustum import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.frustum import SWEEP, Frustum, without_feet
+from ...shapes.sphere import Sphere
+from ..features.frames import across, point_in_world
+from ..features.writing import place_sphere, write_round, write_sweep
+from .frustum import (
     axis_in_world,
     center_in_world,
     nearest_part,
@@ -17,13 +25,6 @@ from bodies.contacts.frustum.frustum import (
     part_number,
     write_part,
 )
-from bodies.shapes.frustum import SWEEP, Frustum, without_feet
-from bodies.shapes.sphere import Sphere
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
-from nonsmooth.types import Floats
 
 
 @compiled

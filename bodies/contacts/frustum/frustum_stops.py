@@ -9,17 +9,18 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import Vector3
-from bodies.contacts.frustum.frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
-from bodies.contacts.smooth.boxy_line import across_line
-from bodies.contacts.smooth.boxy_newton import Answer
-from bodies.contacts.smooth.round_search import next_to_axis, round_circle
-from bodies.contacts.smooth.smooth_core import Axes, back, bend, forth
-from bodies.contacts.smooth.smooth_newton import widest_of_round
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN
-from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN
+from ...shapes.support_function import is_round, support_of
+from ..smooth.boxy_line import across_line
+from ..smooth.boxy_newton import Answer
+from ..smooth.round_search import next_to_axis, round_circle
+from ..smooth.smooth_core import Axes, back, bend, forth
+from ..smooth.smooth_newton import widest_of_round
+from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
 
 ON_BORDER = 1e-14
 """How far a point may be over the end of a part, in units of the size, and a normal over that of its cone."""

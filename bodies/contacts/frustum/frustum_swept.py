@@ -7,25 +7,26 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.polytope_tables import Numbers, star_of
-from bodies.contacts.features.swept_vertex import ended_gap, past_star
-from bodies.contacts.features.writing import place_sphere
-from bodies.contacts.frustum.apex_swept import ApexSwept
-from bodies.contacts.frustum.flank_edge import FlankEdge
-from bodies.contacts.frustum.frustum import part_names
-from bodies.contacts.frustum.frustum_sphere import write_frustum_ball
-from bodies.contacts.frustum.frustum_writing import size_of_both
-from bodies.contacts.frustum.rim_edge import RimEdge
-from bodies.contacts.frustum.rim_face import RimFace
-from bodies.contacts.polyhedron.swept_swept import MOST_CONTACTS
-from bodies.shapes.frustum import Frustum, without_feet
-from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...shapes.frustum import Frustum, without_feet
+from ...shapes.polyhedron import SweptPolytope
+from ..features.polytope_tables import Numbers, star_of
+from ..features.swept_vertex import ended_gap, past_star
+from ..features.writing import place_sphere
+from ..polyhedron.swept_swept import MOST_CONTACTS
+from .apex_swept import ApexSwept
+from .flank_edge import FlankEdge
+from .frustum import part_names
+from .frustum_sphere import write_frustum_ball
+from .frustum_writing import size_of_both
+from .rim_edge import RimEdge
+from .rim_face import RimFace
 
 
 def _evaluate(

@@ -8,18 +8,19 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.blocks import Vector3, put
-from bodies.contacts.features.frames import across, point_in_world, vector_in_world, write_tangent
-from bodies.contacts.features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
-from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
-from bodies.contacts.features.writing import write_principal, write_sweep
-from bodies.contacts.frustum.frustum import axis_in_world, center_in_world, nearest_part, write_part
-from bodies.contacts.smooth.smooth_core import Axes, back, forth
-from bodies.shapes.frustum import COS, FEET, SIN, SWEEP, Frustum
-from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3, put
+from ...shapes.frustum import COS, FEET, SIN, SWEEP, Frustum
+from ...shapes.polyhedron import SweptPolytope
+from ..features.frames import across, point_in_world, vector_in_world, write_tangent
+from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
+from ..features.vertex_face import DEEP, REACH, height_over
+from ..features.writing import write_principal, write_sweep
+from ..smooth.smooth_core import Axes, back, forth
+from .frustum import axis_in_world, center_in_world, nearest_part, write_part
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25

@@ -10,12 +10,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import Vector3
-from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
-from bodies.contacts.features.vertex_face import height_over
-from bodies.contacts.features.writing import write_sweep
-from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, write_part
-from bodies.contacts.frustum.frustum_writing import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import SIDE_A
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ...shapes.polyhedron import SweptPolytope
+from ..features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
+from ..features.vertex_face import height_over
+from ..features.writing import write_sweep
+from ..smooth.smooth_core import axes_in_world, forth
+from ..surface.surface_search import THROUGH
+from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, write_part
+from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
     overlap_at,
@@ -23,15 +33,6 @@ from bodies.contacts.frustum.frustum_writing import (
     size_of_both,
     write_crossing,
 )
-from bodies.contacts.smooth.smooth_core import axes_in_world, forth
-from bodies.contacts.surface.surface_search import THROUGH
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.polyhedron import SweptPolytope
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import SIDE_A
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
-from nonsmooth.types import Floats
 
 _STEEP = 0.5
 """Cosine of the angle between edge and axis beyond which only the nearer half of the rim is crossed."""

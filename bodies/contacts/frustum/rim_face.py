@@ -7,21 +7,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import Vector3, put
-from bodies.contacts.features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
-from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table
-from bodies.contacts.features.vertex_face import DEEP, REACH, past_face, plane_height
-from bodies.contacts.features.writing import write_flat, write_principal, write_round, write_sweep
-from bodies.contacts.frustum.frustum import axis_in_world, center_in_world, least_height
-from bodies.contacts.frustum.frustum_writing import size_of_both
-from bodies.contacts.plane.plane_rim import FLATTEST
-from bodies.shapes.frustum import SWEEP, Frustum
-from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3, put
+from ...shapes.frustum import SWEEP, Frustum
+from ...shapes.polyhedron import SweptPolytope
+from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.polytope_tables import FACE, Numbers, face_table
+from ..features.vertex_face import DEEP, REACH, past_face, plane_height
+from ..features.writing import write_flat, write_principal, write_round, write_sweep
+from ..plane.plane_rim import FLATTEST
+from .frustum import axis_in_world, center_in_world, least_height
+from .frustum_writing import size_of_both
 
 
 @compiled

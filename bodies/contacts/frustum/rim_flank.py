@@ -11,16 +11,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import Vector3
-from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.frustum.frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world
-from bodies.contacts.frustum.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
-from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ..features.polytope_tables import Numbers
+from ..smooth.smooth_core import axes_in_world, back, forth
+from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world
+from .frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side beyond which only the nearest point of the rim is looked at."""

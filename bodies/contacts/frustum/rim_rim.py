@@ -12,17 +12,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import Vector3
-from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.features.vertex_face import REACH
-from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, set_back
-from bodies.contacts.frustum.frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
-from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ..features.polytope_tables import Numbers
+from ..features.vertex_face import REACH
+from ..smooth.smooth_core import axes_in_world, back, forth
+from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, set_back
+from .frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
 
 _PARALLEL = 0.01
 """Sine of the angle between tangents below which rims do not cross; then each holds over the other's side and cap."""

@@ -7,24 +7,25 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import vector_in_body, write_tangent
-from bodies.contacts.features.swept_vertex import END, NEAR, OPEN
-from bodies.contacts.features.writing import write_round
-from bodies.contacts.frustum.apex_swept import past_apex
-from bodies.contacts.frustum.frustum import axis_in_world, center_in_world
-from bodies.contacts.surface.surface_ball import out_of_surface, write_feature
-from bodies.contacts.surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, nearest_in_patch
-from bodies.contacts.surface.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_numbers
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_ball
-from bodies.shapes.frustum import HIGH, SIDE, SWEEP, Frustum
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...meshes.features import Features
+from ...meshes.patches import patches_for_ball
+from ...shapes.frustum import HIGH, SIDE, SWEEP, Frustum
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.frames import vector_in_body, write_tangent
+from ..features.swept_vertex import END, NEAR, OPEN
+from ..features.writing import write_round
+from ..frustum.apex_swept import past_apex
+from ..frustum.frustum import axis_in_world, center_in_world
+from ..surface.surface_ball import out_of_surface, write_feature
+from ..surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, nearest_in_patch
+from ..surface.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_numbers
 
 
 @compiled

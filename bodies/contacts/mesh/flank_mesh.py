@@ -6,16 +6,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.frustum.flank_edge import FlankEdge, evaluate_flank_edge
-from bodies.contacts.mesh.mesh_crossing import edges_of, judge_crossing
-from bodies.contacts.surface.surface_tables import Numbers
-from bodies.meshes.features import Features
-from bodies.shapes.frustum import SIDE, Frustum
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
+
+from ...meshes.features import Features
+from ...shapes.frustum import SIDE, Frustum
+from ...shapes.triangle_mesh import TriangleMesh
+from ..frustum.flank_edge import FlankEdge, evaluate_flank_edge
+from ..surface.surface_tables import Numbers
+from .mesh_crossing import edges_of, judge_crossing
 
 _cross = compiled(evaluate_flank_edge)
 

@@ -7,11 +7,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import across, point_in_world, vector_in_body, write_tangent
-from bodies.contacts.features.vertex_face import DEEP, REACH
-from bodies.contacts.features.writing import write_round
-from bodies.contacts.frustum.frustum import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...meshes.features import Features
+from ...meshes.patches import patches_for_body
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.frames import across, point_in_world, vector_in_body, write_tangent
+from ..features.vertex_face import DEEP, REACH
+from ..features.writing import write_round
+from ..frustum.frustum import (
     FLANK,
     HIGH_CAP,
     LOW_CAP,
@@ -22,18 +32,9 @@ from bodies.contacts.frustum.frustum import (
     tip_past_rim,
     write_part,
 )
-from bodies.contacts.surface.surface_search import depth_inside
-from bodies.contacts.surface.surface_tables import Numbers, star_lengths, star_of, surface_numbers
-from bodies.contacts.surface.surface_vertex import ASTRAY
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_body
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
-from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import SharedNumbers, Value
-from nonsmooth.types import Floats
+from ..surface.surface_search import depth_inside
+from ..surface.surface_tables import Numbers, star_lengths, star_of, surface_numbers
+from ..surface.surface_vertex import ASTRAY
 
 
 @compiled

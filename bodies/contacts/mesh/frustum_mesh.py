@@ -7,26 +7,27 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
-from bodies.contacts.frustum.frustum import apex_of, feet_of, set_back
-from bodies.contacts.frustum.frustum_swept import FrustumSwept
-from bodies.contacts.mesh.apex_mesh import ApexMesh
-from bodies.contacts.mesh.flank_mesh import FlankMesh
-from bodies.contacts.mesh.frustum_corner import FrustumCorner
-from bodies.contacts.mesh.frustum_pairs import FrustumPairs
-from bodies.contacts.mesh.mesh_mesh import are_many
-from bodies.contacts.mesh.rim_mesh import RimMesh
-from bodies.contacts.mesh.surface_rim import rim_in_surface, rim_under, write_rim
-from bodies.contacts.surface.mesh_point import PointMesh
-from bodies.contacts.surface.surface_tables import Numbers, star_of, surface_numbers
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_body
-from bodies.meshes.triangles import Triangles
-from bodies.shapes.cylinder import Cylinder
-from bodies.shapes.frustum import SIDE, SWEEP, Frustum, Point
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
+
+from ...meshes.features import Features
+from ...meshes.patches import patches_for_body
+from ...meshes.triangles import Triangles
+from ...shapes.cylinder import Cylinder
+from ...shapes.frustum import SIDE, SWEEP, Frustum, Point
+from ...shapes.triangle_mesh import TriangleMesh
+from ..frustum.frustum import apex_of, feet_of, set_back
+from ..frustum.frustum_swept import FrustumSwept
+from ..surface.mesh_point import PointMesh
+from ..surface.surface_tables import Numbers, star_of, surface_numbers
+from .apex_mesh import ApexMesh
+from .flank_mesh import FlankMesh
+from .frustum_corner import FrustumCorner
+from .frustum_pairs import FrustumPairs
+from .mesh_mesh import are_many
+from .rim_mesh import RimMesh
+from .surface_rim import rim_in_surface, rim_under, write_rim
 
 
 def _evaluate(

@@ -5,21 +5,22 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.blocks import Vector3
-from bodies.contacts.features.frames import across, vector_in_body
-from bodies.contacts.features.vertex_face import DEEP
-from bodies.contacts.frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
-from bodies.contacts.frustum.frustum_writing import astray_of_rim
-from bodies.contacts.mesh.frustum_corner import over_part
-from bodies.contacts.mesh.surface_rim import lowest_on_rim
-from bodies.contacts.mesh.swept_pairs import steepest
-from bodies.contacts.surface.surface_search import in_triangle
-from bodies.contacts.surface.surface_tables import CORNER, CORNERS, FACE, FACES
-from bodies.contacts.surface.surface_vertex import ASTRAY
-from bodies.shapes.frustum import LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.frustum import LOW, SIDE, SIN, SWEEP
+from ..features.frames import across, vector_in_body
+from ..features.vertex_face import DEEP
+from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
+from ..frustum.frustum_writing import astray_of_rim
+from ..surface.surface_search import in_triangle
+from ..surface.surface_tables import CORNER, CORNERS, FACE, FACES
+from ..surface.surface_vertex import ASTRAY
+from .frustum_corner import over_part
+from .surface_rim import lowest_on_rim
+from .swept_pairs import steepest
 
 FrustumPose: TypeAlias = tuple[float, float, float, float, float, float]
 """Centre [m] and axis of a frustum in the axes of a surface."""

@@ -8,26 +8,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.writing import NO_CANDIDATE, write_apart
-from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
-from bodies.contacts.frustum.frustum_swept import write_vertex_ball
-from bodies.contacts.mesh.apex_mesh import write_apex
-from bodies.contacts.mesh.flank_mesh import write_flank
-from bodies.contacts.mesh.frustum_corner import write_corner
-from bodies.contacts.mesh.frustum_near import (
-    FrustumPose,
-    corner_is_near,
-    edge_is_near,
-    from_core,
-    frustum_in_surface,
-    rim_is_near,
-)
-from bodies.contacts.mesh.rim_mesh import write_half_rim
-from bodies.contacts.mesh.surface_rim import rim_in_surface, rim_over, write_rim
-from bodies.contacts.surface.mesh_point import write_over_second
-from bodies.contacts.surface.surface_near import NARROW, patches_near, patches_under, room_ahead
-from bodies.contacts.surface.surface_pairs import MOST_NEAR
-from bodies.contacts.surface.surface_tables import (
+from nonsmooth.compiled import block_at, compiled
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
+from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.types import Floats
+
+from ...meshes.patches import patches_for_ball
+from ...shapes.frustum import HIGH, SIDE, SWEEP, Frustum
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.writing import NO_CANDIDATE, write_apart
+from ..frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
+from ..frustum.frustum_swept import write_vertex_ball
+from ..surface.mesh_point import write_over_second
+from ..surface.surface_near import NARROW, patches_near, patches_under, room_ahead
+from ..surface.surface_pairs import MOST_NEAR
+from ..surface.surface_tables import (
     CORNER,
     CORNERS,
     EDGE,
@@ -45,13 +40,19 @@ from bodies.contacts.surface.surface_tables import (
     star_lengths,
     surface_numbers,
 )
-from bodies.meshes.patches import patches_for_ball
-from bodies.shapes.frustum import HIGH, SIDE, SWEEP, Frustum
-from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.compiled import block_at, compiled
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
-from nonsmooth.parameters import SharedNumbers, Value
-from nonsmooth.types import Floats
+from .apex_mesh import write_apex
+from .flank_mesh import write_flank
+from .frustum_corner import write_corner
+from .frustum_near import (
+    FrustumPose,
+    corner_is_near,
+    edge_is_near,
+    from_core,
+    frustum_in_surface,
+    rim_is_near,
+)
+from .rim_mesh import write_half_rim
+from .surface_rim import rim_in_surface, rim_over, write_rim
 
 RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
 """A face and a rim over it, a patch and a point over it, a patch and the round apex, a corner of the surface, an edge

@@ -5,21 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from bodies.contacts.features.frames import across, vector_in_body
-from bodies.contacts.features.polytope_tables import INTO_FIRST, INTO_SECOND, LENGTH
-from bodies.contacts.features.vertex_face import DEEP
-from bodies.contacts.frustum.frustum import center_in_world, nearest_part
-from bodies.contacts.frustum.frustum_writing import edge_in_frustum
-from bodies.contacts.smooth.smooth_core import Axes, axes_in_world
-from bodies.contacts.surface.surface_search import THROUGH, depth_inside
-from bodies.contacts.surface.surface_tables import Numbers, edge_row, surface_numbers
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_body
-from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION
 from nonsmooth.parameters import SharedNumbers
 from nonsmooth.types import Floats
+
+from ...meshes.features import Features
+from ...meshes.patches import patches_for_body
+from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
+from ..features.frames import across, vector_in_body
+from ..features.polytope_tables import INTO_FIRST, INTO_SECOND, LENGTH
+from ..features.vertex_face import DEEP
+from ..frustum.frustum import center_in_world, nearest_part
+from ..frustum.frustum_writing import edge_in_frustum
+from ..smooth.smooth_core import Axes, axes_in_world
+from ..surface.surface_search import THROUGH, depth_inside
+from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
 _ASTRAY = 1e-6
 """Sine of the angle by which the normal of a closed crossing may leave those of the edge: beyond, a face is nearer."""

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar, final
 
-from bodies.contacts.surface.mesh_point import MeshPoint, PointMesh
-from bodies.contacts.surface.surface_edges import evaluate_edges
-from bodies.contacts.surface.surface_pairs import SurfacePairs
-from bodies.contacts.surface.surface_tables import Numbers, edge_row, surface_numbers
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_ball, patches_for_body
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
+
+from ...meshes.features import Features
+from ...meshes.patches import patches_for_ball, patches_for_body
+from ...shapes.triangle_mesh import TriangleMesh
+from ..surface.mesh_point import MeshPoint, PointMesh
+from ..surface.surface_edges import evaluate_edges
+from ..surface.surface_pairs import SurfacePairs
+from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
 MOST_EACH = 500
 """Pairs of features of two surfaces up to which each of them is a contact of its own."""

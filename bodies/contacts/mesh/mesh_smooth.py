@@ -6,17 +6,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.writing import write_apart
-from bodies.contacts.surface.patch_near import PatchNear, are_many
-from bodies.contacts.surface.surface_search import FAR
-from bodies.contacts.surface.surface_smooth import write_surface_smooth
-from bodies.contacts.surface.surface_tables import surface_numbers
-from bodies.meshes.patches import patches_for_body
-from bodies.shapes.smooth import SmoothShape, extent
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
+
+from ...meshes.patches import patches_for_body
+from ...shapes.smooth import SmoothShape, extent
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.writing import write_apart
+from ..surface.patch_near import PatchNear, are_many
+from ..surface.surface_search import FAR
+from ..surface.surface_smooth import write_surface_smooth
+from ..surface.surface_tables import surface_numbers
 
 POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 """The core of a point (:func:`bodies.shapes.smooth.core_numbers`)."""

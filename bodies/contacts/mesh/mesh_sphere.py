@@ -6,18 +6,19 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.writing import write_apart
-from bodies.contacts.surface.patch_near import PatchNear, are_many
-from bodies.contacts.surface.surface_ball import write_ball
-from bodies.contacts.surface.surface_search import FAR
-from bodies.contacts.surface.surface_tables import Numbers, surface_numbers
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_ball
-from bodies.shapes.sphere import Sphere
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
+
+from ...meshes.features import Features
+from ...meshes.patches import patches_for_ball
+from ...shapes.sphere import Sphere
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.writing import write_apart
+from ..surface.patch_near import PatchNear, are_many
+from ..surface.surface_ball import write_ball
+from ..surface.surface_search import FAR
+from ..surface.surface_tables import Numbers, surface_numbers
 
 
 def _evaluate_near(

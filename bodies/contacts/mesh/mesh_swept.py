@@ -6,19 +6,20 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.polytope_tables import edge_rows
-from bodies.contacts.features.polytope_tables import star_of as star_of_vertex
-from bodies.contacts.features.swept_vertex import SweptVertex
-from bodies.contacts.mesh.mesh_mesh import DEPARTURES, MeshEdges, are_many, sharp_contacts
-from bodies.contacts.mesh.mesh_sphere import MeshSphere
-from bodies.contacts.mesh.swept_pairs import SweptPairs, surface_of_core
-from bodies.contacts.surface.surface_edges import evaluate_edges
-from bodies.contacts.surface.surface_pairs import features_of_core
-from bodies.contacts.surface.surface_tables import star_of
-from bodies.shapes.polyhedron import SweptPolytope
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
+
+from ...shapes.polyhedron import SweptPolytope
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.polytope_tables import edge_rows
+from ..features.polytope_tables import star_of as star_of_vertex
+from ..features.swept_vertex import SweptVertex
+from ..surface.surface_edges import evaluate_edges
+from ..surface.surface_pairs import features_of_core
+from ..surface.surface_tables import star_of
+from .mesh_mesh import DEPARTURES, MeshEdges, are_many, sharp_contacts
+from .mesh_sphere import MeshSphere
+from .swept_pairs import SweptPairs, surface_of_core
 
 
 @final

@@ -5,15 +5,20 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
-from bodies.contacts.features.vertex_face import REACH
-from bodies.contacts.features.writing import gap_at_distance, write_flat, write_principal, write_sweep
-from bodies.contacts.frustum.frustum import axis_in_world
-from bodies.contacts.frustum.frustum_writing import astray_of_rim
-from bodies.contacts.plane.plane_rim import FLATTEST
-from bodies.contacts.surface.surface_search import box_square, face_height, has_patch, pierced
-from bodies.contacts.surface.surface_tables import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.frustum import AXIS, HIGH, LOW, SIDE, SWEEP
+from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.vertex_face import REACH
+from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
+from ..frustum.frustum import axis_in_world
+from ..frustum.frustum_writing import astray_of_rim
+from ..plane.plane_rim import FLATTEST
+from ..surface.surface_search import box_square, face_height, has_patch, pierced
+from ..surface.surface_tables import (
     FACE,
     FACES,
     MEMBERS,
@@ -25,11 +30,7 @@ from bodies.contacts.surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from bodies.contacts.surface.surface_vertex import ASTRAY, over_face, touched_face
-from bodies.shapes.frustum import AXIS, HIGH, LOW, SIDE, SWEEP
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
-from nonsmooth.types import Floats
+from ..surface.surface_vertex import ASTRAY, over_face, touched_face
 
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""

@@ -8,18 +8,28 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import vector_in_body, vector_in_world
-from bodies.contacts.features.polytope_tables import EDGE as CORE_EDGE
-from bodies.contacts.features.polytope_tables import edge_rows, end_table, face_table, star_of
-from bodies.contacts.features.swept_vertex import write_vertex
-from bodies.contacts.features.vertex_face import nearest_feature
-from bodies.contacts.features.writing import NO_CANDIDATE, write_apart
-from bodies.contacts.surface.edges_near import edges_across
-from bodies.contacts.surface.surface_ball import write_ball
-from bodies.contacts.surface.surface_edges import write_edges
-from bodies.contacts.surface.surface_near import NARROW, patches_near, room_ahead, seen_from
-from bodies.contacts.surface.surface_pairs import MOST_NEAR, features_of_core
-from bodies.contacts.surface.surface_tables import (
+from nonsmooth.compiled import block_at, compiled
+from nonsmooth.engine.memory.blocks import NORMAL
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
+from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.types import Floats
+
+from ...meshes.patches import patches_for_ball, patches_for_body
+from ...shapes.polyhedron import SweptPolytope
+from ...shapes.polytope import Polytope
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.frames import vector_in_body, vector_in_world
+from ..features.polytope_tables import EDGE as CORE_EDGE
+from ..features.polytope_tables import edge_rows, end_table, face_table, star_of
+from ..features.swept_vertex import write_vertex
+from ..features.vertex_face import nearest_feature
+from ..features.writing import NO_CANDIDATE, write_apart
+from ..surface.edges_near import edges_across
+from ..surface.surface_ball import write_ball
+from ..surface.surface_edges import write_edges
+from ..surface.surface_near import NARROW, patches_near, room_ahead, seen_from
+from ..surface.surface_pairs import MOST_NEAR, features_of_core
+from ..surface.surface_tables import (
     CORNER,
     CORNERS,
     EDGE,
@@ -34,15 +44,6 @@ from bodies.contacts.surface.surface_tables import (
     STARS,
     surface_numbers,
 )
-from bodies.meshes.patches import patches_for_ball, patches_for_body
-from bodies.shapes.polyhedron import SweptPolytope
-from bodies.shapes.polytope import Polytope
-from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.compiled import block_at, compiled
-from nonsmooth.engine.memory.blocks import NORMAL
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
-from nonsmooth.parameters import SharedNumbers, Value
-from nonsmooth.types import Floats
 
 
 @compiled

@@ -6,11 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.plane.plane_point import evaluate_ball_over_plane
-from bodies.shapes.capsule import Capsule
-from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
+
+from ...shapes.capsule import Capsule
+from ...shapes.ground import Ground
+from .plane_point import evaluate_ball_over_plane
 
 
 @final

@@ -7,14 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import point_in_world, turned_by, vector_in_body
-from bodies.contacts.plane.plane_point import place_over_plane
-from bodies.shapes.ellipsoid import Ellipsoid
-from bodies.shapes.ground import Ground
 from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
+
+from ...shapes.ellipsoid import Ellipsoid
+from ...shapes.ground import Ground
+from ..features.frames import point_in_world, turned_by, vector_in_body
+from .plane_point import place_over_plane
 
 
 def _evaluate(

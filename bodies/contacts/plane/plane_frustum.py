@@ -6,13 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.plane.plane_rim import evaluate_rim_over_plane
-from bodies.contacts.plane.plane_sphere import PlaneSphere
-from bodies.contacts.plane.plane_vertex import PlaneVertex
-from bodies.shapes.frustum import AXIS, FEET, Frustum, Point
-from bodies.shapes.ground import Ground
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
+
+from ...shapes.frustum import AXIS, FEET, Frustum, Point
+from ...shapes.ground import Ground
+from .plane_rim import evaluate_rim_over_plane
+from .plane_sphere import PlaneSphere
+from .plane_vertex import PlaneVertex
 
 
 @final

@@ -7,11 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.plane.plane_point import evaluate_ball_over_plane
-from bodies.shapes.ground import Ground
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import UnusualValue, parameter
+
+from ...shapes.ground import Ground
+from ...shapes.triangle_mesh import TriangleMesh
+from .plane_point import evaluate_ball_over_plane
 
 MANY = 200
 """Number of corners above which a warning says what they cost."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from bodies.blocks import put
-from bodies.contacts.features.writing import write_flat, write_round
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, ROTATION, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ..features.writing import write_flat, write_round
 
 
 @compiled

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.features.frames import across, point_in_world, vector_in_world
-from bodies.contacts.features.writing import write_principal, write_sweep
-from bodies.contacts.plane.plane_point import place_over_plane
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B, SPIN
 from nonsmooth.types import Floats
+
+from ..features.frames import across, point_in_world, vector_in_world
+from ..features.writing import write_principal, write_sweep
+from .plane_point import place_over_plane
 
 FLATTEST = 1e-9
 """Sine of the angle between rim and plane below which the lowest point is not followed any more."""

@@ -6,17 +6,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import point_in_world
-from bodies.contacts.plane.plane_point import place_over_plane
-from bodies.contacts.smooth.smooth_core import RADIUS, axes_in_world, back, forth
-from bodies.contacts.smooth.smooth_newton import write_surface
-from bodies.shapes.ground import Ground
-from bodies.shapes.smooth import SmoothShape
-from bodies.shapes.support_function import support_of
 from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...shapes.ground import Ground
+from ...shapes.smooth import SmoothShape
+from ...shapes.support_function import support_of
+from ..features.frames import point_in_world
+from ..smooth.smooth_core import RADIUS, axes_in_world, back, forth
+from ..smooth.smooth_newton import write_surface
+from .plane_point import place_over_plane
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) -> None:

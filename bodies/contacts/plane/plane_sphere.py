@@ -6,11 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.plane.plane_point import evaluate_ball_over_plane
-from bodies.shapes.ground import Ground
-from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
+
+from ...shapes.ground import Ground
+from ...shapes.sphere import Sphere
+from .plane_point import evaluate_ball_over_plane
 
 
 @final

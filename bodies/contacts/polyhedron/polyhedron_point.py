@@ -6,19 +6,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world
-from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table, vertex_table
-from bodies.contacts.features.vertex_face import nearest_face
-from bodies.contacts.features.writing import write_flat, write_round
-from bodies.contacts.polyhedron.polyhedron_sphere import PolyhedronSphere
-from bodies.shapes.point import Point
-from bodies.shapes.polyhedron import Polyhedron
-from bodies.shapes.polytope import Polytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...shapes.point import Point
+from ...shapes.polyhedron import Polyhedron
+from ...shapes.polytope import Polytope
+from ..features.frames import point_in_world, tangent_of, vector_in_world
+from ..features.polytope_tables import FACE, Numbers, face_table, vertex_table
+from ..features.vertex_face import nearest_face
+from ..features.writing import write_flat, write_round
+from .polyhedron_sphere import PolyhedronSphere
 
 
 @compiled

@@ -8,20 +8,21 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world
-from bodies.contacts.features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
-from bodies.contacts.features.vertex_face import CLOSED, DEEP, height_over
-from bodies.contacts.features.writing import write_principal
-from bodies.contacts.polyhedron.polyhedron_point import PointPolyhedron, PolyhedronPoint
-from bodies.contacts.polyhedron.swept_swept import MOST_CONTACTS, SweptSwept
-from bodies.contacts.surface.surface_pairs import SurfacePairs, features_of_core
-from bodies.shapes.polyhedron import Polyhedron
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.polyhedron import Polyhedron
+from ..features.frames import point_in_world, tangent_of, vector_in_world
+from ..features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
+from ..features.vertex_face import CLOSED, DEEP, height_over
+from ..features.writing import write_principal
+from ..surface.surface_pairs import SurfacePairs, features_of_core
+from .polyhedron_point import PointPolyhedron, PolyhedronPoint
+from .swept_swept import MOST_CONTACTS, SweptSwept
 
 _ASTRAY = 0.25
 """Sine of the angle by which the normal may leave the normals that an edge has: what may soon close is followed."""

@@ -7,18 +7,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
-from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
-from bodies.contacts.features.swept_vertex import write_swept
-from bodies.contacts.features.vertex_face import nearest_feature
-from bodies.contacts.features.writing import write_round
-from bodies.shapes.polyhedron import Polyhedron
-from bodies.shapes.sphere import Sphere
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.polyhedron import Polyhedron
+from ...shapes.sphere import Sphere
+from ..features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
+from ..features.swept_vertex import write_swept
+from ..features.vertex_face import nearest_feature
+from ..features.writing import write_round
 
 
 def _evaluate(

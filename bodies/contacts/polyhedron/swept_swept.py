@@ -7,19 +7,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world, write_tangent
-from bodies.contacts.features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
-from bodies.contacts.features.swept_vertex import END, SweptVertex, size_of
-from bodies.contacts.features.vertex_face import height_over
-from bodies.contacts.features.writing import write_principal
-from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.polyhedron import SweptPolytope
+from ..features.frames import point_in_world, tangent_of, vector_in_world, write_tangent
+from ..features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
+from ..features.swept_vertex import END, SweptVertex, size_of
+from ..features.vertex_face import height_over
+from ..features.writing import write_principal
 
 MOST_CONTACTS = 4000
 """Two shapes with more potential contacts are refused."""

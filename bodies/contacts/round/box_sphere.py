@@ -8,15 +8,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import point_in_world, turned_by, vector_in_body, vector_in_world
-from bodies.contacts.features.writing import by_side, place_sphere, write_flat, write_principal, write_round
-from bodies.shapes.box import Box
-from bodies.shapes.sphere import Sphere
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
+
+from ...shapes.box import Box
+from ...shapes.sphere import Sphere
+from ..features.frames import point_in_world, turned_by, vector_in_body, vector_in_world
+from ..features.writing import by_side, place_sphere, write_flat, write_principal, write_round
 
 _KINDS = "inside", "face", "edge", "vertex"
 _FEATURES = tuple(

@@ -6,15 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world
-from bodies.contacts.features.writing import by_side, join_cores, write_principal, write_round
-from bodies.shapes.capsule import Capsule
-from bodies.shapes.sphere import Sphere
 from nonsmooth.engine.memory.blocks import FEATURE, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.capsule import Capsule
+from ...shapes.sphere import Sphere
+from ..features.frames import point_in_world, tangent_of, vector_in_world
+from ..features.writing import by_side, join_cores, write_principal, write_round
 
 
 def _evaluate(

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.writing import by_side, join_cores, write_round
-from bodies.shapes.sphere import Sphere
 from nonsmooth.engine.memory.blocks import POINT_A, POINT_B, ROTATION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
+
+from ...shapes.sphere import Sphere
+from ..features.writing import by_side, join_cores, write_round
 
 
 def _evaluate(

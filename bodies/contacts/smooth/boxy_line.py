@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import Vector3
-from bodies.contacts.smooth.boxy_newton import Answer
-from bodies.contacts.smooth.smooth_core import Axes, back, forth
-from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.support_function import support_of
+from .boxy_newton import Answer
+from .smooth_core import Axes, back, forth
 
 _LOOKS = 8
 """Directions of the first look."""

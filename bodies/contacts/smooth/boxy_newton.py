@@ -10,12 +10,13 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.frames import tangent_of
-from bodies.contacts.smooth.smooth_core import RADIUS, Axes, back, bend, forth
-from bodies.shapes.support_function import boxy_gauge_of, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
 from nonsmooth.types import Floats
+
+from ...shapes.support_function import boxy_gauge_of, support_of
+from ..features.frames import tangent_of
+from .smooth_core import RADIUS, Axes, back, bend, forth
 
 _STEPS = 200
 _HALVINGS = 40

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.smooth.boxy_newton import Answer, Place, Point, place_on
-from bodies.contacts.smooth.smooth_core import Axes, back, forth
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from .boxy_newton import Answer, Place, Point, place_on
+from .smooth_core import Axes, back, forth
 
 _STEPS = 100
 _HALVINGS = 30

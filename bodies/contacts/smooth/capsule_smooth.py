@@ -6,11 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.smooth.polytope_smooth import evaluate_polytope_smooth, segment_numbers
-from bodies.shapes.capsule import Capsule
-from bodies.shapes.smooth import SmoothShape
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
+
+from ...shapes.capsule import Capsule
+from ...shapes.smooth import SmoothShape
+from .polytope_smooth import evaluate_polytope_smooth, segment_numbers
 
 
 @final

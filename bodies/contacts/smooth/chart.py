@@ -13,13 +13,14 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.frames import tangent_of
-from bodies.contacts.smooth.boxy_newton import Norm, Point
-from bodies.contacts.smooth.smooth_core import RADIUS, Axes, back, bend
-from bodies.shapes.support_function import support_by
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
 from nonsmooth.types import Floats
+
+from ...shapes.support_function import support_by
+from ..features.frames import tangent_of
+from .boxy_newton import Norm, Point
+from .smooth_core import RADIUS, Axes, back, bend
 
 _FLATTEST = 1e-12
 """Least curvature that is told, in units of one over the size: the engine divides by that of a body on a plane."""

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.smooth.boxy_newton import Answer, Norm, Point
-from bodies.contacts.smooth.chart import Symmetric, chart_of, start_of, turned_matrix
-from bodies.contacts.smooth.smooth_core import Axes, back, forth
 from nonsmooth.compiled import compiled
+
+from .boxy_newton import Answer, Norm, Point
+from .chart import Symmetric, chart_of, start_of, turned_matrix
+from .smooth_core import Axes, back, forth
 
 _STEPS = 40
 _HALVINGS = 10

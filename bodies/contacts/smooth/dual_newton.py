@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import Vector3
-from bodies.contacts.features.frames import tangent_of
-from bodies.contacts.smooth.smooth_core import Axes, back, bend, forth
-from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.support_function import support_of
+from ..features.frames import tangent_of
+from .smooth_core import Axes, back, bend, forth
 
 _STEPS = 100
 _HALVINGS = 40

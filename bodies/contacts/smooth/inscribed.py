@@ -10,11 +10,12 @@ radius d: from its gradient G at the point on, a ball of the radius G / L stays 
 
 from __future__ import annotations
 
-from bodies.contacts.smooth.dual_newton import climb
-from bodies.contacts.smooth.smooth_core import Axes, back
-from bodies.shapes.support_function import OF_FUNCTION, gauge_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...shapes.support_function import OF_FUNCTION, gauge_of
+from .dual_newton import climb
+from .smooth_core import Axes, back
 
 
 @compiled

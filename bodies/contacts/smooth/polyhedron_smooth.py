@@ -6,11 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.smooth.polytope_smooth import evaluate_polytope_smooth, polyhedron_numbers
-from bodies.shapes.polyhedron import Polyhedron
-from bodies.shapes.smooth import SmoothShape
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
+
+from ...shapes.polyhedron import Polyhedron
+from ...shapes.smooth import SmoothShape
+from .polytope_smooth import evaluate_polytope_smooth, polyhedron_numbers
 
 
 @final

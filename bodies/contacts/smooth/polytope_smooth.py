@@ -13,18 +13,19 @@ import math
 from collections.abc import Sequence
 from typing import TypeAlias
 
-from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
-from bodies.contacts.features.writing import write_flat, write_principal, write_round
-from bodies.contacts.smooth.boxy_newton import Answer
-from bodies.contacts.smooth.inscribed import gauge
-from bodies.contacts.smooth.round_search import along_segment, up_hills
-from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
-from bodies.contacts.smooth.smooth_newton import widest_from, write_surface
-from bodies.shapes.polytope import Polytope
-from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
+
+from ...shapes.polytope import Polytope
+from ...shapes.support_function import is_round, support_of
+from ..features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
+from ..features.writing import write_flat, write_principal, write_round
+from .boxy_newton import Answer
+from .inscribed import gauge
+from .round_search import along_segment, up_hills
+from .smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
+from .smooth_newton import widest_from, write_surface
 
 Numbers = tuple[float, ...]
 

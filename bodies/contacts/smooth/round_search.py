@@ -12,15 +12,16 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.blocks import Vector3
-from bodies.contacts.smooth.boxy_newton import Answer, Point
-from bodies.contacts.smooth.inscribed import gauge
-from bodies.contacts.smooth.smooth_core import Axes, back, bend, forth
-from bodies.contacts.smooth.smooth_newton import widest_of_round
-from bodies.contacts.smooth.smooth_starts import Start, gap_along, settle, starts_of, uphill
-from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.support_function import support_of
+from .boxy_newton import Answer, Point
+from .inscribed import gauge
+from .smooth_core import Axes, back, bend, forth
+from .smooth_newton import widest_of_round
+from .smooth_starts import Start, gap_along, settle, starts_of, uphill
 
 _FIRST = 1e-3
 """First step round the circle; the others are twice as long [rad]."""

@@ -8,10 +8,11 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.shapes.support_function import Support, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import NORMAL, ROTATION, TANGENT
 from nonsmooth.types import Floats
+
+from ...shapes.support_function import Support, support_of
 
 Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
 """A rotation, row by row."""

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import Vector3
-from bodies.contacts.smooth.boxy_line import across_line
-from bodies.contacts.smooth.boxy_newton import Answer, Point, climb_boxy, write_boxy
-from bodies.contacts.smooth.boxy_pair import meet
-from bodies.contacts.smooth.chart import write_chart
-from bodies.contacts.smooth.chart_newton import meet_in_charts
-from bodies.contacts.smooth.dual_newton import climb
-from bodies.contacts.smooth.inscribed import gauge, no_shorter_way
-from bodies.contacts.smooth.smooth_core import Axes, back, forth, write_core
-from bodies.contacts.smooth.smooth_starts import gap_along, settle, starts_of, uphill
-from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ...shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
+from .boxy_line import across_line
+from .boxy_newton import Answer, Point, climb_boxy, write_boxy
+from .boxy_pair import meet
+from .chart import write_chart
+from .chart_newton import meet_in_charts
+from .dual_newton import climb
+from .inscribed import gauge, no_shorter_way
+from .smooth_core import Axes, back, forth, write_core
+from .smooth_starts import gap_along, settle, starts_of, uphill
 
 _DEEP = 1e-2
 """Overlap, in units of the least semi-axis, that is no doubt the shortest way out."""

@@ -6,17 +6,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, write_tangent
-from bodies.contacts.smooth.smooth_core import RADIUS, back, between_axes, forth, unit_axes_in_world
-from bodies.contacts.smooth.smooth_newton import widest, write_surface
-from bodies.shapes.smooth import SmoothShape
-from bodies.shapes.support_function import OF_FUNCTION
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ...shapes.smooth import SmoothShape
+from ...shapes.support_function import OF_FUNCTION
+from ..features.frames import point_in_world, write_tangent
+from .smooth_core import RADIUS, back, between_axes, forth, unit_axes_in_world
+from .smooth_newton import widest, write_surface
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:

@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.frames import tangent_of
-from bodies.contacts.smooth.smooth_core import Axes, back, forth
-from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...shapes.support_function import support_of
+from ..features.frames import tangent_of
+from .smooth_core import Axes, back, forth
 
 _LONGEST, _MOVES = 0.2, 100
 """First step uphill [rad], and the most steps."""

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import Vector3
-from bodies.contacts.features.frames import vector_in_body, vector_in_world
-from bodies.contacts.surface.surface_edges import edge_astray
-from bodies.contacts.surface.surface_near import is_node_near, seen_from
-from bodies.contacts.surface.surface_tables import EDGE, EDGES, MEMBERS, N_EDGES, N_NODES, N_TRIANGLES, NODE, NODES
-from bodies.contacts.surface.surface_vertex import ASTRAY
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from ..features.frames import vector_in_body, vector_in_world
+from .surface_edges import edge_astray
+from .surface_near import is_node_near, seen_from
+from .surface_tables import EDGE, EDGES, MEMBERS, N_EDGES, N_NODES, N_TRIANGLES, NODE, NODES
+from .surface_vertex import ASTRAY
 
 _ALONG = 1e-3
 """Sine of the angle between edges below which nothing is said of their normals."""

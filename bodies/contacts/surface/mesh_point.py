@@ -6,20 +6,21 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.frames import point_in_world, vector_in_world, write_tangent
-from bodies.contacts.features.writing import gap_at_distance, write_flat, write_round
-from bodies.contacts.surface.surface_search import FAR
-from bodies.contacts.surface.surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
-from bodies.contacts.surface.surface_vertex import face_under
-from bodies.meshes.features import Features
-from bodies.meshes.patches import patches_for_ball
-from bodies.shapes.point import Point
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
+
+from ...meshes.features import Features
+from ...meshes.patches import patches_for_ball
+from ...shapes.point import Point
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.frames import point_in_world, vector_in_world, write_tangent
+from ..features.writing import gap_at_distance, write_flat, write_round
+from .surface_search import FAR
+from .surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
+from .surface_vertex import face_under
 
 Corner = tuple[tuple[float, float, float], Numbers, str]
 """Place of a vertex, unit vectors along its edges, one after the other, and what it is called."""

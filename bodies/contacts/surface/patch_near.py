@@ -7,16 +7,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self
 
-from bodies.contacts.features.frames import point_in_world, vector_in_body
-from bodies.contacts.features.writing import NO_CANDIDATE
-from bodies.contacts.surface.surface_near import patches_near
-from bodies.contacts.surface.surface_tables import N_PATCHES, surface_numbers
-from bodies.meshes.features import Features
-from bodies.meshes.patches import Patches
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
+
+from ...meshes.features import Features
+from ...meshes.patches import Patches
+from ..features.frames import point_in_world, vector_in_body
+from ..features.writing import NO_CANDIDATE
+from .surface_near import patches_near
+from .surface_tables import N_PATCHES, surface_numbers
 
 MOST_EACH = 8
 """Patches up to which each of them is a contact of its own."""

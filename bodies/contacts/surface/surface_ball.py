@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.swept_vertex import END, NEAR, past_star
-from bodies.contacts.features.writing import place_sphere, write_flat, write_principal, write_round
-from bodies.contacts.surface.surface_search import ON_EDGE, ON_FACE, Found, nearest_in_patch
-from bodies.contacts.surface.surface_tables import EDGE, EDGES, FACE, FACES, N_EDGES, N_FACES, N_PATCHES
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, PAST_END, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.swept_vertex import END, NEAR, past_star
+from ..features.writing import place_sphere, write_flat, write_principal, write_round
+from .surface_search import ON_EDGE, ON_FACE, Found, nearest_in_patch
+from .surface_tables import EDGE, EDGES, FACE, FACES, N_EDGES, N_FACES, N_PATCHES
 
 
 @compiled

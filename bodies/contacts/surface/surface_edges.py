@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 
-from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
-from bodies.contacts.features.vertex_face import DEEP, REACH
-from bodies.contacts.features.writing import write_principal
-from bodies.contacts.surface.surface_search import depth_inside
-from bodies.contacts.surface.surface_vertex import ASTRAY
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
+
+from ...blocks import put
+from ..features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
+from ..features.vertex_face import DEEP, REACH
+from ..features.writing import write_principal
+from .surface_search import depth_inside
+from .surface_vertex import ASTRAY
 
 _PARALLEL = 0.01
 """Sine of the angle between two edges below which they do not cross; then the vertices hold all the same."""

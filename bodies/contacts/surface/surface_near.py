@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.features.frames import point_in_world, vector_in_body
-from bodies.contacts.surface.surface_search import Point, box_square, in_triangle
-from bodies.contacts.surface.surface_tables import (
+from nonsmooth.compiled import block_at, compiled
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.types import Floats
+
+from ..features.frames import point_in_world, vector_in_body
+from .surface_search import Point, box_square, in_triangle
+from .surface_tables import (
     CORNER,
     CORNERS,
     EDGE,
@@ -23,10 +27,7 @@ from bodies.contacts.surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from bodies.contacts.surface.surface_vertex import ASTRAY, leaning
-from nonsmooth.compiled import block_at, compiled
-from nonsmooth.engine.memory.blocks import POSITION
-from nonsmooth.types import Floats
+from .surface_vertex import ASTRAY, leaning
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
 """A corner of the second body over a patch of the first, the other way round, and two edges: the first of the three

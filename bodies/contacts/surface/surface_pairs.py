@@ -8,19 +8,20 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from bodies.contacts.features.writing import NO_CANDIDATE, write_apart
-from bodies.contacts.surface.edges_near import edges_near
-from bodies.contacts.surface.mesh_point import write_over_first, write_over_second
-from bodies.contacts.surface.surface_edges import write_edges
-from bodies.contacts.surface.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near
-from bodies.contacts.surface.surface_tables import CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
-from bodies.meshes.features import Features, features_of
-from bodies.meshes.patches import patches_for_ball
-from bodies.shapes.polytope import Polytope
-from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
+
+from ...meshes.features import Features, features_of
+from ...meshes.patches import patches_for_ball
+from ...shapes.polytope import Polytope
+from ...shapes.triangle_mesh import TriangleMesh
+from ..features.writing import NO_CANDIDATE, write_apart
+from .edges_near import edges_near
+from .mesh_point import write_over_first, write_over_second
+from .surface_edges import write_edges
+from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near
+from .surface_tables import CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
 
 MOST_NEAR = 256
 """Pairs of features of two bodies that may be near each other at once."""

@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.vertex_face import REACH
-from bodies.contacts.surface.surface_tables import (
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+from ..features.vertex_face import REACH
+from .surface_tables import (
     BITS,
     CORNER,
     CORNERS,
@@ -26,8 +29,6 @@ from bodies.contacts.surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
 FAR = 1e150
 """A reach without end [m]."""

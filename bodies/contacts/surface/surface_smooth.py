@@ -10,13 +10,18 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
-from bodies.contacts.features.vertex_face import REACH
-from bodies.contacts.smooth.boxy_line import across_line
-from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
-from bodies.contacts.smooth.smooth_newton import widest_from, write_surface
-from bodies.contacts.surface.surface_ball import write_feature
-from bodies.contacts.surface.surface_search import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.types import Floats
+
+from ...shapes.support_function import OF_FUNCTION, is_round, support_of
+from ..features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.vertex_face import REACH
+from ..smooth.boxy_line import across_line
+from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
+from ..smooth.smooth_newton import widest_from, write_surface
+from .surface_ball import write_feature
+from .surface_search import (
     ON_CORNER,
     ON_EDGE,
     ON_FACE,
@@ -30,7 +35,7 @@ from bodies.contacts.surface.surface_search import (
     over_ends,
     past_edge,
 )
-from bodies.contacts.surface.surface_tables import (
+from .surface_tables import (
     CORNER,
     CORNERS,
     EDGE,
@@ -49,10 +54,6 @@ from bodies.contacts.surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from bodies.shapes.support_function import OF_FUNCTION, is_round, support_of
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
-from nonsmooth.types import Floats
 
 _SAME = 1e-15
 """Difference of distances that is round-off, in units of the size."""

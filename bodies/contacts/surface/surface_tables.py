@@ -9,11 +9,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from bodies.meshes.features import Features
-from bodies.meshes.patches import Patches
-from bodies.meshes.topology import Integers, neighbours
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import SharedNumbers
+
+from ...meshes.features import Features
+from ...meshes.patches import Patches
+from ...meshes.topology import Integers, neighbours
 
 Numbers = tuple[float, ...]
 

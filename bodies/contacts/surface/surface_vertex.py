@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.vertex_face import DEEP, REACH
-from bodies.contacts.surface.surface_search import (
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.types import Floats
+
+from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.vertex_face import DEEP, REACH
+from .surface_search import (
     box_square,
     depth_inside,
     face_height,
@@ -15,7 +19,7 @@ from bodies.contacts.surface.surface_search import (
     in_triangle,
     over_ends,
 )
-from bodies.contacts.surface.surface_tables import (
+from .surface_tables import (
     FACE,
     FACES,
     MEMBERS,
@@ -27,9 +31,6 @@ from bodies.contacts.surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION
-from nonsmooth.types import Floats
 
 ASTRAY = 0.25
 """Sine of the angle by which edges may point into a face from the vertex above it: what may soon touch is followed."""

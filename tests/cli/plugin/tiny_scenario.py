@@ -9,11 +9,11 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 
-from bodies import Ball, Harmonic, Plate
-from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import Solution, System
+from nonsmooth.bodies import Ball, Harmonic, Plate
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, FrictionLaw, RigidNormalLaw, Run, Scenario
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.parameters import parameter
 
 NUMBER = 1.0

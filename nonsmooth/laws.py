@@ -1,0 +1,10 @@
+"""The package ``laws`` that comes with nonsmooth, whatever else has that name (:mod:`nonsmooth.two_names`)."""
+
+from typing import TYPE_CHECKING
+
+from nonsmooth.two_names import load_from_folder
+
+if TYPE_CHECKING:
+    from laws import *
+else:
+    load_from_folder(__name__)

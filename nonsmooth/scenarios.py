@@ -1,0 +1,5 @@
+"""The package ``scenarios`` that comes with nonsmooth, whatever else has that name (:mod:`nonsmooth.two_names`)."""
+
+from nonsmooth.two_names import load_from_folder
+
+load_from_folder(__name__)
