@@ -54,9 +54,9 @@ def test_parameters_of_bodies_and_laws(call: Call, name: str, parameter: str, ro
 @pytest.mark.parametrize(
     ("word", "name", "line"),
     [
-        ("BoxBody", "box: body of", "from bodies import BoxBody"),
-        ("box_body", "box: body of", "from bodies import BoxBody"),
-        ("Hinge", "hinge: joint of", "from bodies import Hinge"),
+        ("BoxBody", "box: body of", "from nonsmooth.bodies import BoxBody"),
+        ("box_body", "box: body of", "from nonsmooth.bodies import BoxBody"),
+        ("Hinge", "hinge: joint of", "from nonsmooth.bodies import Hinge"),
         ("EnergeticImpact", "energetic: law of", "from laws import EnergeticImpact"),
     ],
 )

@@ -46,7 +46,7 @@ def test_laws_of_speed() -> None:
 def test_no_installed_law_is_left_out() -> None:
     """Whatever is installed has one or is looked at here."""
     known = {*OF_ONE, PlasticImpact, JohnsonImpact, ViscoelasticImpact}
-    own = {law for law in registry.load_all("laws").values() if law.__module__.startswith("laws.")}
+    own = {law for law in registry.load_all("laws").values() if law.__module__.startswith("nonsmooth.laws.")}
     assert {law for law in own if issubclass(law, ImpactLaw)} == known
 
 
