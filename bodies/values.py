@@ -82,7 +82,7 @@ def read_start(name: str, words: Mapping[str, Word], start: Mapping[str, Any]) -
     """
     for word in start:
         if word not in words:
-            raise UnknownName(f"word of the start of {name}", word, words)
+            raise UnknownName(f"start of {name}: keyword", word, words)
     given = {word: start.get(word, default) for word, (_, default, _) in words.items()}
     return {
         word: unit_quaternion(f"{word} of {name}", given[word])

@@ -32,6 +32,22 @@ class InvalidInput(NonsmoothError, ValueError):
         super().__init__(f"{thing} {rule}, but it is {_shortened(repr(value))}. {remedy}")
 
 
+class MissingArgument(InvalidInput):
+    """An argument of a component that has no default and was not given.
+
+    Parameters
+    ----------
+    thing : str
+        The argument ("Coulomb.friction").
+    remedy : str
+        How to give it, and what it is.
+    """
+
+    def __init__(self, thing: str, remedy: str) -> None:
+        super().__init__(thing, "must be given", None, remedy)
+        self.args = (f"{thing} must be given. {remedy}",)
+
+
 def _listed(names: Sequence[str]) -> str:
     """Names of a message, as many as fit; the others are counted."""
     fit = next((n for n in range(len(names), 1, -1) if len(", ".join(names[:n])) <= _LONGEST), 1)
@@ -63,13 +79,41 @@ class UnknownName(InvalidInput):
 
     def __init__(self, kind: str, name: str, known: Iterable[str], other: str = "", remedy: str = "") -> None:
         known = sorted(set(known))
-        # imported for a message only: most programs never need it
-        from difflib import get_close_matches
-
-        near = get_close_matches(name, known, n=1, cutoff=0.5)
-        hint = f"That is {other}. " if other else f"Did you mean {near[0]!r}? " if near else ""
+        letter = _LETTERS.get(name, "")
+        near = _nearest(name, known)
+        if other:
+            hint = f"That is {other}. "
+        elif letter in known:
+            hint = f"It is called {letter!r}. "
+        else:
+            hint = f"Did you mean {near!r}? " if near else ""
         listing = _listed(known) if known else "none"
         super().__init__(kind, "must be a known one", name, f"{hint}Known: {listing}. {remedy}".rstrip())
+        place, mark, what = kind.rpartition(": ")
+        unknown = f"{place}{mark}unknown {what}" if place else f"Unknown {what}"
+        self.args = (f"{unknown} {_shortened(repr(name))}. {self.remedy}",)
+
+
+_LETTERS = {
+    "c": "damping",
+    "e": "restitution",
+    "k": "stiffness",
+    "m": "mass",
+    "mu": "friction",
+    "r": "radius",
+    "rho": "density",
+}
+"""Names of what publications write as letters."""
+
+
+def _nearest(name: str, known: Sequence[str]) -> str:
+    """Known name that is most like another one, whatever the case of its letters; "" if none is."""
+    # imported for a message only: most programs never need it
+    from difflib import get_close_matches
+
+    lower = {one.lower(): one for one in known}
+    found = get_close_matches(name.lower(), lower, n=1, cutoff=0.6)
+    return lower[found[0]] if found else ""
 
 
 class PluginError(NonsmoothError):

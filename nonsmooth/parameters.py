@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import warnings
+from abc import ABCMeta
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -13,7 +13,8 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
+from nonsmooth.errors import InvalidInput, MissingArgument, NonsmoothWarning, UnknownName
+from nonsmooth.notices import warn
 
 
 class UnusualValue(NonsmoothWarning):
@@ -97,7 +98,7 @@ def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
     """Error of a function that asks for what is no parameter; most often that is a field not declared so."""
     declared = f'{name}: float = parameter(0.2, doc="what it is")'
     remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
-    return UnknownName(f"{asking} asks for a parameter that", name, offered, remedy=remedy)
+    return UnknownName(f"{asking}: parameter", name, offered, remedy=remedy)
 
 
 def check_number(thing: str, value: Any, rule: Rule) -> None:
@@ -110,11 +111,10 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
         raise InvalidInput(thing, "must be an integer", value, f"It is the {rule.doc}.")
     low, high = rule.usual
     if value != 0.0 and not low <= abs(value) <= high:
-        warnings.warn(
+        warn(
             f"{thing} = {value:g} [{rule.unit}] is outside the usual range {low:g} to {high:g}. "
             "Units are SI: is the order of magnitude meant?",
             UnusualValue,
-            stacklevel=4,
         )
 
 
@@ -150,7 +150,35 @@ Value: TypeAlias = float | tuple[float, ...] | SharedNumbers
 """A parameter of a compiled function."""
 
 
-class Component:
+class _Checked(ABCMeta):
+    """Class of components: an argument that is missing or unknown gets an error that names it, as a wrong value does."""
+
+    def __call__(cls, *given: Any, **named: Any) -> Any:
+        try:
+            return super().__call__(*given, **named)
+        except TypeError:
+            _check_arguments(cls, given, named)
+            raise
+
+
+def _check_arguments(owner: type, given: Sequence[Any], named: Mapping[str, Any]) -> None:
+    """Raise UnknownName or InvalidInput if the constructor of a dataclass has no such argument, or one is missing."""
+    if not dataclasses.is_dataclass(owner):
+        return
+    fields = {field.name: field for field in dataclasses.fields(owner) if field.init}
+    for name in named:
+        if name not in fields:
+            raise UnknownName(f"parameter of {owner.__name__}", name, fields)
+    known = rules(owner)
+    for name, field in list(fields.items())[len(given) :]:
+        is_required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+        if is_required and name not in named:
+            unit = f" [{known[name][1].unit}]" if name in known else ""
+            doc = f" It is the {known[name][1].doc}{unit}." if name in known else ""
+            raise MissingArgument(f"{owner.__name__}.{name}", f"Write {owner.__name__}({name}=...).{doc}")
+
+
+class Component(metaclass=_Checked):
     """Base of everything that has parameters: checks them when it is made.
 
     ``departures`` names properties of the conformance kit (:mod:`nonsmooth.testing`) that a class is known not to have,

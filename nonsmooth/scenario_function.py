@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-from abc import ABCMeta
 from collections.abc import Callable, Mapping
+from types import new_class
 from typing import Any
 
 from nonsmooth.errors import InvalidInput
@@ -91,7 +91,7 @@ def _class_of(function: Callable[..., System], members: Mapping[str, Any], field
     namespace["__annotations__"] = {name: annotation for name, (annotation, _) in fields.items()}
     # inspect.getsource finds the text of the function, by which a study knows what it ran
     namespace["__wrapped__"] = staticmethod(function)
-    made: Any = ABCMeta(function.__name__, (Scenario,), namespace)
+    made: Any = new_class(function.__name__, (Scenario,), exec_body=lambda content: content.update(namespace))
     made = dataclasses.dataclass(frozen=True)(made)
     # else help() shows the function's own, in which the defaults are fields
     made.__signature__ = inspect.Signature([*inspect.signature(made.__init__).parameters.values()][1:])

@@ -32,18 +32,37 @@ def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[fl
     return numbers
 
 
-def unit_vector(thing: str, value: Sequence[float], size: int = 3) -> tuple[float, ...]:
-    """Vector of unit length.
+def unit_vector(thing: str, value: Sequence[float]) -> tuple[float, ...]:
+    """Direction of a vector: the vector divided by its length.
 
     Raises
     ------
     InvalidInput
-        Unless it has ``size`` finite components and unit length.
+        If it has another number of components than three, one that is not finite, or no length.
     """
-    numbers = vector(thing, value, size, "1")
+    numbers = vector(thing, value, 3, "1")
+    norm = math.sqrt(sum(x * x for x in numbers))
+    if norm == 0.0:
+        raise InvalidInput(thing, "must have a direction", list(numbers), "Give a vector that is not zero.")
+    return _divided(numbers, norm)
+
+
+def unit_quaternion(thing: str, value: Sequence[float]) -> tuple[float, ...]:
+    """Unit quaternion, scalar first. Another length is refused: most often its components are in another order.
+
+    Raises
+    ------
+    InvalidInput
+        Unless it has four finite components and unit length.
+    """
+    numbers = vector(thing, value, 4, "1")
     norm = math.sqrt(sum(x * x for x in numbers))
     if abs(norm - 1.0) > _UNIT:
         raise InvalidInput(thing, "must have unit length", list(numbers), f"Divide it by its length {norm:.6g}.")
+    return _divided(numbers, norm)
+
+
+def _divided(numbers: tuple[float, ...], norm: float) -> tuple[float, ...]:
     # one that was normalised before stays the same to the last bit
     return numbers if abs(norm - 1.0) <= _ROUND_OFF else tuple(x / norm for x in numbers)
 

@@ -203,7 +203,7 @@ def check_signatures(name: str, parts: Sequence[UserFunction], known: Mapping[st
             )
         for own in own_names(function, role):
             if own not in known:
-                raise UnknownName(f"{name}.{part}: {function.__qualname__} asks for a constant that", own, known)
+                raise UnknownName(f"{name}.{part}: {function.__qualname__}: constant", own, known)
 
 
 def _form(role: str) -> str:

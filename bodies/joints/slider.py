@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.vectors import perpendiculars, unit_vector
+from nonsmooth.vectors import perpendiculars, unit_quaternion, unit_vector
 
 from ..values import turned_back
 from .rows import JointRow, Point, RowsJoint, on_planes, parallel_axes
@@ -36,7 +36,7 @@ class Slider(RowsJoint):
         """All rotations and two translations."""
         axis = unit_vector("Slider.axis", self.axis)
         sides = perpendiculars(axis)
-        quaternion = unit_vector("Slider.orientation", self.orientation, 4)
+        quaternion = unit_quaternion("Slider.orientation", self.orientation)
         axes = (axis, *sides)
         turns = parallel_axes(axes, [turned_back(quaternion, one) for one in axes])
         return *turns, *on_planes(self.first, self.second, sides)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.notices import warn
 from nonsmooth.parameters import UnusualValue
 
 from .integrals import volume_of, winding_number
@@ -56,12 +55,11 @@ def _check_crossings(thing: str, vertices: Vector, faces: Integers) -> None:
     try:
         crossings = count_crossings(vertices, faces)
     except TooManyPairs as many:
-        warnings.warn(
+        warn(
             f"{thing} was not looked at for passing through itself: of {len(faces)} triangles {many.args[0]} pairs are "
             f"near each other, more than {MOST_PAIRS}. What overlaps would count twice. Simplify the mesh, or remesh "
             "it without long thin triangles.",
             UnusualValue,
-            stacklevel=2,
         )
         return
     if crossings:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import struct
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.notices import warn
 from nonsmooth.parameters import UnusualValue
 
 LARGEST = 1_000_000
@@ -36,10 +36,9 @@ def check_count(thing: str, count: int, largest: int = LARGEST) -> None:
             f"{remedy} Or raise the bound with largest={count}: loading and checks take minutes.",
         )
     if count > MANY:
-        warnings.warn(
+        warn(
             f"{thing} has {count} triangles: loading and checks take {count / 5e4:.0f} s or more. {remedy}",
             UnusualValue,
-            stacklevel=2,
         )
 
 

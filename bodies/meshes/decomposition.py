@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
-import warnings
 import zipfile
 import zlib
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.notices import warn
 from nonsmooth.parameters import Component, UnusualValue, parameter
 from nonsmooth.user_cache import user_cache
 
@@ -108,12 +108,11 @@ def _hull_volume(points: Vector) -> float:
 def _check_volume(mesh: Mesh, volume: float, count: int) -> None:
     """Warn if the pieces together have another volume than the body."""
     if abs(volume / mesh.volume - 1.0) > _FAR_OFF:
-        warnings.warn(
+        warn(
             f"mesh {mesh.name}: its {count} convex pieces have {volume / mesh.volume:.3f} of its volume, so that it "
             "touches where there is nothing, or does not where there is something. Give more pieces, more voxels or a "
             "smaller error in Decomposition(...). Mass and inertia are those of the mesh in any case.",
             UnusualValue,
-            stacklevel=2,
         )
 
 

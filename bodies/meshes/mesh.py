@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import hashlib
-import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.notices import warn
 from nonsmooth.parameters import UnusualValue
 
 from . import convexity
@@ -157,11 +157,10 @@ def warn_of_size(thing: str, extent: float, unit: str) -> None:
         return
     others = [name for name, length in METRES.items() if SMALLEST <= extent / METRES[unit] * length <= LARGEST]
     better = " or ".join(repr(name) for name in others if name in ("m", "mm", "inch")) or "another one"
-    warnings.warn(
+    warn(
         f"{thing}: the largest extent is {extent:.4g} m, outside of the usual {SMALLEST:g} to {LARGEST:g} m, with its "
         f"numbers read as {unit!r}. Is the unit right? With {better} the body would be of usual size.",
         UnusualValue,
-        stacklevel=2,
     )
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterable
 
 import numpy as np
 
 from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.notices import warn
 
 from .checks import flat_triangles
 from .integrals import areas_of, volume_of
@@ -47,7 +47,7 @@ def repaired(thing: str, vertices: Vector, faces: Integers, words: Iterable[str]
         if told:
             after = _volume(vertices, faces)
             lines.append(f"{word}: {told}; volume {before:.6g} -> {after:.6g} m^3")
-            warnings.warn(f"{thing} was repaired: {lines[-1]}", MeshRepaired, stacklevel=3)
+            warn(f"{thing} was repaired: {lines[-1]}", MeshRepaired)
     return vertices, faces, lines
 
 

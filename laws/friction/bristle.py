@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
@@ -11,6 +10,7 @@ from typing import final
 from nonsmooth.certificates import follows_traction
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import TractionLaw
+from nonsmooth.notices import warn
 from nonsmooth.parameters import UnusualValue, parameter
 
 
@@ -76,11 +76,10 @@ class Bristle(TractionLaw):
         least = self.damping * (self.static_friction - self.friction) / self.friction
         if self.viscosity < least:
             speed = self.static_friction**2 / (self.friction * (least - self.viscosity))
-            warnings.warn(
+            warn(
                 f"Bristle.viscosity = {self.viscosity:g} [s/m] is less than damping (mu_s - mu) / mu = {least:g}: "
                 f"in slip faster than {speed:g} m/s bent bristles give more energy than they stored.",
                 UnusualValue,
-                stacklevel=4,
             )
 
     @property

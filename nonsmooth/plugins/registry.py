@@ -10,7 +10,6 @@ import inspect
 import site
 import sys
 import sysconfig
-import warnings
 from collections.abc import Iterable
 from importlib.metadata import Distribution, EntryPoint, entry_points
 from pathlib import Path
@@ -32,6 +31,7 @@ from nonsmooth.interfaces import (
     Shape,
     TangentialLaw,
 )
+from nonsmooth.notices import warn
 
 _GROUPS: dict[str, tuple[str, tuple[type, ...]]] = {
     "bodies": ("body", (Body,)),
@@ -66,11 +66,10 @@ def _points(group: str) -> dict[str, EntryPoint]:
     for point in sorted(points, key=lambda p: (not _is_ours(p), p.name, p.value)):
         first = found.setdefault(point.name, point)
         if (first.value, _distribution(first)) != (point.value, _distribution(point)):
-            warnings.warn(
+            warn(
                 f"{KINDS[group]} {point.name!r} is claimed by {_origin(first)} and by {_origin(point)}; "
                 "the first is used: rename the other, or uninstall one of the two.",
                 BrokenPlugin,
-                stacklevel=3,
             )
     return dict(sorted(found.items()))
 
@@ -152,8 +151,9 @@ def check_groups() -> None:
             origins = ", ".join(sorted(_origin(point) for point in entry_points(group=group)))
             near = difflib.get_close_matches(group, known, n=1)
             hint = f"Did you mean {near[0]!r}?" if near else f"Known: {', '.join(known)}."
-            warnings.warn(
-                f"The entry-point group {group!r} of {origins} is unknown. {hint}", BrokenPlugin, stacklevel=2
+            warn(
+                f"The entry-point group {group!r} of {origins} is unknown. {hint}",
+                BrokenPlugin,
             )
 
 
@@ -282,5 +282,5 @@ def load_all(group: str, some: Iterable[str] | None = None) -> dict[str, Any]:
         try:
             loaded[name] = load(group, name)
         except PluginError as error:
-            warnings.warn(str(error), BrokenPlugin, stacklevel=2)
+            warn(str(error), BrokenPlugin)
     return loaded

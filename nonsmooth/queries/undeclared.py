@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import itertools
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
@@ -15,6 +14,7 @@ import numpy as np
 from nonsmooth.errors import InvalidInput, NoDistance, NonsmoothWarning
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
+from nonsmooth.notices import warn
 from nonsmooth.queries.distance import BodyPair
 from nonsmooth.queries.near import Ties, near_bodies, size_of, touching
 from nonsmooth.solids.placed import Placed, overlap
@@ -87,11 +87,10 @@ class Undeclared:
             return
         named = [f"{names[i]!r} through {names[j]!r}" for i, j in dict(reversed(met)).items()][::-1]
         more = f", and {len(named) - _NAMED} more bodies" if len(named) > _NAMED else ""
-        warnings.warn(
+        warn(
             f"Bodies without any contact pass through others: {', '.join(named[:_NAMED])}{more}. Declare a contact by "
             "system.contact(...), or say by system.exclude(first, second) that they do not touch.",
             UndeclaredContact,
-            stacklevel=4,
         )
 
     def near(self, places: Places) -> list[tuple[int, int]]:
@@ -108,7 +107,7 @@ class Undeclared:
             for i, j in self.near(places)
             if (depth := _overlap(bodies[i], places[i], bodies[j], places[j])) > 0.0
         ]
-        self._warn(found, "overlap at the start, and will pass through each other", 4)
+        self._warn(found, "overlap at the start, and will pass through each other")
 
     def warn_of_end(self, before: Places, after: Places) -> None:
         """Warn of bodies that overlap where a run ended and did not where it began, planes included."""
@@ -117,7 +116,7 @@ class Undeclared:
             for i, j in self.near(after)
             if (gap := self._gap(i, j, after)) < 0.0 and self._gap(i, j, before) >= 0.0
         ]
-        self._warn(found, "overlap where the run ended, having passed into each other", 5)
+        self._warn(found, "overlap where the run ended, having passed into each other")
 
     def _gap(self, i: int, j: int, places: Places) -> float:
         """Gap of two bodies [m], 0 where they touch."""
@@ -130,18 +129,17 @@ class Undeclared:
             return 0.0
         return gap if abs(gap) > touching(min(sizes, default=0.0)) else 0.0
 
-    def _warn(self, found: list[tuple[int, int, float]], what: str, level: int) -> None:
+    def _warn(self, found: list[tuple[int, int, float]], what: str) -> None:
         if not found:
             return
         names = self.system.names.bodies
         named = [f"{names[i]!r} and {names[j]!r} by at least {depth:.2g} m" for i, j, depth in found[:_NAMED]]
         more = [f"and {len(found) - _NAMED} more pairs"] if len(found) > _NAMED else []
-        warnings.warn(
+        warn(
             f"Bodies without a contact {what}: {'; '.join(named + more)}. Declare their contact by "
             "system.contact(...), or say by system.exclude(first, second) that they do not touch. "
             "nonsmooth.proximity(system) lists the pairs that are near each other at the start.",
             UndeclaredOverlap,
-            stacklevel=level,
         )
 
 

@@ -5,10 +5,10 @@ A module apart from :mod:`nonsmooth.runs.simulate`: reading a folder of results 
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 from nonsmooth.interfaces import Engine
+from nonsmooth.notices import warn
 from nonsmooth.results.opening import stored_engine, stored_setup
 from nonsmooth.results.output import OtherVersions, Output, versions
 from nonsmooth.results.solution_folder import SolutionFolder
@@ -80,5 +80,5 @@ def check_resumable(where: Output) -> SolutionFolder:
     if other:
         text = f"{where.folder}: the run began with {'; '.join(other)}. Its last bits may differ from there on."
         # the warning names the line that called the caller of this function
-        warnings.warn(text, OtherVersions, stacklevel=3)
+        warn(text, OtherVersions)
     return folder

@@ -7,7 +7,6 @@ the steps, and the last events, name the option or the contact that makes the st
 
 from __future__ import annotations
 
-import warnings
 from collections import Counter, deque
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -22,6 +21,7 @@ from nonsmooth.engine.memory.modes import CAUSES, LIMITS, Cause, Limit, Status
 from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.notices import warn
 
 _SHORT_STEP = 1e-10
 """Length of a step relative to the run, below which time hardly passes. Such a run would take more than a day."""
@@ -101,7 +101,7 @@ class StallMonitor:
             self._has_warned = True
             text = f"At t = {t:.9g} s time hardly passes: {self._remaining(t)} {self._limited_by()}"
             # the warning names the line that called Model.run
-            warnings.warn(text, TimeHardlyPasses, stacklevel=7)
+            warn(text, TimeHardlyPasses)
 
     def hint(self, status: int) -> str:
         """Sentences for the message of a failed run: its last events, errors or contacts, by the status of its end.

@@ -6,7 +6,6 @@ import contextlib
 import dataclasses
 import hashlib
 import json
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
@@ -15,6 +14,7 @@ from nonsmooth.checks import check_count, check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
+from nonsmooth.notices import warn
 from nonsmooth.progress import Display, RunsDone
 from nonsmooth.results.output import OtherVersions
 from nonsmooth.studies.case import case_factory
@@ -234,7 +234,7 @@ class Study:
             store.note({"provenance": json.dumps([*before, here])})
             differ = {name: here[name] for name in here if here[name] != before[0].get(name)}
             text = f"{store.path} began elsewhere or with other versions; here are {differ}: last digits may differ."
-            warnings.warn(text, OtherVersions, stacklevel=3)
+            warn(text, OtherVersions)
 
 
 def check_chunk(chunk: int | None) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.notices import warn
 from nonsmooth.parameters import UnusualValue, parameter
 
 from ...shapes.ground import Ground
@@ -43,12 +43,11 @@ class PlaneMesh(ContactKinematics):
         assert isinstance(second, TriangleMesh)
         height, corners = first.parameters()["height"], second.corners.tolist()
         if len(corners) > MANY:
-            warnings.warn(
+            warn(
                 f"mesh {second.surface.mesh.name}: its hull has {len(corners)} corners, each a contact of its own with "
                 "a plane, and every step looks at all of them. Is it a rounded body? Take a coarser mesh, or a shape "
                 "in closed form (Sphere, Ellipsoid, Cylinder, ...), which is exact and has one contact.",
                 UnusualValue,
-                stacklevel=2,
             )
         return tuple(cls(x, y, z, height) for x, y, z in corners)
 
