@@ -81,7 +81,9 @@ def write_apex(
 @final
 @dataclass(frozen=True)
 class ApexMesh(ContactKinematics):
-    """The round apex of a cone against the nearest face or edge of one patch; a corner has a contact of its own.
+    """The contact of the round apex of a cone with the nearest face or edge of one patch of a mesh.
+
+    Corners of the mesh have contacts of their own.
 
     Attributes
     ----------
