@@ -64,7 +64,7 @@ class Capsule(SweptPolytope):
 
     @property
     def volume(self) -> float:
-        """Cylinder and ball, pi r^2 (2 c + 4 r / 3) [m^3]."""
+        """Volume of the cylinder and its two half-balls, pi r^2 (2 c + 4 r / 3) with half-length c [m^3]."""
         return math.pi * self.radius**2 * (2.0 * self.half_length + 4.0 / 3.0 * self.radius)
 
     @property

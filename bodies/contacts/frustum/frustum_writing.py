@@ -23,9 +23,9 @@ from nonsmooth.types import Floats
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
-"""Sine of the angle by which a normal may leave the normals of a rim or an edge: contacts about to form are followed."""
+"""Sine of the angle by which a normal may leave the normals of a rim or an edge, so that near contacts are followed."""
 _INSIDE = 4.0
-"""Least distance of an overlap from the ends of its features, relative to its depth, if no point is inside a body."""
+"""Least distance of an overlap from the ends of its features, relative to its depth, if no point lies in a body."""
 
 
 @compiled
