@@ -24,7 +24,7 @@ class Ball(FreeBody):
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times 4/3 pi r^3 [kg]."""
+        """Mass as given, or density times 4/3 pi r^3 [kg]."""
         check_mass(self, self.mass, self.density)
         if self.mass is not None:
             return self.mass

@@ -49,7 +49,7 @@ class DiscBody(FreeBody):
 
     @property
     def total_mass(self) -> float:
-        """As given, or surface density times pi r^2 [kg]."""
+        """Mass as given, or surface density times pi r^2 [kg]."""
         check_mass(self, self.mass, self.surface_density)
         surface = 7.8 if self.surface_density is None else self.surface_density
         return surface * (math.pi * self.radius**2) if self.mass is None else self.mass

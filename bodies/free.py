@@ -206,7 +206,7 @@ class FreeBody(Body):
 
     @property
     def quaternion(self) -> int:
-        """Behind the position."""
+        """Offset of the quaternion in q: 3, behind the position."""
         return 3
 
     @property

@@ -72,7 +72,7 @@ class MeshBody(TensorBody):
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times volume [kg]."""
+        """Mass as given, or density times volume [kg]."""
         return mass_of(self, self.mass, self.density, self.mesh.volume)
 
     @property

@@ -38,7 +38,7 @@ class Rod(FreeBody):
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times pi r^2 l [kg]."""
+        """Mass as given, or density times pi r^2 l [kg]."""
         return mass_of(self, self.mass, self.density, math.pi * self.radius**2 * self.centre_distance)
 
     @property

@@ -20,7 +20,7 @@ NEAR = 1e-6
 
 
 class MeshRepaired(NonsmoothWarning):
-    """What a repair that was asked for has changed."""
+    """A repair that the user named has changed the mesh."""
 
 
 def repaired(thing: str, vertices: Vector, faces: Integers, words: Iterable[str]) -> tuple[Vector, Integers, list[str]]:

@@ -12,7 +12,7 @@ from nonsmooth.types import Floats
 
 @compiled
 def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return where a point of the body stands [m]."""
+    """Return the place of a point of the body in the world [m]."""
     return (
         frame[POSITION] + frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
         frame[POSITION + 1] + frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,

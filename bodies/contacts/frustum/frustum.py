@@ -24,7 +24,7 @@ from nonsmooth.types import Floats
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """The parts; the flank is the side."""
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
-"""What the names of features call them."""
+"""Names of the rims in the names of features."""
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
@@ -44,14 +44,14 @@ def part_number(frustum: Floats, part: int) -> float:
 
 @compiled
 def center_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
-    """Return where the centre stands [m]."""
+    """Return the centre of a frustum in the world [m]."""
     x, y, z = point_in_world(frame, frustum[CENTER], frustum[CENTER + 1], frustum[CENTER + 2])
     return x, y, z
 
 
 @compiled
 def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
-    """Return the unit axis."""
+    """Return the unit axis of a frustum in world axes."""
     x, y, z = vector_in_world(frame, frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6])
     return x, y, z
 
@@ -63,7 +63,7 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
     Parameters
     ----------
     frustum : Floats
-        Its numbers.
+        Numbers of the frustum.
     along, away : float
         Height of the point over the centre along the axis, and its distance from the axis [m].
     """

@@ -57,7 +57,7 @@ class FlankMesh(ContactKinematics):
 
     @classmethod
     def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[FlankMesh, ...]:
-        """Return the same; a disc has no side."""
+        """Return the contacts of all convex edges with a frustum, given by its numbers; a disc has no side."""
         if first[SIDE] == 0.0:
             return ()
         return tuple(

@@ -173,7 +173,7 @@ class FrustumCorner(ContactKinematics):
 
     @classmethod
     def of_corners(cls, first: Numbers, second: Features, size: float) -> tuple[FrustumCorner, ...]:
-        """Return the same."""
+        """Return the contacts of all corners with a frustum, given by its numbers."""
         surface = surface_numbers(second, patches_for_body(second, 0.0))
         places = second.vertices[list(second.corners)].tolist()
         return tuple(

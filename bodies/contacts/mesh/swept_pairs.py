@@ -256,11 +256,11 @@ class SweptPairs(ContactKinematics):
 
     @property
     def candidates(self) -> CandidateSearch:
-        """What finds the features."""
+        """Search for pairs of features near each other."""
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return both shapes, and no features."""
+        """Return the numbers of both shapes, and an empty candidate."""
         return {**self.search.values, "candidate": NO_CANDIDATE, "core": self.surfaces[1], "size": self.size}
 
     @property

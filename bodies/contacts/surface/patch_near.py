@@ -94,7 +94,7 @@ class PatchNear(ContactKinematics, ABC):
 
     @property
     def candidates(self) -> CandidateSearch:
-        """What finds the patches."""
+        """Search for patches near the body."""
         return self.search
 
     def parameters(self) -> dict[str, Value]:

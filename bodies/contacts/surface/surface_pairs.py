@@ -113,7 +113,7 @@ class SurfacePairs(ContactKinematics):
 
     @property
     def candidates(self) -> CandidateSearch:
-        """What finds the features."""
+        """Search for pairs of features near each other."""
         return self.search
 
     def parameters(self) -> dict[str, Value]:
