@@ -92,7 +92,7 @@ class ScenarioCases(CaseFactory):
         return self.scenario.name
 
     def check(self, sampling: Sampling) -> None:
-        """Check names, and the least and greatest value of each parameter; rules between parameters are checked per run."""
+        """Check names, and the least and greatest value of each; each run checks rules between parameters."""
         known, owner = self.scenario.varies, self.name
         for name, values in sampling.columns.items():
             if name not in known:
