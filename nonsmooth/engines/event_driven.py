@@ -23,7 +23,7 @@ class PainlevePolicy(StrEnum):
     IMPACT = "impact"
     """An impact without collision, by the impact law of the contact."""
     COMPLIANT = "compliant"
-    """The same without loss, as a stiff spring does it."""
+    """An impact without collision and without loss of energy, as by a stiff spring."""
     REFUSE = "refuse"
     """The run ends."""
 
