@@ -20,7 +20,7 @@ class HiddenPackage(NonsmoothWarning):
 
 
 def check_hidden() -> None:
-    """Warn of files that hide packages that scripts import: the import that fails would not name the cause."""
+    """Warn of files that hide packages that scripts import, because the failing import would not name the cause."""
     for message in hidden_packages(_IMPORTED):
         warnings.warn(message, HiddenPackage, stacklevel=3)
 
@@ -32,7 +32,7 @@ def hidden_packages(packages: tuple[str, ...] = BUILT_IN) -> list[str]:
         try:
             spec = importlib.util.find_spec(package)
         except ValueError:
-            # a module made by hand, without a specification
+            # a program has created the module, without a specification
             continue
         if spec is not None and spec.origin is not None:
             found[package] = Path(spec.origin).resolve()
