@@ -25,11 +25,11 @@ class Ball(FreeBody):
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times 4/3 pi r^3 [kg]."""
+        """Mass as given, or density times 4/3 pi r^3 [kg]."""
         check_mass(self, self.mass, self.density)
         if self.mass is not None:
             return self.mass
-        # the order of the factors fixes the last bit, on which the motion of many balls depends
+        # the order of the factors fixes the last bit of the mass, on which the motion of many balls depends
         return (STEEL if self.density is None else self.density) * 4.0 / 3.0 * math.pi * self.radius**3
 
     @property

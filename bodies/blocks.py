@@ -1,4 +1,4 @@
-"""Vectors and poses in the blocks that evaluators write (:mod:`nonsmooth.engine.memory.blocks`)."""
+"""Functions that write vectors and poses into the blocks of numbers (:mod:`nonsmooth.engine.memory.blocks`)."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
 
 Vector3: TypeAlias = tuple[float, float, float]
-"""A vector in compiled functions."""
+"""A vector of three numbers, as compiled functions take and return it."""
 POSE = VELOCITY
-"""Numbers of a pose, with which the block of a frame begins: position [m] and rotation matrix, row by row."""
+"""How many numbers a pose has: position [m], then rotation matrix, row by row; the block of a frame begins with it."""
 
 
 def places_behind_frame(n_q: int, n_u: int) -> tuple[int, int, int, int]:
-    """Places of coordinate rates, force, inverse mass matrix and energies in the block of a body with one frame."""
+    """Indices of coordinate rates, force, inverse mass matrix and energies in the block of a body with one frame."""
     rates = FRAME + 6 * n_u
     return rates, rates + n_q, rates + n_q + n_u, rates + n_q + n_u + n_u * n_u
 
@@ -30,9 +30,9 @@ def put(out: Floats, place: int, x: float, y: float, z: float) -> None:
 
 @compiled
 def rotation_of(a: float, b: float, c: float, d: float) -> tuple[float, ...]:
-    """Rotation matrix of a quaternion (scalar first), row by row.
+    """Rotation matrix of a unit quaternion (scalar first), row by row.
 
-    It is homogeneous in the quaternion, whose length changes a little between two normalisations.
+    Between two normalisations the length L of the quaternion drifts from 1; the result is then L^2 times a rotation.
     """
     xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
     yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
@@ -41,7 +41,7 @@ def rotation_of(a: float, b: float, c: float, d: float) -> tuple[float, ...]:
 
 
 def pose_of(position: Sequence[float], orientation: Sequence[float]) -> tuple[float, ...]:
-    """Pose of a position [m] and a unit quaternion: the numbers that :func:`write_pose` takes."""
+    """Pose for :func:`write_pose` from a position [m] and a unit quaternion: position, then rotation matrix."""
     return *map(float, position), *rotation(orientation).ravel().tolist()
 
 

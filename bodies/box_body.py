@@ -17,7 +17,7 @@ from .solid_body import SolidBody
 class BoxBody(SolidBody):
     """A free solid box along the body axes.
 
-    Its edges are sharp, or rounded by the radius ``rounding``: the half-lengths are those of the whole.
+    Its edges are sharp, or rounded by the radius ``rounding``; the half-lengths include the rounding.
     """
 
     half_x: float = parameter(doc="half-length along the first axis", unit="m", above=0.0, usual=(1e-5, 10.0))
@@ -37,7 +37,7 @@ class BoxBody(SolidBody):
 
     @property
     def spin(self) -> int:
-        """-1, also for a cube: its contact points turn with it, and so do the forces."""
+        """-1, also for a cube: contact points and forces turn with it, so that body axes suit its spin better."""
         return -1
 
     @property

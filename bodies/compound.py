@@ -25,7 +25,7 @@ from .values import unit_quaternion, vector
 @final
 @dataclass(frozen=True)
 class Part:
-    """A body and where it stands in a compound.
+    """A body and its pose in a compound.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Part:
     position : tuple of float
         Its mass centre in the axes of the compound, from an origin of the user's choice [m, shape (3)].
     orientation : tuple of float
-        Unit quaternion (scalar first) from its axes to the compound's.
+        Unit quaternion (scalar first) from the axes of the body to the axes of the compound.
     """
 
     body: FreeBody
@@ -79,12 +79,12 @@ class Compound(TensorBody):
             if not isinstance(part, Part):
                 raise InvalidInput("Compound.parts", "must contain parts only", part, remedy)
         object.__setattr__(self, "parts", tuple(self.parts))
-        # a shape that cannot be moved is refused when the compound is made
+        # moves the shapes now, so that a shape that cannot be moved is an error when the compound is made
         assert self.shapes is not None
 
     @functools.cached_property
     def _tensor(self) -> Vector:
-        """By the parallel-axis theorem."""
+        """Inertia tensor about the common mass centre [kg m^2], shape [3, 3], by the parallel-axis theorem."""
         tensor, centre = np.zeros((3, 3)), np.array(self.centre)
         for part in self.parts:
             turn, body = rotation(part.orientation), part.body
@@ -94,7 +94,7 @@ class Compound(TensorBody):
 
     @functools.cached_property
     def shapes(self) -> tuple[Shape, ...]:
-        """Those of all parts, in the axes of the compound."""
+        """Shapes of all parts, in the frame of the compound."""
         centre = np.array(self.centre)
         return tuple(
             moved(shape, np.array(part.position) - centre, np.array(part.orientation))

@@ -1,4 +1,4 @@
-"""DiscBody: a disc."""
+"""DiscBody: a free disc, thin or rounded, that lies flat or rolls on its rim."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from .shapes.frustum import USUAL, check_feet, check_rounding
 class DiscBody(FreeBody):
     """A free disc about the third body axis, without thickness unless it is rounded: a coin, a plate on its rim.
 
-    Flat on a plane it stands on three feet, so that its centre is by their height above the plane. Tilted by more than
-    three times their height over the radius it touches with its rim only. A rounded disc is twice the rounding thick,
-    of even density, and its radius is that of the whole.
+    Flat on a plane it stands on three feet, so that its centre is at their height above the plane. Tilted by more than
+    3 foot_height / radius [rad] it touches with its rim only. A rounded disc has the thickness 2 ``rounding`` and an
+    even density; ``radius`` includes the rounding.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))
@@ -50,7 +50,7 @@ class DiscBody(FreeBody):
 
     @property
     def total_mass(self) -> float:
-        """As given, or surface density times pi r^2 [kg]."""
+        """Mass as given, or surface density times pi r^2 [kg]."""
         check_mass(self, self.mass, self.surface_density)
         surface = 7.8 if self.surface_density is None else self.surface_density
         return surface * (math.pi * self.radius**2) if self.mass is None else self.mass

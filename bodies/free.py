@@ -131,7 +131,10 @@ def _fly(
 
 @functools.lru_cache(maxsize=256)
 def _inverse_inertia(name: str, mass: float, moments: Triple, products: Triple) -> tuple[float, ...]:
-    """Inverse of an inertia tensor, row by row [1/(kg m^2)]; equal bodies share it. All three are checked."""
+    """Inverse of an inertia tensor, row by row [1/(kg m^2)]; raises an error if no body has this mass and inertia.
+
+    Equal bodies share the result.
+    """
     tensor = tensor_of(moments, products)
     check_inertia(name, mass, tensor)
     upper = np.triu(np.linalg.inv(tensor)) if any(products) else np.diag([1.0 / j for j in moments])
@@ -142,7 +145,7 @@ class FreeBody(Body):
     """A rigid body that moves freely; its frame has its origin at the mass centre.
 
     Subclasses are final and give ``total_mass`` [kg], ``inertia`` [kg m^2] (moments about the axes of the frame),
-    shapes and, where the frame is not a principal one, ``products`` [kg m^2].  They are checked when the body is made.
+    shapes and, if its axes are not principal axes, ``products`` [kg m^2].  They are checked when the body is made.
     Coordinates: position of the mass centre [m], unit quaternion (scalar first) from body to world.
     Velocities: of the mass centre in world axes [m/s], angular velocity in body axes [rad/s].
     """
@@ -169,11 +172,11 @@ class FreeBody(Body):
 
     @property
     def products(self) -> tuple[float, float, float]:
-        """Elements J_yz, J_xz, J_xy of the inertia tensor [kg m^2], of which J_xy = -integral of x y dm; none."""
+        """Elements J_yz, J_xz, J_xy of the inertia tensor [kg m^2], J_xy = -integral of x y dm; zero by default."""
         return 0.0, 0.0, 0.0
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return mass, inertia (moments, then products) and its inverse, row by row, checked."""
+        """Return mass, inertia (moments, then products) and the inverse of the tensor, row by row, all checked."""
         name = type(self).__name__
         mass, moments, products = self.total_mass, tuple(self.inertia), tuple(self.products)
         for part, values in (("inertia", moments), ("products", products)):
@@ -204,14 +207,16 @@ class FreeBody(Body):
 
     @property
     def quaternion(self) -> int:
-        """Behind the position."""
+        """Offset of the quaternion in q: 3, behind the position."""
         return 3
 
     @property
     def spin(self) -> int:
-        """Behind the velocity, of a symmetric top: in space the spin of others turns as fast as they do.
+        """Offset of the angular velocity in u, 3, for a symmetric top; else -1.
 
-        Between steps its components along the body are no better than the attitude; a ball gains too little for that.
+        In space axes the spin of a symmetric top changes slowly, the spin of another body as fast as the body turns.
+        Between steps the components along body axes are then only as accurate as the attitude.  A ball would gain too
+        little to be worth that, so that it has -1.
         """
         return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
 
@@ -222,7 +227,7 @@ class FreeBody(Body):
 
     @property
     def flight(self) -> Callable[..., None] | None:
-        """That of a symmetric top about an axis of the frame, which a ball is; of others there is none."""
+        """Closed-form motion of a ball or a symmetric top about an axis of the frame; None for another body."""
         return _fly if self._is_symmetric else None
 
     @property
@@ -232,7 +237,7 @@ class FreeBody(Body):
 
     @property
     def length_scale(self) -> float:
-        """That of its shapes, at least its radius of gyration [m]."""
+        """Largest length of its shapes, at least its largest radius of gyration [m]."""
         gyration = math.sqrt(max(self.inertia) / self.total_mass)
         return max([gyration, *(shape.length for shape in self.frames[0])])
 
@@ -244,7 +249,7 @@ class FreeBody(Body):
 
 
 class TensorBody(FreeBody):
-    """A free body whose frame need not be a principal one; subclasses are final and give ``_tensor``, computed once."""
+    """A free body whose axes need not be principal axes; subclasses are final and give ``_tensor``, computed once."""
 
     @property
     @abstractmethod

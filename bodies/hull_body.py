@@ -1,4 +1,4 @@
-"""HullBody: a solid convex hull."""
+"""HullBody: a free solid that fills the convex hull of given points."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from .values import vector
 Triple = tuple[float, float, float]
 
 STEEL = 7800.0
-"""Density where neither mass nor density is given [kg/m^3]."""
+"""Density of a body if neither its mass nor its density is given [kg/m^3]."""
 
 _ROUND_OFF = 1e-9
 
@@ -116,7 +116,7 @@ def check_mass(body: object, mass: float | None, density: float | None) -> None:
 
 
 def mass_of(body: object, mass: float | None, density: float | None, volume: float) -> float:
-    """Mass of a body as given [kg], or its density, by default that of steel, times its volume [m^3]."""
+    """Mass of a body [kg]: as given, or density times volume [m^3]; the default density is that of steel."""
     check_mass(body, mass, density)
     if mass is not None:
         return mass
@@ -124,20 +124,20 @@ def mass_of(body: object, mass: float | None, density: float | None, volume: flo
 
 
 def moments_of(shape: HasVolume, mass: float) -> Triple:
-    """Moments of an even mass [kg] in a shape about its centroid and the body axes [kg m^2]."""
+    """Moments of inertia of a mass [kg] spread evenly in a shape, about its centroid and the body axes [kg m^2]."""
     x, y, z = (mass / shape.volume * np.diag(shape.inertia)).tolist()
     return x, y, z
 
 
 def tensor_in(shape: HasVolume, mass: float) -> Vector:
-    """Inertia tensor of an even mass [kg] in a shape, about the centroid [kg m^2], shape [3, 3]."""
+    """Inertia tensor of a mass [kg] spread evenly in a shape, about its centroid [kg m^2], shape [3, 3]."""
     return without_round_off(mass / shape.volume * shape.inertia)
 
 
 def without_round_off(tensor: Vector, part: float = 1e-14) -> Vector:
-    """Inertia tensor without the elements below a part of the largest one.
+    """Inertia tensor in which elements below ``part`` times the largest one are 0.
 
-    They are round-off of products that cancel. Without them principal axes stay principal, and a symmetric body is
-    known as one.
+    Such elements are round-off of products that cancel. Without them principal axes remain principal, and a symmetric
+    body is recognised.
     """
     return np.where(np.abs(tensor) > part * np.max(tensor), tensor, 0.0)

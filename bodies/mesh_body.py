@@ -26,19 +26,19 @@ class MeshBody(TensorBody):
     """A free solid with the surface of a mesh.
 
     Its frame has the axes of the mesh and its origin at the mass centre; :attr:`centre` is the mass centre in the
-    mesh's coordinates. Mass properties are those of the polyhedron, whatever the shapes.
+    mesh's coordinates. Mass properties are those of the mesh, also if convex pieces take its place in contacts.
 
     Attributes
     ----------
     surface : Surface
         A :class:`bodies.MeshFile` or :class:`bodies.Triangles`.
     decomposition : Decomposition, optional
-        How to cut a surface that is not convex into convex pieces.  Without it the surface touches as it is.
+        Method that cuts a surface that is not convex into convex pieces.  By default the surface itself is in contact.
 
     Raises
     ------
     InvalidInput
-        If the user gives both mass and density, or wants to cut a convex surface.
+        The user gave both mass and density, or a decomposition for a convex surface.
     """
 
     surface: Surface
@@ -73,7 +73,7 @@ class MeshBody(TensorBody):
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times volume [kg]."""
+        """Mass as given, or density times volume [kg]."""
         return mass_of(self, self.mass, self.density, self.mesh.volume)
 
     @property
@@ -82,9 +82,9 @@ class MeshBody(TensorBody):
 
     @functools.cached_property
     def shapes(self) -> tuple[Shape, ...]:
-        """The convex hull of a convex mesh, the pieces of one that is cut, else the mesh itself.
+        """The pieces of a decomposed mesh, the convex hull of a convex one, else the mesh itself.
 
-        A convex mesh with more corners than a hull may have stays a mesh.
+        A convex mesh with more corners than a hull may have is not replaced by its hull.
         """
         mesh = self.mesh
         if self.decomposition is not None:

@@ -111,7 +111,7 @@ class PlanarBody(Body):
 
     @property
     def length_scale(self) -> float:
-        """That of its shapes, at least its radius of gyration [m]."""
+        """Largest length of its shapes, at least its radius of gyration [m]."""
         return max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:

@@ -35,7 +35,7 @@ class Prescribed(Body, ABC):
 
 @dataclass(frozen=True)
 class Driven(Prescribed, ABC):
-    """A body without coordinates whose frame moves as ``motion`` says; subclasses are final and give shapes."""
+    """A body without coordinates whose frame follows a given ``motion``; subclasses are final and give shapes."""
 
     motion: Motion = field(default_factory=Rest)
 
@@ -55,10 +55,10 @@ class Driven(Prescribed, ABC):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The motion's."""
+        """The evaluator of the motion."""
         return self.motion.evaluator
 
     @property
     def time_scale(self) -> float:
-        """The motion's [s]."""
+        """Time scale of the motion [s]."""
         return self.motion.time_scale

@@ -1,4 +1,4 @@
-"""Rod: slender."""
+"""Rod: a free slender rod with rounded ends."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from .shapes.capsule import Capsule
 class Rod(FreeBody):
     """A free slender rod along the first body axis.
 
-    Its ends are rounded, so that it is longer by 2 r than the distance of their centres. Its mass counts as spread
-    evenly between these centres. The moments across the axis leave out a part of (r / l)^2, from its thickness;
-    CapsuleBody is exact for thick ones.
+    Its ends are half-spheres of radius r about two centres at the distance l, so that its length is l + 2 r. Its mass
+    is spread evenly between the centres. The moment of inertia across the axis neglects the thickness, with a relative
+    error of the order (r / l)^2; take CapsuleBody for thick rods.
     """
 
     centre_distance: float = parameter(
@@ -34,12 +34,12 @@ class Rod(FreeBody):
 
     @classmethod
     def example(cls) -> Mapping[str, Any]:
-        """Return a slender one."""
+        """Return the sizes of a slender rod."""
         return {"centre_distance": 0.2, "radius": 0.005}
 
     @property
     def total_mass(self) -> float:
-        """As given, or density times pi r^2 l [kg]."""
+        """Mass as given, or density times pi r^2 l [kg]."""
         return mass_of(self, self.mass, self.density, math.pi * self.radius**2 * self.centre_distance)
 
     @property

@@ -30,7 +30,7 @@ class Solid(SolidBody, TensorBody):
 
     The origin of its frame is the centroid of the shape. The axes of its frame are those in which the shape is given,
     unless ``orientation`` turns the shape. Mass and inertia tensor follow from the volume integrals of the shape.
-    Bodies with a name of their own, as :class:`bodies.BoxBody`, have closed forms instead.
+    Bodies of one shape, such as :class:`bodies.BoxBody`, have closed forms instead.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Solid(SolidBody, TensorBody):
     Raises
     ------
     InvalidInput
-        If the shape has no volume, as a plane or a sharp disc, or the user gives both density and mass, or neither.
+        The shape has no volume, such as a plane or a sharp disc, or the user gave both density and mass, or neither.
     """
 
     shape: Shape = field()
@@ -56,7 +56,7 @@ class Solid(SolidBody, TensorBody):
 
     @classmethod
     def example(cls) -> Mapping[str, Any]:
-        """Return a box of aluminium off the origin of its own axes."""
+        """Return an aluminium box whose centre is not the origin of its axes."""
         return {"shape": Box(0.01, 0.02, 0.03, x=0.1), "density": 2700.0}
 
     def _check(self) -> None:

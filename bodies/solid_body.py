@@ -1,4 +1,4 @@
-"""SolidBody: a shape filled with matter of even density."""
+"""SolidBody: base class of bodies that are one shape, filled with matter of even density."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class SolidBody(FreeBody):
     @property
     @abstractmethod
     def mass(self) -> float | None:
-        """Mass instead of the density [kg]."""
+        """Mass [kg], if it is given instead of the density."""
 
     @property
     @abstractmethod

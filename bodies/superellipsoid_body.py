@@ -1,4 +1,4 @@
-"""SuperellipsoidBody: a solid superellipsoid."""
+"""SuperellipsoidBody: a free solid between ellipsoid, box and octahedron."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from .solid_body import SolidBody
 class SuperellipsoidBody(SolidBody):
     """A free solid superellipsoid along the body axes.
 
-    Its exponents are 1 for an ellipsoid and go towards 0 for a box, towards 2 for an octahedron. The semi-axes are
-    those without the rounding.
+    With both exponents 1 it is an ellipsoid; towards 0 it approaches a box, towards 2 an octahedron. The semi-axes do
+    not include the rounding.
     """
 
     semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0, usual=(1e-5, 10.0))

@@ -1,4 +1,4 @@
-"""SupportBody: a solid body whose shape is known by its farthest points."""
+"""SupportBody: a solid body whose shape is given by its farthest points."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from .solid_body import SolidBody
 @final
 @dataclass(frozen=True)
 class SupportBody(SolidBody, TensorBody):
-    """A free solid whose shape is known by its farthest points.
+    """A free solid whose shape is given by its farthest points.
 
-    The origin of its frame is the centroid of the shape, the axes are the shape's.
+    Its frame has the axes of the shape and the origin at the centroid.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Vectors, quaternions and shapes that a user gives: checked once, for bodies and motions alike."""
+"""Checks of vectors, quaternions and shapes that a user gives to bodies and motions."""
 
 from __future__ import annotations
 
@@ -107,12 +107,12 @@ def product(p: Any, q: Any) -> Vector:
 
 
 def check_carried(thing: str, shapes: Any) -> tuple[Shape, ...]:
-    """Return the shapes as a tuple.
+    """Return the shapes of a body as a tuple, after a check.
 
     Raises
     ------
     InvalidInput
-        If it is not a sequence of Shape objects.
+        The user gave something else than a tuple or list of Shape objects.
     """
     remedy = "Give shapes, for example (Sphere(0.01), Sphere(0.01, x=0.05))."
     if isinstance(shapes, Shape) or not isinstance(shapes, (tuple, list)):

@@ -1,6 +1,6 @@
 """nonsmooth: event-driven multibody dynamics with friction and energetic multiple impacts.
 
-Its names are listed in ``__init__.pyi``.
+The public names are listed in ``__init__.pyi``.
 """
 
 from typing import Any
@@ -11,7 +11,7 @@ _get, __dir__, __all__ = lazy_names(__name__, __file__)
 
 
 def __getattr__(name: str) -> Any:
-    """Name that is imported on first use, or the version that is installed."""
+    """Public name, imported at its first use, or the installed version."""
     if name != "__version__":
         return _get(name)
     from importlib.metadata import version

@@ -1,4 +1,4 @@
-"""Common certificates of laws of one kind: whether a force obeys a law."""
+"""Residual checks that all laws of one kind share: they test whether a force or an impulse obeys a law."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Pair = tuple[float, float]
 
 
 def coefficient_of(law: FrictionLaw, state: tuple[float, ...] | None = None) -> Callable[[float], float]:
-    """Coefficient of a law as a function of the slip speed [m/s] alone, by default in its initial state."""
+    """Friction coefficient of a law as a function of the slip speed [m/s] alone, by default in its initial state."""
     offered: dict[str, object] = dict(law.parameters())
     if isinstance(law, StatefulFrictionLaw):
         offered["state"] = law.initial_state if state is None else state
@@ -39,12 +39,12 @@ def opposes_slip(
     tolerance: float,
     state: tuple[float, ...] | None = None,
 ) -> bool:
-    """True if a force lies in the disc of a friction law and, under slip, on its edge against the slip.
+    """True if a force lies in the disc of a friction law and, under slip, on its edge opposite to the slip.
 
     Parameters
     ----------
     law : FrictionLaw
-        Gives the coefficient at this slip speed; at rest that of speed 0.
+        Gives the coefficient at this slip speed, or at speed 0 if the contact is at rest.
     slip : tuple of float
         Slip velocity [m/s], shape (2,); at rest up to the tolerance.
     normal_force : float
@@ -54,7 +54,7 @@ def opposes_slip(
     tolerance : float
         Deviation that counts as zero [m/s, N].
     state : tuple of float, optional
-        Inner states of a law that has some; the initial ones by default.
+        Inner states of the law, if it has any; by default its initial states.
     """
     speed = math.hypot(*slip)
     rests = speed <= tolerance
@@ -68,7 +68,7 @@ def opposes_slip(
 def follows_compliance(
     law: CompliantNormalLaw, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
 ) -> bool:
-    """True if a normal force [N] is the force of a compliant law."""
+    """True if a normal force [N] equals the force of a compliant law within the tolerance [N]."""
     names = list(inspect.signature(law.force).parameters)[3:]
     parameters = {name: law.parameters()[name] for name in names}
     return abs(law.force(indentation, rate, closing_rate, **parameters) - force) <= tolerance
@@ -77,9 +77,10 @@ def follows_compliance(
 def lies_in_half_ellipses(
     law: AnisotropicFrictionLaw, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float
 ) -> bool:
-    """True if a force lies in the bound of an anisotropic law and, under slip, at the point normal to the slip.
+    """True if a force lies in the bound of an anisotropic law and, under slip, where the bound's normal opposes it.
 
-    Slip and force are along the law's axis and across it; for the rest see :func:`opposes_slip`.
+    The components of slip and force are along the axis of the law and across it. Parameters as for
+    :func:`opposes_slip`.
     """
     forward, backward, across = law.ratios
     mu = coefficient_of(law)
@@ -102,7 +103,7 @@ def follows_traction(
     traction: tuple[float, ...],
     tolerance: float,
 ) -> bool:
-    """True if force and moment [N, N m] are the values of a law of traction."""
+    """True if force and moment [N, N m] equal the values of a law of traction within the tolerance."""
     names = list(inspect.signature(law.traction).parameters)[4:]
     out = [math.nan] * (5 + len(state))
     law.traction(normal_force, motion, state, out, **{name: law.parameters()[name] for name in names})
@@ -112,9 +113,10 @@ def follows_traction(
 def follows_map(
     law: ImpactMap, delassus: Array, before: Array, impulses: Array, friction: Array, tolerance: float
 ) -> bool:
-    """True if impulses give the velocities [m/s] of the impulses of a map, for maps in closed form.
+    """True if impulses change the velocities [m/s] as the impulses of an impact map in closed form do.
 
-    A map that solves a problem has a certificate of the problem instead: its solution may be one of several.
+    An impact map that solves a problem has a residual check of the problem instead, because the problem may have
+    several solutions.
     """
     n = len(friction)
     names = list(inspect.signature(law.impulses).parameters)[5:]

@@ -67,7 +67,7 @@ def panels(
 
 
 def legend(figure: Figure, columns: int = 3, note: str = "") -> None:
-    """Put one legend below all panels, with each label once, under a note; none if nothing has a label.
+    """Put one legend, with each label once and a note above, below all panels. Without labels there is no legend.
 
     It replaces the legends of the panels.  It has at most ``columns`` columns, and rows of about equal length.
     """
@@ -88,7 +88,7 @@ def legend(figure: Figure, columns: int = 3, note: str = "") -> None:
 def histories(
     quantities: Mapping[str, Curves], title: str = "", *, xlabel: str = "time [s]", axes: Sequence[Axes] | None = None
 ) -> Figure:
-    """Draw quantities over time, one panel each.
+    """Draw quantities over time, with a panel for each quantity.
 
     Parameters
     ----------

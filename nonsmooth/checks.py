@@ -14,19 +14,19 @@ from nonsmooth.errors import InvalidInput
 
 
 def check_kind(thing: str, value: object, kind: type, remedy: str) -> None:
-    """Raise InvalidInput, naming ``thing``, unless the value is of a kind."""
+    """Raise InvalidInput, naming ``thing``, unless the value is an instance of ``kind``."""
     if not isinstance(value, kind):
         raise InvalidInput(thing, f"must be of the kind {kind.__name__}", value, remedy)
 
 
 def check_pair(thing: str, value: object) -> None:
-    """Raise InvalidInput unless the value is a tuple or list of two."""
+    """Raise InvalidInput unless the value is a tuple or list of two entries."""
     if not isinstance(value, (tuple, list)) or len(value) != 2:
         raise InvalidInput(thing, "must be a pair", value, "Write (one, other).")
 
 
 def check_callable(thing: str, value: object, call: str) -> None:
-    """Raise InvalidInput unless the value is left out, None, or can be called as ``call`` shows: "f(x)"."""
+    """Raise InvalidInput unless the value is None, or can be called as ``call`` shows, such as "f(x)"."""
     rule = f"must be a function, called as {call}"
     if value is not None and not callable(value):
         raise InvalidInput(thing, rule, value, "Leave it out, or give a function.")
@@ -34,7 +34,7 @@ def check_callable(thing: str, value: object, call: str) -> None:
         return
     try:
         taken = inspect.signature(value)
-    except ValueError:  # some built-in functions do not say what they take
+    except ValueError:  # some built-in functions have no signature
         return
     names = call[call.index("(") + 1 : -1].split(", ")
     try:
@@ -54,13 +54,13 @@ def is_finite(value: Any) -> bool:
 
 
 def check_count(thing: str, value: Any, rule: str, remedy: str, least: int = 1) -> None:
-    """Raise InvalidInput unless a value is a whole number of at least ``least``."""
+    """Raise InvalidInput unless a value is an integer of at least ``least``."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
         raise InvalidInput(thing, rule, value, remedy)
 
 
 def floats(thing: str, value: Any) -> NDArray[np.float64]:
-    """Array of numbers of its own; InvalidInput if they are none, as texts and truth values are."""
+    """New array of floats from a value; InvalidInput if it does not consist of numbers, such as texts and booleans."""
     try:
         if np.asarray(value).dtype.kind in "USb":
             raise TypeError("texts and truth values are no numbers")
@@ -72,12 +72,12 @@ def floats(thing: str, value: Any) -> NDArray[np.float64]:
 
 
 def path_of(thing: str, value: object) -> Path:
-    """Path that is given as one or as a text.
+    """Path from a path or a text.
 
     Raises
     ------
     InvalidInput
-        If it is neither, or a text without a letter, or no path that this machine can have.
+        If the value is not a path or text, is blank, or is not a path that this machine can have.
     """
     if not isinstance(value, (str, Path)) or not str(value).strip():
         raise InvalidInput(thing, "must be a path", value, 'For example "results".')
@@ -85,7 +85,7 @@ def path_of(thing: str, value: object) -> Path:
     try:
         path.lstat()
     except (FileNotFoundError, NotADirectoryError, PermissionError):
-        # whoever writes there says so
+        # the function that writes there reports such an error
         return path
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else str(error)

@@ -4,5 +4,5 @@ from __future__ import annotations
 
 
 def described(what: str, unit: str = "") -> dict[str, str]:
-    """Attributes of an array; no unit if its columns have units of their own, or the unit depends on a law."""
+    """Attributes of an array. ``unit`` is empty if each column has its own unit, or if the unit depends on a law."""
     return {"units": unit, "long_name": what} if unit else {"long_name": what}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 _LONGEST = 400
-"""Most characters of a value or a list in a message. Meshes have thousands."""
+"""Largest number of characters of a value or a list in a message, because meshes have thousands."""
 
 
 class NonsmoothError(Exception):
@@ -18,9 +18,9 @@ class InvalidInput(NonsmoothError, ValueError):
     Parameters
     ----------
     thing : str
-        What is wrong, as the user wrote it ("Dumbbell.radius").
+        Input that is wrong, as the user wrote it ("Dumbbell.radius").
     rule : str
-        The rule it must obey ("must be positive").
+        Rule that the input must obey ("must be positive").
     value : object
         The value found.
     remedy : str
@@ -49,14 +49,14 @@ class MissingArgument(InvalidInput):
 
 
 def _listed(names: Sequence[str]) -> str:
-    """Names of a message, as many as fit; the others are counted."""
+    """List of names for a message: as many as fit, and the number of the others."""
     fit = next((n for n in range(len(names), 1, -1) if len(", ".join(names[:n])) <= _LONGEST), 1)
     more = f" and {len(names) - fit} more" if fit < len(names) else ""
     return f"{', '.join(names[:fit])}{more}"
 
 
 def _shortened(text: str) -> str:
-    """Text of a message: its beginning and its end if it is long."""
+    """Text for a message: the whole text, or its beginning and its end if it is long."""
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 4 :]}"
 
 
@@ -72,7 +72,7 @@ class UnknownName(InvalidInput):
     known : iterable of str
         The names that exist.
     other : str
-        Kind of another thing of that name ("a friction law"); "" if there is none.
+        Kind of another component that has the name ("a friction law"); "" if there is none.
     remedy : str
         What to do, if another name does not suffice.
     """

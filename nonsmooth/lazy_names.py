@@ -1,4 +1,4 @@
-"""Names of a package that are imported on first use, so that a program imports what it needs only."""
+"""Names of a package that are imported on first use, so that a program imports only the modules that it needs."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ Names: TypeAlias = tuple[Callable[[str], Any], Callable[[], list[str]], list[str
 def lazy_names(package: str, file: str) -> Names:
     """Functions ``__getattr__`` and ``__dir__`` of a package, and its ``__all__``, from the imports of its stub.
 
-    The stub is the file ``__init__.pyi`` beside ``__init__.py``, with a line ``from module import Name as Name`` for
-    each name. Editors and type checkers read it in place of the package.
+    The stub is the file ``__init__.pyi`` next to ``__init__.py``, with a line ``from module import Name as Name`` for
+    each name. Editors and type checkers read the stub instead of the package.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def lazy_names(package: str, file: str) -> Names:
     modules = {name: module for module, name in _IMPORT.findall(Path(file).with_suffix(".pyi").read_text("utf-8"))}
 
     def get(name: str) -> Any:
-        """Import a name from its module. It is set as an attribute, so that Python does not ask for it again."""
+        """Import a name from its module, and set it as an attribute, so that Python calls this function once a name."""
         if name not in modules:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
         module = modules[name]

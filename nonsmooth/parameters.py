@@ -28,19 +28,19 @@ class Rule:
     Attributes
     ----------
     doc : str
-        One line that says what it is.
+        Description of the parameter in one line.
     unit : str
         SI unit, "1" for a pure number, "" for a name.
     minimum, maximum : float
-        Bounds that belong to the allowed range.
+        Bounds of the allowed range, which belong to it.
     above : float
-        Bound that does not.
+        Lower bound of the allowed range, which does not belong to it.
     usual : tuple of float
         Range outside of which a warning asks whether the unit is right.
     choices : tuple of str
         Allowed words.
     assumed : bool
-        True where the source does not give the value and we chose it.
+        True if the source does not give the value, so that we chose it.
     law : str
         "normal", "friction" or "impact" if a scenario's parameter is only passed on to that law.  It would be ignored
         if a user puts another law in its place.
@@ -87,7 +87,7 @@ _known: WeakKeyDictionary[type, Rules] = WeakKeyDictionary()
 
 def rules(owner: type) -> Rules:
     """Declared parameters of a component class by name."""
-    # asked for with every object that is made
+    # stored, because every new object of the class needs them
     if owner not in _known:
         found = {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
         _known[owner] = MappingProxyType(found)
@@ -95,7 +95,7 @@ def rules(owner: type) -> Rules:
 
 
 def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
-    """Error of a function that asks for what is no parameter; most often that is a field not declared so."""
+    """Error of a function with an argument that is not a parameter: most often a field not declared by `parameter`."""
     declared = f'{name}: float = parameter(0.2, doc="what it is")'
     remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
     return UnknownName(f"{asking}: parameter", name, offered, remedy=remedy)
@@ -151,7 +151,7 @@ Value: TypeAlias = float | tuple[float, ...] | SharedNumbers
 
 
 class _Checked(ABCMeta):
-    """Class of components: an argument that is missing or unknown gets an error that names it, as a wrong value does."""
+    """Class of components: a missing or unknown argument gets an error that names it, as a wrong value does."""
 
     def __call__(cls, *given: Any, **named: Any) -> Any:
         try:
@@ -202,14 +202,14 @@ class Component(metaclass=_Checked):
         self._check()
 
     def _check(self) -> None:
-        """Check what no single parameter can tell; nothing by default."""
+        """Check rules that concern several parameters; by default there are no such rules."""
 
     @classmethod
     def example(cls) -> Mapping[str, Any]:
-        """Values of fields with which ``nonsmooth check`` can look at the class; none by default.
+        """Values of fields, by name, with which ``nonsmooth check`` makes an object of the class; empty by default.
 
-        Those that no number or word can give: shapes, tensors, functions.  Required numbers take some value of their
-        range by themselves.
+        Give fields that are not numbers or words: shapes, tensors, functions.  Required numbers get a value of their
+        allowed range automatically.
         """
         return {}
 
@@ -257,9 +257,9 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
 
 
 def from_all_words(owner: type, words: Mapping[str, str], kind: str, option: str) -> Any:
-    """Object of ``owner`` out of ``name=value`` words, which must cover what has no default.
+    """Make an object of ``owner`` from ``name=value`` words, which must give each field that has no default.
 
-    ``option`` is how a missing one can be given, with {name}, for messages.
+    ``option`` shows in messages how to give a missing value, with {name} in place of the name.
 
     Raises
     ------

@@ -24,13 +24,13 @@ def rotation(q: Any) -> Array:
 
 
 def cross(a: Any, b: Any) -> Array:
-    """Cross product of two vectors, in a tenth of the time that numpy takes for one."""
+    """Cross product of two vectors, in a tenth of the time that numpy takes for a single product."""
     (x, y, z), (u, v, w) = a, b
     return np.array([y * w - z * v, z * u - x * w, x * v - y * u])
 
 
 def turned(q: Any, vector: Any) -> Array:
-    """Quaternion after a turn by a rotation vector in world axes."""
+    """Unit quaternion, scalar first, of an orientation q after a turn by a rotation vector [rad] in world axes."""
     x, y, z = (float(component) for component in vector)
     angle = math.sqrt(x * x + y * y + z * z)
     s = 0.5 if angle == 0.0 else math.sin(0.5 * angle) / angle

@@ -1,4 +1,4 @@
-"""A scenario out of a function that builds its system."""
+"""Decorator that makes a scenario from a function that builds its system."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _fields(name: str, declared: Mapping[str, inspect.Parameter], t_end: float) 
 
 
 def _class_of(function: Callable[..., System], members: Mapping[str, Any], fields: Mapping[str, Any]) -> Any:
-    """Frozen dataclass, which pickle and messages find under the function's name."""
+    """Frozen dataclass of the scenario, which has the function's name, so that pickle finds it."""
     namespace: dict[str, Any] = {name: getattr(function, name) for name in ("__module__", "__qualname__", "__doc__")}
     namespace |= members
     namespace |= {name: field for name, (_, field) in fields.items()}
@@ -93,6 +93,6 @@ def _class_of(function: Callable[..., System], members: Mapping[str, Any], field
     namespace["__wrapped__"] = staticmethod(function)
     made: Any = new_class(function.__name__, (Scenario,), exec_body=lambda content: content.update(namespace))
     made = dataclasses.dataclass(frozen=True)(made)
-    # else help() shows the function's own, in which the defaults are fields
+    # otherwise help() shows the signature of the function, whose defaults are fields
     made.__signature__ = inspect.Signature([*inspect.signature(made.__init__).parameters.values()][1:])
     return made

@@ -8,10 +8,10 @@ from pathlib import Path
 
 
 def user_cache() -> Path | None:
-    """Cache folder of the user; None for one without a home.
+    """Cache folder of the user; None for a user without a home.
 
-    It is that of the variable XDG_CACHE_HOME, else ``.cache`` in the home; by its standard
-    (https://specifications.freedesktop.org/basedir-spec) a relative path in the variable counts as none.
+    It is the folder of the variable XDG_CACHE_HOME, or else ``.cache`` in the home.  By the standard of this variable
+    (https://specifications.freedesktop.org/basedir-spec) a relative path in it is ignored.
     """
     cache = Path(os.environ.get("XDG_CACHE_HOME", ""))
     if not cache.is_absolute():

@@ -12,16 +12,16 @@ from nonsmooth.errors import InvalidInput
 _UNIT = 1e-9
 _ROUND_OFF = 1e-15
 UNIT_PART: Mapping[str, Any] = MappingProxyType({"minimum": -1.0 - 0.5 * _UNIT, "maximum": 1.0 + 0.5 * _UNIT})
-"""Bounds of a component of a unit vector, some round-off included."""
+"""Bounds of a component of a unit vector, with a margin for round-off."""
 
 
 def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[float, ...]:
-    """Vector as floats.
+    """Vector as a tuple of ``size`` floats; ``unit`` is for messages.
 
     Raises
     ------
     InvalidInput
-        Unless it has ``size`` finite components.
+        If the value does not have ``size`` finite components.
     """
     try:
         numbers = tuple(math.nan if isinstance(x, (str, bool)) else float(x) for x in value)
@@ -63,14 +63,14 @@ def unit_quaternion(thing: str, value: Sequence[float]) -> tuple[float, ...]:
 
 
 def _divided(numbers: tuple[float, ...], norm: float) -> tuple[float, ...]:
-    # one that was normalised before stays the same to the last bit
+    # a vector that was normalised before is returned unchanged, to the last bit
     return numbers if abs(norm - 1.0) <= _ROUND_OFF else tuple(x / norm for x in numbers)
 
 
 def perpendiculars(axis: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Two unit vectors that make a right-handed triple with a unit axis in front."""
+    """Two unit vectors t1, t2 that make a right-handed orthonormal triple (axis, t1, t2) with a unit vector."""
     x, y, z = axis
-    # the coordinate axis farthest from it
+    # the coordinate axis farthest from the direction of ``axis``
     least = min(range(3), key=lambda i: abs(axis[i]))
     other = [1.0 if i == least else 0.0 for i in range(3)]
     first = (other[1] * z - other[2] * y, other[2] * x - other[0] * z, other[0] * y - other[1] * x)

@@ -17,10 +17,9 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry, forget_watch, watch_address
 
 _FIRST = 8192
-"""Work before the first interrupt check, in evaluations of a contact: some milliseconds. Threads of Python wait for
-each other at each check."""
+"""Work before the first interrupt check [evaluations of a contact]: some milliseconds, as threads wait at a check."""
 _SECONDS = 5e-3
-"""Time between two later checks [s]. The work budget is set anew after each, as work may become more costly."""
+"""Time between two later checks [s]. Each check sets the next work budget, because work may become more costly."""
 _REPORTED_EVERY = 0.1
 """Time between two reports [s]."""
 
@@ -78,9 +77,9 @@ class Watch:
         Raises
         ------
         KeyboardInterrupt
-            After Ctrl-C. The state is that before the unfinished part.
+            After Ctrl-C. The memory has the state before the unfinished part.
         BaseException
-            An exception of the report.
+            An exception that the report has raised.
         """
         self._stop_if_asked()
         self._last = self._reported = time.perf_counter()
@@ -105,7 +104,7 @@ class Watch:
         weakref.finalize(self, forget_watch, self._address)
 
     def _handle(self) -> None:
-        """Handle Ctrl-C, if its handler is that of Python. To set a handler takes longer than many a short run."""
+        """Set a handler for Ctrl-C if the user has set none. Only long calls do so, because it takes a while."""
         self._handles = (
             threading.current_thread() is threading.main_thread()
             and signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -138,7 +137,7 @@ class Watch:
 
 
 def _looks(of: weakref.ref[Watch]) -> Generator[float, float, None]:
-    """Interrupt check as a generator: it takes the times of the checks, and gives the work budgets.
+    """Interrupt check as a generator: it receives the time of the run at each check [s], and yields the work budget.
 
     Python handles a signal that came during the call of the engine before the next instruction. In a generator this is
     inside of ``try``. A function would raise the exception before its first line.

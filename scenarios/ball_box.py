@@ -27,9 +27,9 @@ Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
 _LAYER = 2.6
-"""Distance of the layers at the start over the radius, so that balls of two layers cannot overlap."""
+"""Distance of the layers at the start, relative to the radius, so that balls of two layers cannot overlap."""
 _PLAY = 0.45
-"""Random shift of a ball at the start over the free margin in its cell; half of it would touch the next cell."""
+"""Largest random shift of a ball at the start, relative to its margin in its cell; 0.5 would touch the next cell."""
 _ROOT = math.sqrt(0.5)
 _TURNS = ((_ROOT, 0.0, _ROOT, 0.0), (_ROOT, 0.0, -_ROOT, 0.0), (_ROOT, -_ROOT, 0.0, 0.0), (_ROOT, _ROOT, 0.0, 0.0))
 """Unit quaternions that turn the normal of a plate to +x, -x, +y, -y."""
@@ -168,7 +168,10 @@ class BallBox(Scenario):
         return {"q": q.ravel().tolist(), "u": u.ravel().tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return events, impacts and contacts, the kinetic energy over that of the fall, settling time, and height."""
+        """Return numbers of events, impacts and closed contacts, kinetic energy / energy of the fall, time, height.
+
+        ``settled_at`` is the time at which the balls have settled [s], ``height`` the top of the highest ball [m].
+        """
         return {
             "events": len(solution.events),
             "impacts": solution.counters.impacts,
@@ -179,7 +182,7 @@ class BallBox(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the least distance over all samples, and losses over the energy that heights and speeds gave."""
+        """Return two criteria: the least distance of bodies over all samples, and the balance of energy."""
         account, r = solution.energy, self.radius
         q_end, u_end = solution.q_end.reshape(-1, 7), solution.u_end[None]
         fallen = self.mass * _GRAVITY * float(np.sum(self.places()[:, 2] - q_end[:, 2]))
@@ -205,14 +208,14 @@ class BallBox(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the pile of the default run, and its history with that of another coefficient of restitution."""
+        """Return the pile of the default run, and the history of runs with two coefficients of restitution."""
         boxes = {f"e = {e:g}": cls(restitution=e) for e in (0.5, 0.8)}
         runs = {label: (box, run(box)) for label, box in boxes.items()}
         return {"pile": _pile(*runs["e = 0.5"]), "history": _history(runs)}
 
 
 def _pile(scenario: BallBox, solution: Solution) -> Figure:
-    """Draw the balls at the start and at the end, from the side and from above, the nearer ones lighter."""
+    """Draw the balls at the start and at the end, from the side and from above; nearer balls are lighter."""
     from matplotlib.patches import Circle
 
     places, closed = scenario.positions(solution), int(scenario.closed_contacts(solution)[-1])
@@ -225,7 +228,7 @@ def _pile(scenario: BallBox, solution: Solution) -> Figure:
     cells = ((*view, *instant) for view in views for instant in instants)
     for ax, (view, label, up, limits, centres, name) in zip(axes, cells, strict=True):
         depth = centres[:, 2] if up == 1 else -centres[:, 1]
-        for i in np.argsort(depth):  # the nearest to the eye is drawn last
+        for i in np.argsort(depth):  # the ball nearest to the eye is drawn last
             near = (depth[i] - np.min(depth)) / max(float(np.ptp(depth)), scenario.radius)
             place, shade = (1e3 * centres[i, 0], 1e3 * centres[i, up]), str(0.6 + 0.35 * near)
             ax.add_patch(Circle(place, 1e3 * scenario.radius, facecolor=shade, edgecolor="black", linewidth=0.8))
@@ -236,7 +239,7 @@ def _pile(scenario: BallBox, solution: Solution) -> Figure:
 
 
 def _history(runs: Mapping[str, tuple[BallBox, Solution]]) -> Figure:
-    """Draw the kinetic energy, over that of the fall, and the number of closed contacts over time."""
+    """Draw the kinetic energy, relative to the energy of the fall, and the number of closed contacts, over time."""
     energies, closed = {}, {}
     for name, (scenario, solution) in runs.items():
         energies[name] = solution.t, scenario.kinetic_energy(solution) / scenario.fall_energy

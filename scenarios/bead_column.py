@@ -94,7 +94,7 @@ class BeadColumn(Scenario):
         return {"q": solution.q_end[2::7].tolist(), "u": solution.u_end[2::6].tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the velocities after the first impact over the speed of the fall, the impacts, the loss [J]."""
+        """Return velocities after the first impact / speed of the fall, number of impacts, loss by restitution [J]."""
         return {
             "relative_rebound": (self.rebound(solution) / self.fall_speed).tolist(),
             "impacts": solution.counters.impacts,
@@ -102,7 +102,7 @@ class BeadColumn(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the time of the first impact, and what its energy or the rebound of one bead must be."""
+        """Return criteria: time of the first impact; for e = 1 the energy after it; for one bead its rebound."""
         times = solution.events.time[solution.events.cause == Cause.IMPACT]
         fall = self.fall_speed / _GRAVITY
         first = float(times[0]) if len(times) else None

@@ -65,7 +65,7 @@ class BlockOnBelt(Scenario):
     t_end: float = parameter(40.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e4))
 
     def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters, the velocity at the start as the run takes it."""
+        """Return all parameters; a velocity that was not given is replaced by the speed of the belt."""
         return {**super().resolved(), "velocity": self.start_velocity}
 
     @property
@@ -75,7 +75,7 @@ class BlockOnBelt(Scenario):
 
     @property
     def reach(self) -> float:
-        """Bound of the elongation [m]: at breakaway, how far the speeds carry the block, and the start, added."""
+        """Upper bound of the elongation [m]: the sum of F_s / k, of both speeds / sqrt(k / m), and of the start."""
         swing = (self.belt_speed + abs(self.start_velocity)) * math.sqrt(self.mass / self.stiffness)
         return self.static_force / self.stiffness + swing + abs(self.elongation)
 
@@ -110,9 +110,10 @@ class BlockOnBelt(Scenario):
         return {"q": [float(solution.q_end[0])], "u": [float(solution.u_end[0])]}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return where slip starts, the extremes, and of the last cycle the period and the fraction of stick.
+        """Return elongations at which slip starts [m], extremes [m], period [s] and stick of the last cycle, loss [J].
 
-        The last two are None before the second cycle.
+        ``stick_share`` is the fraction of the last cycle in stick.  Both it and the period are None before the second
+        cycle.
         """
         events, starts = solution.events, self.breakaways(solution)
         caught = self.catches(solution)

@@ -41,7 +41,7 @@ _PIPS = {
 }
 """Places of the pips on a face, across and along."""
 _PIP, _APART, _SIDES = 0.16, 0.5, 16
-"""Radius of a pip and distance of pips over half an edge, and sides of the polygon that is drawn for a pip."""
+"""Radius of a pip and distance of pips, relative to half an edge; sides of the polygon that is drawn for a pip."""
 _SHADES = ("#e69f00", "#56b4e9", "#009e73", "#cc79a7", "#d55e00", "#0072b2")
 """Colours of the dice; black as in ``charts.COLOURS`` would hide the edges."""
 
@@ -73,7 +73,7 @@ class DiceThrow(Scenario):
     t_end: float = parameter(1.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
     def _check(self) -> None:
-        _ = self.die  # refuses a rounding that is more than half the edge
+        _ = self.die  # raises an error if the rounding is larger than half the edge
 
     @property
     def die(self) -> BoxBody:
@@ -114,7 +114,7 @@ class DiceThrow(Scenario):
         return solution.q[:, 2::7]
 
     def eyes(self, solution: Solution) -> list[int]:
-        """Return the eyes that each die shows at the end, on the face whose normal is the nearest to the vertical."""
+        """Return the eyes that each die shows at the end, on the face whose normal is nearest to the vertical."""
         upright = self.upright(solution)
         axes = np.argmax(np.abs(upright), axis=1)
         return [int(_EYES[int(up[axis] > 0.0), axis]) for axis, up in zip(axes, upright, strict=True)]
@@ -139,7 +139,7 @@ class DiceThrow(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the balance of energy, the mass by its weight, and of dice at rest how flat they lie."""
+        """Return criteria: balance of energy, weight of the dice, and for dice at rest their height and their tilt."""
         account = solution.energy
         start, end = account.kinetic_start + account.potential_start, account.kinetic_end + account.potential_end
         found = []
@@ -199,7 +199,7 @@ def _throw(scenario: DiceThrow, solution: Solution) -> Figure:
 
 
 def _to_one_scale(axes: list[Axes]) -> None:
-    """Give all panels the width and height of the largest."""
+    """Give all panels the largest width and height of their limits, so that all dice have the same scale."""
     limits = np.array([[ax.get_xlim(), ax.get_ylim()] for ax in axes])
     largest = np.max(limits[:, :, 1] - limits[:, :, 0], axis=0)
     for ax, middle in zip(axes, 0.5 * np.sum(limits, axis=2), strict=True):
@@ -208,7 +208,7 @@ def _to_one_scale(axes: list[Axes]) -> None:
 
 
 def _pips(half: float) -> list[tuple[Floats, Floats]]:
-    """Return the pips of a die of half an edge [m]: normal of the face, and corners."""
+    """Return the pips of a die with half-edge ``half`` [m]: for each pip the normal of its face, and its corners."""
     turn = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
     ring, found = _PIP * np.column_stack([np.cos(turn), np.sin(turn)]), []
     for (side, axis), eyes in np.ndenumerate(_EYES):

@@ -28,9 +28,9 @@ Floats = NDArray[np.float64]
 _GRAVITY = 9.81
 _DENSITY = 1000.0
 _NARROWER = 0.9
-"""Width of every second domino over the width of its neighbours, so that no two corners meet."""
+"""Width of every second domino, relative to its neighbours, so that no two corners meet."""
 _MOVES = 1e-4
-"""Angular velocity after an event above which a domino has been struck [rad/s]; round-off stays far below."""
+"""Angular velocity above which a domino has been struck [rad/s]; round-off is far below."""
 
 
 @final
@@ -82,7 +82,7 @@ class Dominoes(Scenario):
 
     @property
     def balance(self) -> float:
-        """Tilt at which the mass centre is above the edge [rad]."""
+        """Tilt at which the mass centre of a domino is above its lower edge [rad]."""
         return math.atan2(self.thickness, self.height)
 
     @property
@@ -148,12 +148,12 @@ class Dominoes(Scenario):
         return {f"tilt_{i + 1}": tilt for i, tilt in enumerate(self.tilts(solution).T)}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return when each domino was struck [s], the speed of the wave [m/s], impacts and losses [J]."""
+        """Return when each domino was struck [s], speeds of the wave [m/s], number of impacts, and losses [J]."""
         wave = {"strikes": self.strikes(solution).tolist(), "wave_speed": self.speeds(solution).tolist()}
         return {**wave, **super().summarise(solution)}
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the first strike, how steady the wave has become, and the balance of energy."""
+        """Return criteria: balance of energy, time of the first strike, and change of the wave's speed at the end."""
         account, speeds, strikes = solution.energy, self.speeds(solution), self.strikes(solution)
         found = []
         if account.loss > 0.0:
@@ -206,7 +206,7 @@ def _row(scenario: Dominoes, solution: Solution) -> Figure:
 
 
 def _wave(runs: Mapping[str, tuple[Dominoes, Solution]]) -> Figure:
-    """Draw the speed of the wave over the number of the domino."""
+    """Draw the speed of the wave from each domino to the next."""
     speeds = {name: scenario.speeds(solution) for name, (scenario, solution) in runs.items()}
     waves = {name: (np.arange(len(speed)) + 2, speed) for name, speed in speeds.items()}
     title, ylabel = "The wave grows to a steady speed", "speed from it to the next [m/s]"

@@ -87,13 +87,13 @@ class EggOnTable(Scenario):
         return system
 
     def normals(self, q: Floats) -> Floats:
-        """Return the upward normal in body axes, shape [n, 3], of coordinates of shape [n, 7]."""
+        """Return the upward normal in body axes, shape [n, 3], for coordinates of shape [n, 7]."""
         a, b, c, d = q[:, 3:].T
         n = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
         return np.asarray(n / np.sum(q[:, 3:] ** 2, axis=1)[:, None])
 
     def tilts(self, q: Floats) -> Floats:
-        """Return the angle between axis and vertical, from 0 to pi/2 whichever end is up [rad], shape [n]."""
+        """Return the angle between axis and vertical [rad], 0 to pi/2, the same for either end up, shape [n]."""
         n = self.normals(q)
         return np.asarray(np.arctan2(np.hypot(n[:, 0], n[:, 1]), np.abs(n[:, 2])))
 
@@ -105,14 +105,14 @@ class EggOnTable(Scenario):
     def jellett(self, q: Floats, u: Floats) -> Floats:
         """Return L_z h, angular momentum about the vertical times height of the mass centre [kg m^3/s], shape [n].
 
-        In the balance of a fast spin it is the A Omega h of Moffatt and Shimomura, constant while the egg rises.
+        For a fast spin it is the quantity A Omega h of Moffatt and Shimomura, which is constant while the egg rises.
         """
         n = self.normals(q)
         heights = np.sum(self.levers(q) * n, axis=1)
         return np.asarray(np.sum(u[:, 3:] * np.array(self.body().inertia) * n, axis=1) * heights)
 
     def upright_spin(self) -> float:
-        """Return the spin of the upright egg by constant A Omega h [rad/s]: A b / (C a) times the spin at the start."""
+        """Return the upright egg's spin for constant A Omega h [rad/s]: A b / (C a) times the spin at the start."""
         across, _, along = self.body().inertia
         height = math.hypot(self.semi_across * math.sin(self.tilt), self.semi_long * math.cos(self.tilt))
         start = across * math.sin(self.tilt) ** 2 + along * math.cos(self.tilt) ** 2
@@ -143,9 +143,9 @@ class EggOnTable(Scenario):
         }
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return when it is upright [s], tilt [rad] and spin [rad/s] at the end, flights, and losses [J].
+        """Return when the egg is upright [s], tilt [rad] and spin [rad/s] at the end, number of flights, losses [J].
 
-        It is upright once its axis is within 10 degrees of the vertical for the rest of the run.
+        It is upright from the time at which its axis remains within 10 degrees of the vertical.
         """
         tilt = self.tilts(solution.q)
         leaning = np.flatnonzero(tilt > _UPRIGHT)
@@ -160,9 +160,11 @@ class EggOnTable(Scenario):
         }
 
     def balance(self, solution: Solution) -> float:
-        """Return the largest difference of L . r and the integral of L . r' over L . r at the start, r the lever.
+        """Return the largest error of the balance of L . r, relative to L . r at the start.
 
-        A force in the contact point has no moment along r; the integral is that of a spline through the samples.
+        r is the vector from the contact point to the mass centre.  A force in the contact point has no moment along r,
+        so that L . r changes only by the integral of L . r' over time.  The integral is taken of a spline through the
+        samples.
         """
         from scipy.interpolate import CubicSpline
 
@@ -175,7 +177,7 @@ class EggOnTable(Scenario):
         return float(np.max(np.abs(product - product[0] - gained)) / abs(product[0]))
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the balance of angular momentum and, of the default egg, tilt and spin at the end."""
+        """Return criteria: the balance of angular momentum; for the default egg also tilt and spin at the end."""
         source = "no moment along the line from the contact point to the mass centre"
         found = [Criterion("change of L . r that is none of r", self.balance(solution), 0.0, 1e-4, source)]
         if self.t_end >= _RISEN and dataclasses.replace(self, t_end=_RISEN) == EggOnTable(t_end=_RISEN):
@@ -193,7 +195,7 @@ class EggOnTable(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the history of the default egg, the rise for other friction and spins, and a fast egg's jumps."""
+        """Return the history of the default egg, the tilt for other friction and spins, and the jumps of a fast egg."""
         frictions = {f"μ = {mu:g}": cls(friction=mu) for mu in (0.0, 0.05, 0.1, 0.2)}
         spins = {f"{spin:g} rad/s": cls(spin=spin) for spin in (40.0, 80.0, 140.0, 250.0)}
         fast, egg = cls(spin=250.0, t_end=2.0), cls()

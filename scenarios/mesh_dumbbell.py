@@ -1,4 +1,4 @@
-"""The dumbbell of the paper with polyhedra in place of balls, compared with the one with balls."""
+"""The dumbbell of the paper with polyhedra in place of balls, compared with the dumbbell with balls."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ _CORNERS = np.array([np.roll((0.0, a, b * _GOLDEN), k) for k in (0, 2, 1) for a 
 @final
 @dataclass(frozen=True)
 class MeshDumbbell(Scenario):
-    """The dumbbell of the paper with polyhedra in place of balls, from the start of a mode, on the same plate.
+    """The dumbbell of the paper with polyhedra in place of balls, on the same plate, from the start of one mode.
 
-    Mass and inertia are those of the body with balls, so that only the surface differs.
+    It has the mass and inertia of the dumbbell with balls, so that only the surface differs.
     """
 
     title: ClassVar[str] = "Dumbbell out of meshes"
@@ -73,7 +73,7 @@ class MeshDumbbell(Scenario):
         body = RigidBody(dumbbell.total_mass, dumbbell.inertia, balls)
         meshes = System([plate, body], gravity=GRAVITY)
         with warnings.catch_warnings():
-            # the warning says that a mesh has many corners, as it is meant here
+            # the warning reports a mesh with many corners, which is intended here
             warnings.simplefilter("ignore", UnusualValue)
             meshes.contact(plate, body, normal=contact.normal, friction=contact.friction, impact=contact.impact)
         meshes.set_start(body, *system.start(dumbbell))
@@ -94,7 +94,7 @@ class MeshDumbbell(Scenario):
         return np.asarray(centers - depth[:, None] - scenario.plate_height(t)[:, None])
 
     def delays(self, solution: Solution, balls: Solution) -> list[float]:
-        """Return the times of the first impacts less the times of the dumbbell with balls [s]."""
+        """Return the times of the first impacts minus the times of the same impacts with balls [s]."""
         own, other = (one.events.time[one.events.cause == Cause.IMPACT][:_COMPARED] for one in (solution, balls))
         n = min(len(own), len(other))
         return [float(x) for x in own[:n] - other[:n]]
@@ -105,7 +105,10 @@ class MeshDumbbell(Scenario):
         return {**{name: solution.q[:, i] for i, name in enumerate("xyz")}, "gap_1": gaps[:, 0], "gap_2": gaps[:, 1]}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return triangles of a ball, contacts, impacts, impacts with balls, delays [s], distance at the end [m]."""
+        """Return numbers of triangles, contacts and impacts, impacts with balls, delays [s], distance at the end [m].
+
+        The distance is the distance between the mass centres of both dumbbells.
+        """
         balls = self.with_balls()
         return {
             "triangles": 20 * 4**self.subdivisions,
@@ -138,7 +141,7 @@ class MeshDumbbell(Scenario):
 
 
 def ball_of_triangles(radius: float, subdivisions: int) -> Triangles:
-    """Return an icosahedron with all triangles cut into four ``subdivisions`` times, its vertices on a ball [m]."""
+    """Return an icosahedron whose triangles are cut in four ``subdivisions`` times, all vertices at ``radius`` [m]."""
     from scipy.spatial import ConvexHull
 
     points = _CORNERS / math.hypot(1.0, _GOLDEN)
@@ -149,7 +152,7 @@ def ball_of_triangles(radius: float, subdivisions: int) -> Triangles:
         points = np.vstack([points, middles / np.linalg.norm(middles, axis=1)[:, None]])
     hull = ConvexHull(points)
     corners = points[hull.simplices]
-    # Qhull orders the corners of a facet in either sense
+    # Qhull orders the corners of a facet in either sense: turn those with an inward normal
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     inward = np.einsum("ni,ni->n", normals, corners[:, 0]) < 0
     faces = np.where(inward[:, None], hull.simplices[:, ::-1], hull.simplices)
@@ -174,7 +177,7 @@ def _gaps(runs: Sequence[tuple[MeshDumbbell, Solution]], balls: Solution) -> Fig
         gaps = {label: (1e3 * t, 1e3 * gap[:, i]) for label, (t, gap) in curves.items()}
         charts.histories({f"gap of ball {i + 1} [mm]": gaps}, xlabel="", axes=[ax])
         ax.lines[0].set(color="0.7", linewidth=4.0)
-    # the first colour is that of the balls
+    # an empty first curve takes the colour of the balls
     charts.histories({"largest difference [mm]": {"": ([], []), **differences}}, xlabel="time [ms]", axes=[below])
     below.set_yscale("log")
     charts.legend(figure)

@@ -1,4 +1,4 @@
-"""Newton's cradle: a row of balls at rest, struck by others in one multiple impact."""
+"""Newton's cradle: a row of balls at rest, struck by further balls in one multiple impact."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class NewtonsCradle(Scenario):
         return {"q": solution.q_end[::7].tolist(), "u": self.velocities(solution).tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the velocities over that of the strikers, the fraction of energy kept, and the number of impacts."""
+        """Return velocities / speed of the strikers, kinetic energy at the end / at the start, number of impacts."""
         account = solution.energy
         return {
             "relative_velocity": (self.velocities(solution) / self.speed).tolist(),
@@ -148,7 +148,7 @@ class NewtonsCradle(Scenario):
 
 
 def _velocities(runs: Mapping[str, tuple[NewtonsCradle, Solution]], words: str) -> Figure:
-    """Draw the velocity of every ball, counted from the far end, relative to that of the strikers."""
+    """Draw the velocity of every ball relative to the speed of the strikers; balls count from the far end."""
     struck = {label: row.velocities(solution)[::-1] / row.speed for label, (row, solution) in runs.items()}
     figure = charts.comparison(
         {},

@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
 _SIDES = (6, 5, 4, 3)
-"""Sides of the prisms, from the lowest to the uppermost."""
+"""Number of sides of each prism, from the lowest to the uppermost."""
 _COLOURS = ("#0072b2", "#009e73", "#e69f00", "#cc79a7")
 
 
@@ -100,7 +100,7 @@ class PolyhedronStack(Scenario):
 
     @property
     def stands(self) -> bool:
-        """Whether the uppermost prism stops long before it tips, and no prism below slides or tips."""
+        """True if the uppermost prism stops long before it tips, and no prism below slides or tips."""
         inner = self.radius * self.taper ** (len(_SIDES) - 2) * math.cos(math.pi / _SIDES[-2])
         return self.way < 0.5 * inner and self.friction * self.height < 0.6 * inner
 
@@ -124,7 +124,7 @@ class PolyhedronStack(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the balance of energy and, if the tower withstands the push, the way of its prisms."""
+        """Return criteria: balance of energy; if the tower withstands the push, also the distances its prisms slide."""
         account = solution.energy
         start, end = account.kinetic_start + account.potential_start, account.kinetic_end + account.potential_end
         name = "energy less what was lost over that at the start"
@@ -138,12 +138,12 @@ class PolyhedronStack(Scenario):
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the tower at the start and at the end, and the way of the uppermost prism."""
+        """Return the tower at the start and at the end, and the distance slid by the uppermost prism."""
         return {"tower": _tower(self, solution)}
 
 
 def _tower(scenario: PolyhedronStack, solution: Solution) -> Figure:
-    """Draw the tower at the start and at the end, and the way of the uppermost prism with its events."""
+    """Draw the tower at the start and at the end, and the distance slid by the uppermost prism, with its events."""
     claim = "Pushed, the uppermost prism slides to rest; the tower below stays"
     title = claim if scenario.stands else "The uppermost prism is pushed"
     figure, (start, end, history) = charts.panels(1, 3, title, (9.6, 4.6), width_ratios=(1.0, 1.0, 1.6))

@@ -73,7 +73,7 @@ def draw_solids(
 
 
 def directions_of_view(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
-    """Return the unit vectors to the right, up, and towards the eye, whose direction is given by two angles [rad]."""
+    """Return the unit vectors to the right, up, and towards the eye, for the eye's azimuth and elevation [rad]."""
     ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
     return np.array([-sa, ca, 0.0]), np.array([-ca * se, -sa * se, ce]), np.array([ca * ce, sa * ce, se])
 

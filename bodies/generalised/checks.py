@@ -22,17 +22,18 @@ _STEP = 1e-3
 _ALLOWED = 1e-6
 _LOOK = "Look at the signs of the potential's derivatives and at the terms quadratic in u"
 _ASIDE = 0.01
-"""Shift of the second place that is looked at, in units of the scales: at a symmetric start many terms vanish."""
+"""Shift of the second place that is checked, relative to the scales, because at a symmetric start many terms vanish."""
 
 
 def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_scale: Vector) -> None:
-    """Look at the functions at a start and a little aside of it, at its velocities and at others.
+    """Check the functions at a start and at a shifted place, each with the start's velocities and with others.
 
     Raises
     ------
     InvalidInput
-        If the mass matrix is not symmetric and positive definite, a rotation is none, a Jacobian is not the derivative
-        of its pose, a bias not that of its Jacobian times u, or forces and energies contradict each other.
+        The mass matrix is not symmetric and positive definite, a rotation matrix is not orthogonal, a Jacobian is not
+        the derivative of its pose, a bias not the rate of its Jacobian times u, or forces and energies contradict each
+        other.
     """
     # no number here is 1 or its neighbour's, so that a square forgotten or an index exchanged cannot hide
     signs = (-1.0) ** np.arange(len(q)) * 1.37 / (1.0 + 0.7 * np.arange(len(q)))
@@ -179,18 +180,18 @@ def _check_force(sample: Sampler, q: Vector, u: Vector, q_scale: Vector) -> None
 
 _SENTINEL = -7.0e250
 GRAVITY = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
-"""Gravity of the checks [m/s^2], which must hold with any."""
+"""Gravity in the checks [m/s^2]: an oblique one, because the equations must hold with any gravity."""
 
 
 def check_signatures(name: str, parts: Sequence[UserFunction], known: Mapping[str, Value]) -> None:
-    """Look at what the functions take, besides their leading arguments out of what is known.
+    """Check that all functions take the leading arguments of their role, then known constants only.
 
     Raises
     ------
     InvalidInput
-        If one is not callable or does not begin with the arguments of its role.
+        A part is not a plain function, or its first arguments are not those of its role.
     UnknownName
-        If one asks for a constant that nobody gives.
+        A function takes a constant that was not given.
     """
     for _, part, role, function, _ in parts:
         expected = LEADING[role]
@@ -211,7 +212,7 @@ def _form(role: str) -> str:
 
 
 class Sampler:
-    """Calls the functions of a body just as the engine does, each with room around what it may write."""
+    """Calls the functions of a body as the engine does, with guard numbers around the output of each."""
 
     def __init__(self, name: str, equations: Equations, constants: Mapping[str, Value]) -> None:
         self.name = name
@@ -227,12 +228,12 @@ class Sampler:
         return f"{self.name}.{part}: {self._functions[part].__qualname__}"
 
     def __call__(self, q: Vector, u: Vector) -> dict[str, Any]:
-        """Return what every function says at t = 0, q and u, by its name.
+        """Return the values of all functions at t = 0, q and u, by the names of the functions.
 
         Raises
         ------
         InvalidInput
-            If one writes beyond its size, reads beyond the coordinates, fails, or a number is not finite.
+            A function wrote beyond its size, read beyond the coordinates, failed, or gave a number that is not finite.
         """
         out = np.full(self._size, _SENTINEL)
         for part, start in self.places:
@@ -241,7 +242,7 @@ class Sampler:
         where = f"at q = {q.tolist()}, u = {u.tolist()}"
         try:
             self._call(0.0, np.concatenate([q, beyond]), np.concatenate([u, beyond]), out)
-        except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # in plain mode
+        except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # from functions that run uncompiled
             raise InvalidInput(
                 f"{self.name}", f"must have functions that do not fail {where}", error, "Look at its functions."
             ) from error

@@ -1,4 +1,4 @@
-"""From the functions of a body to the evaluator that the engine calls, and to a probe that calls each of them."""
+"""Makes the evaluator of a body from the user's functions, and a probe that calls each function for checks."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ LEADING = {
     "jacobian": ("q", "out"),
     "bias": ("q", "u", "out"),
 }
-"""What the functions of a body take before its constants."""
+"""Leading arguments of a body's functions, by role; constants follow."""
 
 
 class UserFunction(NamedTuple):
-    """A function of a body: its variable in the text below, name for messages, role, and number of values."""
+    """A function of a body: variable in the source text below, name in messages, role, function, number of values."""
 
     variable: str
     name: str
@@ -41,7 +41,7 @@ class UserFunction(NamedTuple):
 
 @dataclass(frozen=True)
 class Equations:
-    """The functions of a body; ``frames`` are without their shapes, so that equal bodies share what is compiled."""
+    """The functions of a body; ``frames`` have no shapes, so that bodies with equal functions share compiled code."""
 
     n: int
     mass: Function
@@ -194,9 +194,9 @@ def quadratic(n: int, matrix: Floats, vector: Floats) -> float:
 
 @compiled
 def invert(n: int, matrix: Floats) -> None:
-    """Put the inverse of a symmetric positive definite matrix in its place, by Cholesky.
+    """Replace a symmetric positive definite matrix by its inverse, by Cholesky factorisation.
 
-    Of the matrix only the lower triangle is read.  If it is not positive definite, what comes out is not finite.
+    Only the lower triangle is read.  If the matrix is not positive definite, the result is not finite.
     """
     for j in range(n):
         pivot = matrix[j * n + j]
@@ -208,7 +208,7 @@ def invert(n: int, matrix: Floats) -> None:
             for m in range(j):
                 total -= matrix[i * n + m] * matrix[j * n + m]
             matrix[i * n + j] = total / matrix[j * n + j]
-    # the factor L gives way to its inverse, column by column ...
+    # replace the factor L by its inverse, column by column
     for j in range(n):
         matrix[j * n + j] = 1.0 / matrix[j * n + j]
         for i in range(j + 1, n):
@@ -216,7 +216,7 @@ def invert(n: int, matrix: Floats) -> None:
             for m in range(j, i):
                 total -= matrix[i * n + m] * matrix[m * n + j]
             matrix[i * n + j] = total / matrix[i * n + i]
-    # ... and that to L^-T L^-1, of which row i needs no row above
+    # replace L^-1 by L^-T L^-1, whose row i needs no row above
     for i in range(n):
         for j in range(i + 1):
             total = 0.0

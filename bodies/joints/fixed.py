@@ -29,7 +29,7 @@ class Fixed(RowsJoint):
 
     @property
     def rows(self) -> Sequence[JointRow]:
-        """All rotations and all translations."""
+        """Rows that prevent all rotations and all translations."""
         quaternion = unit_quaternion("Fixed.orientation", self.orientation)
         x, y, z = AXES
         turns = parallel_axes(AXES, [turned_back(quaternion, axis) for axis in AXES])

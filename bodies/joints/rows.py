@@ -41,7 +41,7 @@ Point = tuple[float, float, float]
 _WIDTH = 10
 """Numbers of a row in the table: its kind and three vectors."""
 AXES: tuple[Point, Point, Point] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-"""The axes of a frame."""
+"""Unit vectors of the axes of a frame."""
 
 
 class RowKind(IntEnum):
@@ -56,7 +56,12 @@ class RowKind(IntEnum):
 
 
 class JointRow(NamedTuple):
-    """One scalar condition of a joint: kind, a vector in the frame of each body, and a third vector."""
+    """One scalar condition of a joint: kind, a vector in the frame of each body, and a third vector.
+
+    - on a plane: a point of each body [m], and the normal of the plane in the frame of the first body;
+    - right angle: a direction in each body;
+    - at a distance: a point of each body [m], and the distance as first component of the third vector [m].
+    """
 
     kind: RowKind
     first: Sequence[float]
@@ -67,7 +72,7 @@ class JointRow(NamedTuple):
 def on_planes(first: Sequence[float], second: Sequence[float], normals: Sequence[Sequence[float]]) -> list[JointRow]:
     """Rows that keep a point of the second body on planes through a point of the first one.
 
-    Points are in the frames of their bodies [m], normals in that of the first body.
+    Points are in the frames of their bodies [m], normals in the frame of the first body.
     """
     return [JointRow(RowKind.ON_PLANE, first, second, normal) for normal in normals]
 
@@ -117,12 +122,12 @@ class RowsJoint(Joint, ABC):
 
     @property
     def n_rows(self) -> int:
-        """Number of rows: how many degrees of freedom the joint takes."""
+        """Number of rows: the degrees of freedom that the joint removes."""
         return len(self.rows)
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The rows, one after the other."""
+        """The function that evaluates all rows of the table."""
         return evaluate_rows
 
     @property
@@ -146,7 +151,7 @@ def evaluate_rows(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats
 
 @compiled
 def _along(frame: Floats, out: Floats, place: int) -> float:
-    """Return omega . d for the offset d of the point at ``place`` from the origin of a frame."""
+    """Return omega . d, with the offset d of the point at index ``place`` of ``out`` from the origin of a frame."""
     return (
         frame[SPIN] * (out[place] - frame[POSITION])
         + frame[SPIN + 1] * (out[place + 1] - frame[POSITION + 1])
@@ -162,8 +167,9 @@ def _square(frame: Floats) -> float:
 
 @compiled
 def _carried(frame: Floats, out: Floats, place: int, along: float, i: int) -> float:
-    """Return component i of the acceleration of the point at ``place``, fixed in a frame, but for -d_i omega^2.
+    """Return component i of the acceleration of a point fixed in a frame, without its term -d_i omega^2.
 
+    The point is at index ``place`` of ``out``, with the offset d from the origin of the frame.  The term belongs to
     omega x (omega x d) = omega (omega . d) - d omega^2, with omega . d = ``along``.
     """
     j, k = (i + 1) % 3, (i + 2) % 3
@@ -177,7 +183,7 @@ def _carried(frame: Floats, out: Floats, place: int, along: float, i: int) -> fl
 
 @compiled
 def _relative(a: Floats, b: Floats, out: Floats, o: int, i: int) -> float:
-    """Return component i of the velocity of the row's point on the second body relative to that on the first."""
+    """Return component i of the velocity of the row's point on the second body minus that of its point on the first."""
     j, k = (i + 1) % 3, (i + 2) % 3
     first = a[VELOCITY + i] + a[SPIN + j] * (out[o + POINT_A + k] - a[k]) - a[SPIN + k] * (out[o + POINT_A + j] - a[j])
     second = b[VELOCITY + i] + b[SPIN + j] * (out[o + POINT_B + k] - b[k]) - b[SPIN + k] * (out[o + POINT_B + j] - b[j])

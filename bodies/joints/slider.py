@@ -33,7 +33,7 @@ class Slider(RowsJoint):
 
     @property
     def rows(self) -> Sequence[JointRow]:
-        """All rotations and two translations."""
+        """Rows that prevent all rotations and the two translations across the axis."""
         axis = unit_vector("Slider.axis", self.axis)
         sides = perpendiculars(axis)
         quaternion = unit_quaternion("Slider.orientation", self.orientation)

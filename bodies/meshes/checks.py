@@ -1,4 +1,4 @@
-"""Rules of a closed surface: each with the number that shows where the surface breaks it, and the remedy."""
+"""Checks of a closed surface: an error states the rule, a number that shows where it is broken, and the remedy."""
 
 from __future__ import annotations
 
@@ -164,23 +164,25 @@ def _check_shells(thing: str, vertices: Vector, faces: Integers) -> None:
 
 
 MOST_PAIRS = 2_000_000_000
-"""Pairs of triangles whose places along one axis overlap, strip by strip, that are looked at."""
+"""Most pairs of triangles that overlap along the axis of the sweep and are examined, which takes minutes."""
 _CHUNK = 2_000_000
 _STRIPS, _WIDE = 1000, 4.0
-"""Most strips; their least width in units of the triangles' mean extent."""
+"""Largest number of strips; least width of a strip, relative to the mean extent of the triangles."""
 _ROUNDED = 1e-12
-"""Bound of the rounding of a place in the last strip, in units of the largest extent."""
+"""Bound of the round-off of a place in the last strip, relative to the largest extent."""
 _SHALLOW = 1e-6
-"""How far the ends of an edge must stand out of a triangle on either side, relative to the largest extent: single
-precision and a few digits in text files let neighbours overlap by less."""
+"""Least distance of both ends of a crossing edge from the triangle's plane, relative to the largest extent.
+
+Neighbours overlap by less because files hold single precision or few digits.
+"""
 
 
 class TooManyPairs(Exception):
-    """There are more pairs of triangles near each other than can be looked at; the argument is their number."""
+    """More pairs of triangles are near each other than can be examined; the argument is their number."""
 
 
 def count_crossings(vertices: Vector, faces: Integers) -> int:
-    """Return the number of pairs of triangles of which an edge of one passes through the inside of the other.
+    """Return the number of pairs of triangles in which an edge of one passes through the inside of the other.
 
     The boxes of the triangles are swept along one axis, strip by strip of a second one, so that the time grows little
     faster than their number.
@@ -188,7 +190,7 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
     Raises
     ------
     TooManyPairs
-        If the boxes of so many overlap, as those of long thin triangles do, that it would take minutes.
+        So many boxes overlap, as the boxes of long thin triangles do, that the count would take minutes.
     """
     corners = vertices[faces]
     low, high = np.min(corners, axis=1), np.max(corners, axis=1)
@@ -217,7 +219,7 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
         for axis in (axes[1], axes[2], axes[0]):
             near = (low[one, axis] <= high[two, axis]) & (low[two, axis] <= high[one, axis])
             one, two, where = one[near], two[near], where[near]
-        # of the strips that both are in, the pair counts in the first
+        # a pair that shares several strips counts in the first of them only
         both = np.maximum(low[one, axes[1]], low[two, axes[1]])
         own = _strip_of(both, np.min(low[:, axes[1]]), width) == where
         one, two = one[own], two[own]
@@ -228,7 +230,7 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
 
 
 def _strips(low: Vector, high: Vector) -> tuple[Integers, Integers, float]:
-    """Return triangles and strips, one entry for every strip that a triangle is in, and the width of a strip."""
+    """Return triangles and their strips, one entry for every strip that a triangle meets, and the width of a strip."""
     origin, span = float(np.min(low)), float(np.max(high) - np.min(low))
     width = max(_WIDE * float(np.mean(high - low)), span / _STRIPS, 1e-300)
     first = _strip_of(low, origin, width)
@@ -243,7 +245,10 @@ def _strip_of(place: Vector, origin: float, width: float) -> Integers:
 
 
 def _cross(faces: Integers, corners: Vector, one: Integers, two: Integers, depth: float) -> NDArray[np.bool_]:
-    """Return whether an edge of each first triangle passes through the second; edges that share a vertex do not."""
+    """Return whether an edge of each first triangle passes through the second one, shape [n].
+
+    An edge that shares a vertex with the second triangle does not count.
+    """
     found = np.zeros(len(one), dtype=bool)
     a, b, c = (corners[two, i] for i in range(3))
     normal = np.cross(b - a, c - a)

@@ -1,4 +1,4 @@
-"""Mesh: a checked closed surface; Surface: the component that gives it; units of length."""
+"""Meshes of bodies: a checked closed surface (Mesh), the component that gives it (Surface), and units of length."""
 
 from __future__ import annotations
 
@@ -138,21 +138,21 @@ def checked(name: str, vertices: Vector, faces: Integers, unit: str = "m", repai
 
 
 METRES = {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "inch": 0.0254, "foot": 0.3048}
-"""Length of one unit [m]."""
+"""Units of length and their size [m]."""
 
 SMALLEST, LARGEST = 1e-4, 5.0
-"""Largest extent of a body that is taken without a question [m]."""
+"""Usual range of the largest extent of a body [m]; outside of it a warning asks whether the unit is right."""
 
 
 def metres(thing: str, unit: str) -> float:
-    """Return the length of a unit [m]; raise UnknownName if there is none of that name."""
+    """Return the length of a unit [m]; raise UnknownName if the unit is unknown."""
     if unit not in METRES:
         raise UnknownName(f"{thing}: unit", str(unit), METRES)
     return METRES[unit]
 
 
 def warn_of_size(thing: str, extent: float, unit: str) -> None:
-    """Warn if a body with this largest extent [m], read in this unit, suggests another one."""
+    """Warn if the largest extent [m] of a body is unusual, as if its numbers had been read in a wrong unit."""
     if SMALLEST <= extent <= LARGEST:
         return
     others = [name for name, length in METRES.items() if SMALLEST <= extent / METRES[unit] * length <= LARGEST]
@@ -166,9 +166,9 @@ def warn_of_size(thing: str, extent: float, unit: str) -> None:
 
 @dataclass(frozen=True)
 class Surface(ABC):
-    """A component that gives a checked mesh; subclasses are final frozen dataclasses of numbers and words.
+    """A component that gives a checked mesh; subclasses are final frozen dataclasses of numbers and strings.
 
-    What a body keeps is the surface, so that it is saved, compared and copied by what it was made of.
+    A body holds the surface instead of the mesh, so that it is saved, compared and copied by these parameters.
     """
 
     @property
@@ -178,7 +178,7 @@ class Surface(ABC):
 
 
 def check_surface_of(name: str, surface: Any) -> None:
-    """Raise InvalidInput unless a component gets a surface."""
+    """Raise InvalidInput if the ``surface`` given to a component is not a Surface."""
     if not isinstance(surface, Surface):
         example = 'For example MeshFile("part.stl", unit="mm").'
         raise InvalidInput(f"{name}.surface", "must be a surface", type(surface).__name__, example)

@@ -1,4 +1,4 @@
-"""MeshFile: a surface out of a file; how the file is read."""
+"""MeshFile: a surface that is read from a file of any format that trimesh loads."""
 
 from __future__ import annotations
 
@@ -70,14 +70,14 @@ class MeshFile(Surface):
 
 
 def read_file(path: Path, largest: int = LARGEST) -> tuple[Vector, Integers]:
-    """Return vertices in the unit of the file, shape [n, 3], and triangles, shape [m, 3]; equal vertices are one.
+    """Return vertices in the unit of the file, shape [n, 3], and triangles, shape [m, 3]; equal vertices are merged.
 
-    Anything that trimesh loads: STL, OBJ, PLY, OFF, GLB and more.
+    Formats are those that trimesh loads: STL, OBJ, PLY, OFF, GLB and more.
 
     Raises
     ------
     InvalidInput
-        If there is no such file, it has more than ``largest`` triangles or none, or trimesh cannot read it.
+        The file does not exist, trimesh cannot read it, or it has no triangles or more than ``largest``.
     """
     thing = f"mesh {path.name}"
     if not path.is_file():
@@ -103,7 +103,7 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
 
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
-            # what is not finite is told with its number by the checks
+            # later checks report vertices that are not finite
             warnings.simplefilter("ignore")
             loaded = trimesh.load_mesh(str(path), process=False)
             return (
@@ -111,7 +111,7 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
                 np.array(loaded.faces, dtype=np.int64).reshape(-1, 3),
             )
     except ModuleNotFoundError as error:
-        # asked for by formats that need more, and by readers that take a broken file for another format
+        # from formats that need a further package, and from readers that take a broken file for another format
         package = error.name or str(error).rpartition(" ")[2].strip("'")
         raise InvalidInput(
             thing,
@@ -120,7 +120,7 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
             "Is the file whole, and its ending right? STL, OBJ, PLY, OFF and GLB need no further package.",
         ) from error
     except Exception as error:
-        # readers of a dozen formats raise whatever they like at broken files
+        # the readers of a dozen formats raise errors of any type for broken files
         formats = ", ".join(sorted(trimesh.available_formats()))
         raise InvalidInput(
             thing,

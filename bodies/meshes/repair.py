@@ -1,4 +1,4 @@
-"""Repairs of a mesh: only those that the user names, in a fixed order; each warns of its change."""
+"""Repairs of a mesh: only repairs that the user names are made, in a fixed order; each warns of its change."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NEAR = 1e-6
 
 
 class MeshRepaired(NonsmoothWarning):
-    """What a repair that was asked for has changed."""
+    """A repair that the user named has changed the mesh."""
 
 
 def repaired(thing: str, vertices: Vector, faces: Integers, words: Iterable[str]) -> tuple[Vector, Integers, list[str]]:
@@ -157,9 +157,10 @@ REPAIRS: dict[str, Callable[[Vector, Integers], Repaired]] = {
 
 
 def close_holes(vertices: Vector, faces: Integers) -> tuple[Vector, Integers, str]:
-    """Return the mesh with a fan of triangles in every ring of open edges, and what was added.
+    """Return vertices [m] and triangles with all holes closed, and a note of the triangles added.
 
-    A ring of three gets one triangle, another a vertex in its middle: exact where the hole is flat and star-shaped.
+    A hole is a ring of open edges.  A ring of three edges gets one triangle, a longer one a fan of triangles round a
+    vertex in its middle: exact if the hole is flat and star-shaped.
     """
     rings = _rings(faces)
     if not rings:
@@ -181,7 +182,7 @@ def close_holes(vertices: Vector, faces: Integers) -> tuple[Vector, Integers, st
 
 
 def _rings(faces: Integers) -> list[list[int]]:
-    """Return the rings of open edges, against the sense of their triangles."""
+    """Return the vertices of every ring of open edges, in the sense opposite to the triangles at the edges."""
     _, counts, which = edge_counts(faces)
     edges = half_edges(faces)[counts[which] == 1]
     following: dict[int, list[int]] = {}
@@ -199,16 +200,16 @@ def _rings(faces: Integers) -> list[list[int]]:
                 break
             ring.append(after)
         else:
-            # a ring that does not close: wound against each other; the check of edges says so
+            # the ring does not close, because triangles are wound against each other; the check of edges reports that
             following.pop(ring[-1], None)
     return rings
 
 
 def orient(vertices: Vector, faces: Integers) -> tuple[Integers, int]:
-    """Return the triangles wound like their neighbours, every shell with a positive volume; and how many were turned.
+    """Return the triangles, each wound like its neighbours, and how many were turned.
 
-    Cavities are told by nothing but their winding, so that they would become bodies: a mesh with more than one shell
-    keeps the sense of each in which most of its triangles are wound.
+    A single shell gets a positive volume.  In a mesh of several shells only the winding distinguishes a cavity from a
+    body; there each shell gets the sense in which most of its triangles are wound.
     """
     flipped = _flips(faces)
     number = shells(faces)
@@ -229,7 +230,7 @@ def _turned(faces: Integers, flipped: np.ndarray) -> Integers:
 
 
 def _flips(faces: Integers) -> np.ndarray:
-    """Return which triangles to turn so that each is wound like the first of its shell, shape [m]."""
+    """Return which triangles must be turned to be wound like the first triangle of their shell, shape [m]."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import breadth_first_order
 

@@ -46,7 +46,7 @@ def _evaluate(
     wx, wy, wz = oy * bz - oz * by, oz * bx - ox * bz, ox * by - oy * bx
     put(out, POSITION, bx, by, bz)
     put(out, VELOCITY, wx, wy, wz)
-    # the centre of the turn moves
+    # add the motion of the centre
     for i in range(3):
         out[POSITION + i] += centre[i] + velocity[i] * t
         out[VELOCITY + i] += velocity[i]

@@ -43,7 +43,7 @@ class Harmonic(Motion):
         self.parameters()
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return amplitude, frequency, phase, and the axis to the last bit of unit length."""
+        """Return amplitude [m], frequency [Hz], phase [rad], and the axis, normalised to unit length."""
         axis = unit_vector("Harmonic axis", (self.axis_x, self.axis_y, self.axis_z))
         return {"amplitude": self.amplitude, "frequency": self.frequency, "phase": self.phase, "axis": axis}
 

@@ -121,7 +121,7 @@ class Table(Motion):
         object.__setattr__(self, "_time_scale", _time_scale(times, positions, spline.c))
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return times, coefficients of the spline and a pose with the rotation matrix."""
+        """Return times [s], coefficients of the spline, and the constant orientation as a pose at the origin."""
         return {
             "count": float(len(self.times)),
             "times": tuple(self.times),

@@ -67,7 +67,7 @@ class Made:
 
 
 class GeometryMaker(DistanceBackend):
-    """Base of libraries: how they make geometries, each in its own axes about its middle [m]."""
+    """Base of distance libraries: makes geometries, each centred in its own axes, from sizes in [m]."""
 
     @abstractmethod
     def ball(self, radius: float) -> Any:

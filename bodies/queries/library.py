@@ -173,7 +173,7 @@ def aligned_boxes(one: Place, half: Vector, two: Place, other: Vector) -> tuple[
     one, two : tuple
         Centre [m], shape [3], and axes as columns, shape [3, 3].
     half, other : Vector
-        Half-lengths along their axes [m], shape [3].
+        Half-lengths of the boxes along their axes [m], shape [3].
     """
     (place, axes), (second_place, second_axes) = one, two
     relative = axes.T @ second_axes
@@ -182,10 +182,10 @@ def aligned_boxes(one: Place, half: Vector, two: Place, other: Vector) -> tuple[
         return None
     reach = np.abs(signs) @ other
     way = axes.T @ (second_place - place)
-    # along every axis the nearest interval of either box, in the frame of the first
+    # along every axis of the first box, the interval that both boxes share
     low, high = np.maximum(-half, way - reach), np.minimum(half, way + reach)
     middle = 0.5 * (low + high)
-    # where the intervals do not meet, low is above high: the ends that face each other
+    # boxes that are apart along an axis share nothing: take the ends that face each other
     apart = low > high
     first = np.where(apart, np.where(way > 0.0, half, -half), middle)
     second = np.where(apart, np.where(way > 0.0, way - reach, way + reach), middle)

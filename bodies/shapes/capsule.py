@@ -65,7 +65,7 @@ class Capsule(SweptPolytope):
 
     @property
     def volume(self) -> float:
-        """Cylinder and ball, pi r^2 (2 c + 4 r / 3) [m^3]."""
+        """Volume of the cylinder and its two half-balls, pi r^2 (2 c + 4 r / 3) with half-length c [m^3]."""
         return math.pi * self.radius**2 * (2.0 * self.half_length + 4.0 / 3.0 * self.radius)
 
     @property
@@ -75,7 +75,7 @@ class Capsule(SweptPolytope):
 
     @property
     def inertia(self) -> Vector:
-        """That of the cylinder and of the two half spheres, by the parallel-axis theorem [m^5]."""
+        """Inertia tensor of the cylinder and the two half-balls, by the parallel-axis theorem [m^5]."""
         r, c = self.radius, self.half_length
         side, ends = 2.0 * math.pi * r**2 * c, 4.0 / 3.0 * math.pi * r**3
         along = (0.5 * side + 0.4 * ends) * r**2

@@ -39,7 +39,7 @@ class Ellipsoid(SmoothShape):
 
     @property
     def core(self) -> tuple[float, ...]:
-        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        """Numbers of its support function (:func:`bodies.shapes.smooth.core_numbers`)."""
         return core_numbers(
             (self.semi_x, self.semi_y, self.semi_z),
             (2.0, 2.0),

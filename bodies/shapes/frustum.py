@@ -1,4 +1,4 @@
-"""Frustum: base of cylinders, cones and discs; the three small feet on their flat faces."""
+"""Frustum: base class of cylinders, cones and discs, with three small feet on their flat faces."""
 
 from __future__ import annotations
 
@@ -154,20 +154,20 @@ def on_axis(center: Point, axis: Point, height: float) -> Point:
 
 
 FEET_OF_FACE = 3
-"""Feet of one face: the least that hold it, and the most whose normal forces are unique."""
+"""Number of feet of a face: fewer would not hold it, and the normal forces of more would not be unique."""
 CIRCLE = 2.0 / 3.0
-"""Radius of the circle of feet over that of the face.
+"""Radius of the circle of feet, relative to the radius R of the face.
 
-Friction takes as much of a spin about the axis as under an even pressure, mu m g 2 R / 3.
+The friction moment against a spin about the axis is then the same as under an even pressure, 2 mu m g R / 3.
 """
 USUAL = 1e-4
-"""Height of feet over the radius of the face where none is given."""
+"""Default height of the feet, relative to the radius of the face."""
 HIGHEST = 0.1
-"""Largest height of feet over the radius of the face."""
+"""Largest height of the feet, relative to the radius of the face: feet must not change the shape."""
 
 
 def check_feet(name: str, foot_height: float, radius: float, half_length: float = math.inf) -> None:
-    """Raise InvalidInput unless the feet are small against the face and shorter than the body."""
+    """Raise InvalidInput if feet are higher than a tenth of the radius, or not lower than half of the body's length."""
     if foot_height > HIGHEST * radius:
         raise InvalidInput(
             f"{name}.foot_height",
@@ -185,12 +185,12 @@ def check_feet(name: str, foot_height: float, radius: float, half_length: float 
 
 
 def feet_on(center: Point, axis: Point, radius: float, reach: float) -> tuple[Point, ...]:
-    """Return the tips of the feet of both faces, first those against the axis [m].
+    """Return the tips of the feet of both faces [m], first of the face at the negative end of the axis.
 
     Parameters
     ----------
     center, axis : tuple of float
-        Of the disc or cylinder in the body frame [m and 1].
+        Centre [m] and unit axis of the disc or cylinder, in the body frame.
     radius : float
         Radius of the faces [m].
     reach : float
@@ -214,7 +214,7 @@ def feet_on(center: Point, axis: Point, radius: float, reach: float) -> tuple[Po
 
 
 def _across(axis: Point) -> Point:
-    """Return a unit vector across the axis; the first body axis for the third."""
+    """Return a unit vector perpendicular to the axis; for the third body axis it is the first one."""
     x, y, z = axis
     if abs(y) <= max(abs(x), abs(z)):
         size = math.hypot(x, z)

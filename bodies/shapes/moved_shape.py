@@ -1,4 +1,4 @@
-"""MovedShape: a shape that a user gives by its farthest points, elsewhere in its body; :func:`moved` for all shapes."""
+"""Places shapes elsewhere in their body: :func:`moved` for all shapes, MovedShape for shapes by farthest points."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class MovedShape(SmoothShape):
 
     @property
     def core(self) -> tuple[float, ...]:
-        """That of the shape with another middle and other axes."""
+        """Core of the shape, with its middle and its axes moved."""
         core = self.shape.core
         return (*core[:6], *self._placed(core[6:9]).tolist(), *self._axes.ravel().tolist(), *core[18:])
 
@@ -78,32 +78,32 @@ class MovedShape(SmoothShape):
         return self.shape.length + float(np.linalg.norm([self.x, self.y, self.z]))
 
     def support(self, direction: Vector) -> Vector:
-        """Return the farthest point of the shape where it stands [m]."""
+        """Return the farthest point of the moved shape [m]."""
         return self._placed(self.shape.farthest(np.asarray(direction) @ self._axes))
 
     @property
     def volume(self) -> float:
-        """That of the shape [m^3]."""
+        """Volume of the shape [m^3]."""
         return self.shape.volume
 
     @property
     def centroid(self) -> Vector:
-        """That of the shape, moved [m]."""
+        """Centroid of the moved shape [m]."""
         return self._placed(self.shape.centroid)
 
     @property
     def inertia(self) -> Vector:
-        """That of the shape, turned [m^5]."""
+        """Inertia tensor of the turned shape about its centroid, at density 1 [m^5]."""
         return np.asarray(self._axes @ self.shape.inertia @ self._axes.T)
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
-        """Return that of the shape, moved."""
+        """Return vertices [m] and triangles of the moved shape."""
         points, triangles = self.shape.drawing(fineness)
         return np.array([self._placed(point) for point in points]), triangles
 
 
 def moved(shape: Shape, position: Vector, orientation: Vector) -> Shape:
-    """Return the shape turned by a unit quaternion about the origin of its frame, then shifted.
+    """Return the shape turned by a unit quaternion about the origin of its frame, then shifted by ``position`` [m].
 
     The place of a shape is its parameters x, y, z [m] and, unless it is a sphere, a unit axis (axis_x, ...) or a unit
     quaternion (orientation_w, ...) in the axes of its body. A SupportShape has none: it becomes a MovedShape.
@@ -111,7 +111,7 @@ def moved(shape: Shape, position: Vector, orientation: Vector) -> Shape:
     Raises
     ------
     InvalidInput
-        If the shape has no x, y, z, as an unbounded plane.
+        The shape has no x, y, z, such as an unbounded plane.
     """
     if isinstance(shape, SupportShape):
         return MovedShape(shape, *position.tolist(), *orientation.tolist())

@@ -1,4 +1,4 @@
-"""SweptPolytope and Polyhedron: shapes with flat faces, sharp or rounded, and segments with a radius."""
+"""Base classes of shapes with flat faces, sharp or rounded, and of segments with a radius."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class SweptPolytope(ConvexShape):
     @property
     @abstractmethod
     def core(self) -> Polytope:
-        """Vertices, faces and edges of what is swept, in the body frame; a segment has no faces."""
+        """Vertices, faces and edges of the polyhedron or segment that is swept, in the body frame."""
 
     @property
     @abstractmethod
@@ -30,7 +30,7 @@ class SweptPolytope(ConvexShape):
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The hull of the vertices, swept."""
+        """The hull of the vertices, swept by the sphere."""
         return (ConvexPart.of_points(np.array(self.core.vertices), self.sweep),)
 
 

@@ -1,4 +1,4 @@
-"""SmoothShape: shapes with a smooth support function or gauge; their numbers, mass properties and drawings."""
+"""Shapes with a smooth support function or gauge: their numbers, mass properties and drawings."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from .support_function import FUNCTION, OF_FUNCTION, support_of
 class SmoothShape(ConvexShape):
     """A convex shape without edges, known by the numbers of a core.
 
-    Its radii of curvature are finite and do not jump, or, if it is boxy, its curvatures, which are 0 at flat points.
+    Its radii of curvature are finite and continuous.  If it is boxy, its curvatures are, and are 0 at flat points.
     """
 
     @property
     @abstractmethod
     def core(self) -> tuple[float, ...]:
-        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        """Numbers of its support function (:func:`bodies.shapes.smooth.core_numbers`)."""
 
     @property
     def boxy(self) -> bool:
-        """Whether it has flat points: a pair that divides by its curvatures cannot take it."""
+        """True if it has flat points, so that no evaluator may divide by its curvatures."""
         return self.core[0] > 0.0 and self.core[3] < 2.0 and self.core[4] <= 2.0
 
     @property
     def mixed(self) -> bool:
-        """Whether it is flat along one of two ways and sharp along the other."""
+        """True if one of its two powers makes it flat and the other one makes it sharp."""
         return self.core[0] > 0.0 and (self.core[3] - 2.0) * (self.core[4] - 2.0) < 0.0
 
     @property
@@ -50,7 +50,7 @@ class SmoothShape(ConvexShape):
 
 
 _STEP, _LAST_NODE = 0.125, 4.75
-"""Of the double exponential rule over an angle."""
+"""Step and last node of the double exponential quadrature over an angle."""
 
 
 def core_numbers(

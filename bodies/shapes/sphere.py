@@ -43,7 +43,7 @@ class Sphere(SmoothShape):
 
     @property
     def core(self) -> tuple[float, ...]:
-        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        """Numbers of its support function (:func:`bodies.shapes.smooth.core_numbers`)."""
         return core_numbers((0.0, 0.0, 0.0), (2.0, 2.0), self.radius, (self.x, self.y, self.z), (1.0, 0.0, 0.0, 0.0))
 
     def support(self, direction: Vector) -> Vector:

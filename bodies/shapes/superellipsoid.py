@@ -81,7 +81,7 @@ class Superellipsoid(SmoothShape):
 
     @property
     def core(self) -> tuple[float, ...]:
-        """Its support function in numbers (:func:`bodies.shapes.smooth.core_numbers`)."""
+        """Numbers of its support function (:func:`bodies.shapes.smooth.core_numbers`)."""
         return smooth.core_numbers(
             (self.semi_x, self.semi_y, self.semi_z),
             (2.0 / (2.0 - self.exponent_along), 2.0 / (2.0 - self.exponent_across)),

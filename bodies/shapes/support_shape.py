@@ -1,4 +1,4 @@
-"""SupportShape: a convex shape known by its farthest points; its radii of curvature and integrals."""
+"""SupportShape: a convex shape given by its farthest points; checks of its curvature, and its volume integrals."""
 
 from __future__ import annotations
 
@@ -108,22 +108,22 @@ class SupportShape(SmoothShape):
         return True
 
     def __getstate__(self) -> dict[str, Any]:
-        # an address is one of this process
+        # addresses are valid in this process only
         return {name: value for name, value in vars(self).items() if name not in _DERIVED}
 
     @property
     def volume(self) -> float:
-        """By those of ever finer meshes [m^3]."""
+        """Volume, extrapolated from ever finer meshes [m^3]."""
         return self._integrals[0]
 
     @property
     def centroid(self) -> Vector:
-        """By those of ever finer meshes [m]."""
+        """Centroid, extrapolated from ever finer meshes [m]."""
         return self._integrals[1]
 
     @property
     def inertia(self) -> Vector:
-        """By those of ever finer meshes [m^5]."""
+        """Inertia tensor about the centroid at density 1, extrapolated from ever finer meshes [m^5]."""
         return self._integrals[2]
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
@@ -133,7 +133,7 @@ class SupportShape(SmoothShape):
 
 
 def _check(shape: SupportShape) -> None:
-    """Look at a shape along directions all round."""
+    """Raise InvalidInput if a shape is not convex, too sharp or too flat, as seen along directions all round."""
     name = f"{type(shape).__name__}.support"
     directions, _ = spiral(_LOOKS)
     points = shape.farthest_of(directions)
@@ -173,17 +173,17 @@ def _check(shape: SupportShape) -> None:
 
 
 Support = Callable[[Vector], Vector]
-"""Returns the farthest points along directions, shape [n, 3] both."""
+"""A function that returns the farthest points [m] along directions, shape [n, 3] both."""
 _TURN = 1e-3
 _WAYS, _FIRST, _LAST, _CLOSER = 4, 0.15, 1e-4, 0.8
-"""How many ways to a flat place are gone, the first and the last step on them [rad], and what each is of the last."""
+"""Searches for a flat place: their number, first and last step [rad], and ratio of a step to the step before."""
 _ROUND = [(math.cos(0.25 * math.pi * i), math.sin(0.25 * math.pi * i)) for i in range(8)]
 _COARSEST, _TIMES = 24, 4
-"""Edges round the coarsest mesh, and how many there are, each twice as fine."""
+"""Edges round the coarsest mesh; number of meshes, each twice as fine as the one before."""
 
 
 def spiral(count: int) -> tuple[Vector, float]:
-    """Return unit vectors all round, shape [count, 3], and an angle [rad] from which none is farther."""
+    """Return unit vectors all round, shape [count, 3], and an angle [rad] within which any direction has one."""
     i = np.arange(count) + 0.5
     z, angle = 1.0 - 2.0 * i / count, math.pi * (1.0 + math.sqrt(5.0)) * i
     r = np.sqrt(1.0 - z * z)
@@ -191,9 +191,9 @@ def spiral(count: int) -> tuple[Vector, float]:
 
 
 def least_radius(support: Support, directions: Vector) -> float:
-    """Return the least radius of curvature where directions are normals [m].
+    """Return the least radius of curvature at the points with given normals [m].
 
-    The principal ones are the eigenvalues of dP/dn, with the point P(n) that lies farthest along n.
+    Principal radii are the eigenvalues of dP/dn, with the point P(n) that lies farthest along n.
     """
     rates = _rates(support, directions)
     middle, half = 0.5 * (rates[:, 0] + rates[:, 2]), 0.5 * (rates[:, 0] - rates[:, 2])
@@ -201,9 +201,10 @@ def least_radius(support: Support, directions: Vector) -> float:
 
 
 def largest_radius(support: Support, directions: Vector, points: Vector) -> float:
-    """Return the largest radius of curvature that is met on ways to where points lie ever farther apart [m].
+    """Return the largest radius of curvature found by searches for flat places [m].
 
-    A flat place has a single normal, which no direction meets: its points part wherever directions come near that.
+    A flat place has a single normal, which no given direction meets.  Farthest points of directions on both sides of
+    it lie far apart.  Each search therefore goes, in ever smaller steps, to the direction with the largest distance.
     """
     beside = points[np.argsort(directions @ directions.T, axis=1)[:, -5:]]
     apart = np.max(np.linalg.norm(beside - points[:, None], axis=2), axis=1)
@@ -218,13 +219,13 @@ def largest_radius(support: Support, directions: Vector, points: Vector) -> floa
 
 
 def _ways(directions: Vector, step: float, count: int = len(_ROUND)) -> Vector:
-    """Return what turns directions by an angle to sides all round, shape [count, n, 3]."""
+    """Return the vectors that turn directions by the angle ``step`` [rad] to sides all round, shape [count, n, 3]."""
     t, u = _across(directions)
     return np.array([math.sin(step) * (c * t + s * u) for c, s in _ROUND[:count]])
 
 
 def _chords(support: Support, directions: Vector, step: float) -> Vector:
-    """Return how far points lie apart on both sides of each direction at most [m], shape [n]."""
+    """Return the largest distance of the farthest points on opposite sides of each direction [m], shape [n]."""
     along, ways = math.cos(step) * directions, _ways(directions, step, len(_ROUND) // 2)
     one, other = (support(sides.reshape(-1, 3)) for sides in (along + ways, along - ways))
     return np.asarray(np.max(np.linalg.norm(one - other, axis=1).reshape(len(ways), -1), axis=0))
@@ -233,13 +234,14 @@ def _chords(support: Support, directions: Vector, step: float) -> Vector:
 def integrals_over(drawing: Callable[[int], tuple[Vector, Vector]]) -> tuple[float, Vector, Vector]:
     """Return volume [m^3], centroid [m], and inertia at density 1 about the centroid [m^5].
 
-    Those of meshes with vertices on the surface, each twice as fine, whose errors are a series in the squares of the
-    edges, extrapolated (L. F. Richardson): to 1e-8 where the curvature does not jump, else to some 1e-4.
+    They are extrapolated from meshes with vertices on the surface, each twice as fine as the one before (L. F.
+    Richardson): the errors are a series in the squares of the edges.  The relative error is 1e-8 if the curvature does
+    not jump, else about 1e-4.
 
     Parameters
     ----------
     drawing : callable
-        The mesh of a fineness.
+        Returns vertices and triangles of the mesh of a given fineness.
     """
     rows = []
     for time in range(_TIMES):
@@ -251,7 +253,7 @@ def integrals_over(drawing: Callable[[int], tuple[Vector, Vector]]) -> tuple[flo
 
 
 def _across(directions: Vector) -> tuple[Vector, Vector]:
-    """Return unit vectors t and u across each direction, shape [n, 3] each."""
+    """Return two perpendicular unit vectors t and u across each direction, shape [n, 3] each."""
     other = np.eye(3)[np.argmin(np.abs(directions), axis=1)]
     t = np.cross(directions, other)
     t /= np.linalg.norm(t, axis=1)[:, None]
@@ -259,7 +261,7 @@ def _across(directions: Vector) -> tuple[Vector, Vector]:
 
 
 def _rates(support: Support, directions: Vector) -> Vector:
-    """Return tt, tu and uu of dP/dn for two vectors across each direction [m], shape [n, 3]."""
+    """Return the elements tt, tu and uu of dP/dn, along the vectors t and u of :func:`_across` [m], shape [n, 3]."""
     t, u = _across(directions)
     slopes = [np.zeros_like(t), np.zeros_like(t)]
     for slope, across in zip(slopes, (t, u), strict=True):

@@ -1,8 +1,8 @@
 """Mass properties and drawing of a polyhedron swept by a sphere, piece by piece.
 
-On every face of the core stands a prism as high as the radius, along every edge a wedge of a cylinder, and at every
-vertex the sector of a ball whose directions are those between the normals of its faces (J. Steiner's formula, for the
-moments too).
+Every face of the core carries a prism as high as the radius, every edge a wedge of a cylinder, and every vertex the
+sector of a ball, whose directions lie between the normals of the vertex's faces (J. Steiner's formula, for the moments
+too).
 """
 
 from __future__ import annotations
@@ -174,7 +174,7 @@ def draw_swept(core: Polytope, radius: float, fineness: int) -> tuple[Vector, Ve
 
 
 def _between(m: Vector, n: Vector, share: Vector | float) -> Vector:
-    """Return the unit vectors so far on the way from m to all n, shape [k, 3], along their great circles."""
+    """Return the unit vectors at the fraction ``share`` of the great circles from m to all n, shape [k, 3]."""
     angle = np.arctan2(np.linalg.norm(np.cross(m, n), axis=1), n @ m)[:, None]
     flat = angle == 0.0
     angle = np.where(flat, 1.0, angle)

@@ -105,5 +105,5 @@ class Bristle(TractionLaw):
         traction: tuple[float, float, float, float, float],
         tolerance: float,
     ) -> bool:
-        """Tell whether the force is that of the class."""
+        """Return True if the force is the force of this law, within the tolerance [N]."""
         return follows_traction(self, motion, state, normal_force, traction, tolerance)

@@ -93,5 +93,5 @@ class CoulombContensou(TractionLaw):
         traction: tuple[float, float, float, float, float],
         tolerance: float,
     ) -> bool:
-        """Tell whether force and moment are those of the class."""
+        """Return True if force and moment are those of this law, within the tolerance."""
         return follows_traction(self, motion, state, normal_force, traction, tolerance)

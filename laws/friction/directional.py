@@ -63,5 +63,5 @@ class Directional(AnisotropicFrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """Tell whether the force lies in the bound and, under slip, where that is normal to the slip."""
+        """Return True if the force lies in the bound and, under slip, where the bound is normal to the slip."""
         return lies_in_half_ellipses(self, slip, normal_force, tangential_force, tolerance)

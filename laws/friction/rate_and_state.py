@@ -81,5 +81,5 @@ class RateAndState(StatefulFrictionLaw):
         tolerance: float,
         state: tuple[float, ...] | None = None,
     ) -> bool:
-        """Tell whether the force obeys the law at the age theta [s] of the contact, by default that of a fresh one."""
+        """Return True if the force obeys the law at the contact's age theta [s], by default that of a fresh contact."""
         return opposes_slip(self, slip, normal_force, tangential_force, tolerance, state)

@@ -14,7 +14,7 @@ from .pyramid import solve_on_pyramids
 
 _SWEEPS = 100
 _NARROW = (0.0, 0.25, 0.06, 0.015, 0.004, 0.001, 3e-4, 1e-4)
-"""Angles between facets [rad], one after the other: a pyramid comes near the cone where the friction is."""
+"""Angles between facets in successive trials [rad]: narrow facets approach the cone near the friction impulse."""
 _COMPLIANCES = (1e-9, 1e-7, 1e-5, 1e-3)
 
 
@@ -22,7 +22,7 @@ _COMPLIANCES = (1e-9, 1e-7, 1e-5, 1e-3)
 def solve_cone(
     n: int, delassus: Floats, rates: Floats, shift: Floats, base: Floats, least: Floats, out: Floats, friction: Floats
 ) -> int:
-    """Solve for the impulses P from what ``out`` holds, or from the answer on pyramids; return 1 if that is exact.
+    """Solve for the impulses P, starting from ``out`` or from the solution on pyramids; return 1 for an exact solution.
 
     With z = rates + G P and xi = z + shift: P_N >= least complementary to xi_N >= 0; P_T - base_T in the disc of
     radius mu (P_N - base_N), on its edge against xi_T unless that vanishes.  Without a shift, as in an inelastic
@@ -35,14 +35,14 @@ def solve_cone(
     delassus : array
         G, row by row [1/kg], length 9 n^2.
     rates, shift : array
-        Rates (n, t1, t2) of each contact before, and what is added to those after [m/s], length 3 n.
+        Rates (n, t1, t2) of each contact before, and the shift added to the rates after [m/s], length 3 n.
     base : array
         Impulses that friction does not count [N s], length 3 n.
     least : array
         Least normal impulses [N s], length n.
     out : array
-        Impulses: a start, then the solution [N s], length 3 n.  Where none is found they are those on narrow
-        pyramids inside the cones, and not a number if these have none either.
+        Impulses: a start, then the solution [N s], length 3 n.  Without a solution they are the solution on narrow
+        pyramids inside the cones; the first one is nan if the pyramids have no solution, either.
     friction : array
         Coefficients mu, length n.
     """
@@ -66,7 +66,7 @@ def solve_cone(
             for compliance in _COMPLIANCES:
                 tried = p.copy()
                 if find_zero(n, matrix, free, kept, lower, mu, compliance, False, tried) == 1:
-                    # from none, as where the search begins, it is that already
+                    # a search from zero impulses ends near the least norm already
                     if trial >= 0:
                         _lessen(n, matrix, free, kept, lower, mu, tried)
                     _write_inside(n, kept, lower, mu, tried, out)
@@ -79,10 +79,10 @@ def solve_cone(
 
 @compiled
 def _lessen(n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, p: Array) -> None:
-    """Replace a solution by one next to that of least norm, where it is found.
+    """Replace a solution by one close to the least norm, if such a solution is found.
 
-    Impulses that redundant contacts exchange, as those across a wedged body, change no motion and have no bound.  A
-    vertex of the pyramids may have them, and is where the search ends.
+    Redundant contacts, such as those of a wedged body, may exchange unbounded impulses that change no motion.  A vertex
+    of the pyramids may contain such impulses, and the search would end with them.
     """
     for compliance in _COMPLIANCES[::-1]:
         tried = p.copy()
@@ -97,7 +97,7 @@ def _lessen(n: int, matrix: Array, free: Array, base: Array, least: Array, frict
 
 @compiled
 def _write_inside(n: int, base: Array, least: Array, friction: Array, p: Array, out: Floats) -> None:
-    """Write impulses that are in their cones but for round-off, in them."""
+    """Write impulses that lie in their cones within round-off, projected into the cones."""
     for a in range(n):
         i = 3 * a
         out[i] = max(least[a], p[i])
@@ -109,9 +109,9 @@ def _write_inside(n: int, base: Array, least: Array, friction: Array, p: Array, 
 
 @compiled
 def solve_rebound(n: int, delassus: Floats, rates: Floats, shift: Floats, out: Floats, friction: Floats) -> None:
-    """Solve for the impulses with a rebound, the ``shift``; where that has no answer, as inelastic impact.
+    """Solve for the impulses of an impact with the rebound ``shift``; if there is no solution, of an inelastic impact.
 
-    Bodies wedged between others leave no room for it: what takes one contact apart presses another one together.
+    A wedged body cannot rebound: the impulse that opens one contact compresses another one.
     """
     none, least = np.zeros(3 * n), np.zeros(n)
     for i in range(3 * n):
@@ -127,8 +127,9 @@ def cone_deviation(
 ) -> float:
     """Return by how much impulses miss the problem of :func:`solve_cone` [m/s], with its arguments; 0 for a solution.
 
-    Both conditions are fixed points of a projection, whose step makes a velocity of an impulse: complementarity is
-    min(G_NN (P_N - least), xi_N) = 0, and P_T - base_T is the projection on the disc of what xi_T leads to.
+    Both conditions are fixed points of a projection, and factors such as G_NN make velocities of impulses.
+    Complementarity is min(G_NN (P_N - least), xi_N) = 0.  Friction: P_T - base_T is the projection of
+    P_T - base_T - xi_T / G_T on its disc, with G_T the sum of both tangential diagonal entries of G.
     """
     n = len(friction)
     xi = (rates + shift + delassus @ impulses).reshape(n, 3)

@@ -1,7 +1,7 @@
-"""The contact problem with pyramids in place of Coulomb's cones: Lemke's method finds its answer, or that it has none.
+"""The contact problem with pyramids in place of Coulomb's cones, solved by Lemke's method.
 
-On pyramids it is a linear complementarity problem (Stewart and Trinkle, Anitescu and Potra), of which Lemke's method
-ends at a solution or on a ray; there is always one if the contact problem is that of an inelastic impact.
+With pyramids it is a linear complementarity problem (Stewart and Trinkle, Anitescu and Potra).  Lemke's method ends at
+a solution, or on a ray if there is none.  The problem of an inelastic impact always has a solution.
 """
 
 from __future__ import annotations
@@ -17,11 +17,13 @@ _FACETS = 8
 _PARTS = _FACETS + 2
 """Unknowns of a contact: its normal impulse, friction along each facet, and how fast it slips."""
 _PIVOTS = 50
-"""Pivots that may be taken for each unknown."""
+"""Largest number of pivots for each unknown."""
 _ZERO = 1e-11
 _APART = (1e-9, 1e-7, 1e-5, 1e-3)
-"""By this part of the velocities the conditions are moved, each by another one: ties and round-off lead pivots astray.
-The next is taken where they seem to have no answer."""
+"""Perturbations of the conditions, relative to the velocities, in successive trials.
+
+Each condition is moved by another amount, because ties and round-off mislead the choice of pivots.
+"""
 
 
 @compiled

@@ -1,8 +1,9 @@
-"""The path of a slip under one normal impulse, whose direction turns: Keller's equations.
+"""The path of the slip velocity in an impact of one contact, in which its direction turns: Keller's equations.
 
-With the Delassus matrix G of the contact, b = G_nn, c = G_tn and A = G_tt, the slip s changes with the normal impulse p
-by c - mu A e, e = s / |s|.  Over the parameter of dp = |s| dparameter its direction and the logarithm of its length
-change by smooth functions of the direction alone, also where it ends.
+G is the Delassus matrix of the contact, with b = G_nn, c = G_tn and A = G_tt.  The slip velocity s changes with the
+normal impulse p by ds/dp = c - mu A e, e = s / |s|.  The path has a parameter with dp = |s| dparameter.  Over it, the
+direction of s and the logarithm of its length change by smooth functions of the direction alone, also at the end of
+slip.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ Path: TypeAlias = tuple[float, float, float, float, float, float, float]
 """Angle [rad] and length [m/s] of the slip, impulses n, t1, t2 [N s], gap rate [m/s], work of the normal one [J]."""
 
 _STRAIGHT = 1e-9
-"""Turning below this part of what the impulses do is none."""
+"""A slip whose direction turns more slowly than this, relative to the trace of G, counts as straight."""
 _SINGULAR = 1e-14
-"""Determinant in units of the square of the trace that is none: in a mechanism a contact may slip one way alone."""
+"""Determinant, relative to the squared trace, below which A is singular: a contact of a mechanism slips in a line."""
 _LEAST = 1e-300
 
 
 @compiled
 def way_of_slip(angle: float, g: Matrix, mu: float) -> tuple[float, float]:
-    """Return how fast a slip of a direction turns, and how fast it grows by parts of itself."""
+    """Return the rates of the angle and of the logarithm of the slip speed over the parameter, for a slip direction."""
     x, y = math.cos(angle), math.sin(angle)
     along, across = g[3] - mu * (g[4] * x + g[5] * y), g[6] - mu * (g[7] * x + g[8] * y)
     return y * -along + x * across, x * along + y * across
@@ -34,7 +35,7 @@ def way_of_slip(angle: float, g: Matrix, mu: float) -> tuple[float, float]:
 
 @compiled
 def runs_straight(angle: float, g: Matrix, mu: float) -> bool:
-    """Tell whether a slip of a direction keeps it."""
+    """Return True if a slip in this direction does not turn."""
     return bool(abs(way_of_slip(angle, g, mu)[0]) <= _STRAIGHT * (g[0] + g[4] + g[8]))
 
 
@@ -49,7 +50,7 @@ def _rates(path: Path, h: float, by: Path, g: Matrix, mu: float) -> Path:
 
 @compiled
 def along_path(path: Path, g: Matrix, mu: float, h: float) -> Path:
-    """Return where the path leads in a step ``h`` of its parameter, by the classical method of Runge and Kutta."""
+    """Return the path after a step ``h`` of its parameter, by the classical method of Runge and Kutta."""
     a = _rates(path, 0.0, path, g, mu)
     b = _rates(path, 0.5 * h, a, g, mu)
     c = _rates(path, 0.5 * h, b, g, mu)
@@ -68,15 +69,15 @@ def along_path(path: Path, g: Matrix, mu: float, h: float) -> Path:
 
 @compiled
 def friction_from_rest(g: Matrix, mu: float) -> tuple[float, float]:
-    """Return the tangential impulse of a unit of the normal one where nothing slips: it sticks, or starts to slip.
+    """Return the tangential impulse per normal impulse for a contact without slip: it sticks or starts to slip.
 
-    With friction opposing it the slip starts along the one direction e in which c - mu A e = l e, l > 0, does not turn.
+    If friction cannot hold it, the slip starts along the only direction e that does not turn: c - mu A e = l e, l > 0.
     """
     a, b, d = g[4], 0.5 * (g[5] + g[7]), g[8]
     x, y = _solved(a, b, d, g[3], g[6])
     if math.hypot(x, y) <= mu:
         return -x, -y
-    # (l + mu A) e = c has |e| = 1 between none and all that the normal impulse pushes
+    # the l of (l + mu A) e = c with |e| = 1 lies between 0 and |c|
     low, high = 0.0, math.hypot(g[3], g[6])
     for _halving in range(200):
         middle = 0.5 * (low + high)
@@ -91,7 +92,7 @@ def friction_from_rest(g: Matrix, mu: float) -> tuple[float, float]:
 
 @compiled
 def _solved(a: float, b: float, d: float, x: float, y: float) -> tuple[float, float]:
-    """Return the solution of the symmetric system [[a, b], [b, d]] by (x, y), where singular that of least norm."""
+    """Return the solution of [[a, b], [b, d]] z = (x, y); if the matrix is singular, the one of least norm."""
     determinant, trace = a * d - b * b, a + d
     if determinant <= _SINGULAR * trace * trace:
         square = max(trace * trace, _LEAST)

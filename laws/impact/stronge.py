@@ -17,11 +17,11 @@ from .power import duration_parameter
 from .slip_path import Matrix, Path, along_path, friction_from_rest, runs_straight, way_of_slip
 
 _REST = 1e-9
-"""A slip below this, relative to the approach, is none."""
+"""Speed of slip or approach that counts as zero, relative to the approach speed."""
 _GONE = 1e-12
-"""A slip of which this part is left has ended."""
+"""Slip speed, relative to its start, below which a slip has ended."""
 _STEP = 0.02
-"""Turn of a slip [rad], or its change by parts of itself, in one step at most."""
+"""Largest turn of the slip direction in a step [rad], or largest relative change of the slip speed."""
 _STEPS = 1_000_000
 _HALVINGS = 60
 

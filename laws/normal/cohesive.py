@@ -48,5 +48,5 @@ class Cohesive(CompliantNormalLaw):
     def is_fulfilled(
         self, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
     ) -> bool:
-        """Tell whether the force is that of the class."""
+        """Return True if the force is the force of this law, within the tolerance [N]."""
         return follows_compliance(self, indentation, rate, closing_rate, force, tolerance)

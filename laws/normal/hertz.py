@@ -37,11 +37,11 @@ class HertzCompliant(CompliantNormalLaw):
 
     @property
     def reach(self) -> float:
-        """None: it does not pull."""
+        """Largest gap at which the contact has a force [m]: 0, because it does not pull."""
         return 0.0
 
     def is_fulfilled(
         self, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float
     ) -> bool:
-        """Tell whether the force is that of the class."""
+        """Return True if the force is the force of this law, within the tolerance [N]."""
         return follows_compliance(self, indentation, rate, closing_rate, force, tolerance)

@@ -1,1 +1,1 @@
-"""From functions of plug-ins to addresses that the engine calls."""
+"""Make functions of plug-ins callable for the engine, by their addresses."""

@@ -1,8 +1,8 @@
-"""A trial of each function before the engine calls it: whether it keeps to the numbers that it may read and write.
+"""Trial of each function before the engine calls it: it must read and write inside its blocks only.
 
-The engine hands over pointers, and machine code that leaves its block far behind ends the process.  So each function is
-called once, as plain Python, on numbers that know their bounds.  What it does in other cases the guards behind the
-blocks tell (:mod:`nonsmooth.model.blocks`).
+The engine hands over pointers, and machine code that accesses memory far outside of its block ends the process.  So
+each function is called once, as plain Python, on blocks with bounds.  For other inputs, the marks behind the blocks
+show if a function wrote past its end (:mod:`nonsmooth.model.blocks`).
 """
 
 from __future__ import annotations
@@ -20,28 +20,28 @@ from nonsmooth.errors import PluginError
 from nonsmooth.parameters import Value
 
 _MOST = 5000
-"""Numbers that a trial reads and writes before it is left: long functions of the built-in shapes take no more time."""
+"""Most reads and writes of a trial, which then ends: long functions of the built-in shapes would take more time."""
 FRAMES = (
     (0.0, 0.0, 0.0, *np.eye(3).ravel(), *(FRAME - 12) * (0.0,)),
     (0.21, -0.13, 0.37, 0.8, -0.6, 0.0, 0.48, 0.64, -0.6, 0.36, 0.48, 0.8, 0.1, -0.2, -0.3, 1.0, 2.0, 3.0, *6 * (0.0,)),
 )
-"""Two frames, apart and turned, one at rest, to try functions of two bodies with."""
+"""Blocks of two frames for trials of functions of two bodies: apart, rotated, the first one at rest."""
 _TRIALS = 8
-"""Sets of parameters that a function is tried with, as long as they differ in their length or beginning."""
+"""Most sets of parameters with which a function is tried. Sets of equal length and beginning count as one."""
 _BEGINNING = 32
 _tried: defaultdict[tuple[Any, ...], set[tuple[float, ...]]] = defaultdict(set)
 
 
 class _OutOfBlock(IndexError):
-    """A number was read or written that is not there."""
+    """A function has read or written outside of its block."""
 
 
 class _Enough(Exception):
-    """The trial has taken long enough."""
+    """The trial has reached its limit of reads and writes."""
 
 
 class _Bounded:
-    """Numbers that can be read, written and moved over as those behind a pointer, but for their bounds."""
+    """Stand-in for a pointer to floats that checks the bounds of its block."""
 
     def __init__(self, values: Sequence[float], left: list[int], first: int = 0) -> None:
         self._values, self._left, self._first = values, left, first
@@ -61,7 +61,7 @@ class _Bounded:
         self._values[self._place(i)] = float(value)  # type: ignore[index]
 
     def moved(self, offset: int) -> _Bounded:
-        """Numbers from an offset on."""
+        """Stand-in for the pointer moved by an offset."""
         return _Bounded(self._values, self._left, self._first + offset)
 
 
@@ -74,23 +74,23 @@ def try_out(
     owner: str,
     given: Sequence[float | Sequence[float]] = FRAMES,
 ) -> None:
-    """Call a function, as plain Python, on numbers that know their bounds; once for the same parameters.
+    """Call a function as plain Python on blocks with bounds, once for equal parameters.
 
     Parameters
     ----------
     function, form, values, owner
         As for :func:`nonsmooth.binding.compile.bind`.
     heap : sequence of float
-        What that function gave for the parameters.
+        Block of parameters from that function.
     size : int
-        How many numbers it may write.
+        Number of floats that the function may write.
     given : sequence
-        What stands before the parameters: numbers, and sequences of those to be read.
+        Arguments before the parameters: numbers, and blocks to read.
 
     Raises
     ------
     PluginError
-        If it reads or writes beyond what it was given; whatever else it does is left for the engine to find.
+        If the function reads or writes outside of its blocks. Other errors are ignored here; the engine finds them.
     """
     tried, parameters = _tried[function, form, size], (len(heap), *heap[:_BEGINNING])
     if parameters in tried or len(tried) == _TRIALS:

@@ -1,4 +1,4 @@
-"""Calling from Python what the engine calls by address: functions of bodies and of contact pairs outside of a run."""
+"""Call the functions of bodies and of contact pairs from Python, outside of a run, just as the engine calls them."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def body_caller(
 ) -> Callable[[float, Vector, Vector, Vector], None]:
     """Function ``call(t, q, u, out)`` that runs a function of the form "body" just as the engine runs it.
 
-    Its vectors are contiguous arrays of floats, and nobody checks their lengths.
+    The vectors must be contiguous arrays of floats. Their lengths are not checked.
 
     Raises
     ------
     UnknownName
-        If the function asks for a parameter that nobody gives.
+        If the function has a parameter without a value in ``values``.
     """
     address, heap = bind(function, "body", values, owner)
     return caller("body", address, np.array([*heap, 0.0]))
@@ -34,12 +34,12 @@ def pair_caller(
 ) -> Callable[[Vector, Vector, Vector], None]:
     """Function ``call(a, b, out)`` that runs a function of the form "pair" just as the engine runs it.
 
-    Its vectors are contiguous arrays of floats, and nobody checks their lengths.
+    The vectors must be contiguous arrays of floats. Their lengths are not checked.
 
     Raises
     ------
     UnknownName
-        If the function asks for a parameter that nobody gives.
+        If the function has a parameter without a value in ``values``.
     """
     return _pair_caller(function, values, owner)[0]
 
@@ -49,7 +49,8 @@ def candidate_caller(
 ) -> Callable[[Vector, Vector, Vector, Vector], None]:
     """Function ``call(a, b, out, candidate)`` for the evaluator of contacts whose features are searched for.
 
-    As :func:`pair_caller`; the candidate is what :class:`nonsmooth.interfaces.CandidateSearch` says, shape [4].
+    ``candidate`` is one pair of features that the search has found, shape [4]
+    (:class:`nonsmooth.interfaces.CandidateSearch`). Vectors and errors are those of :func:`pair_caller`.
     """
     call, numbers = _pair_caller(function, values, owner)
     place = vector_place(function, "pair", numbers.tolist(), "candidate")
@@ -64,7 +65,7 @@ def candidate_caller(
 def _pair_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> tuple[Callable[[Vector, Vector, Vector], None], Vector]:
-    """Call, and the numbers of its parameters."""
+    """Function ``call(a, b, out)``, and the block of its parameters, which may be changed between calls."""
     address, heap = bind(function, "pair", values, owner)
     numbers = np.array([*heap, 0.0])
     return caller("pair", address, numbers), numbers

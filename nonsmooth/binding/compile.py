@@ -1,4 +1,4 @@
-"""Makes a C function, which the engine calls by its address, of a Python function with named parameters."""
+"""Make a C function, which the engine calls by its address, from a Python function with named parameters."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from nonsmooth.parameters import SharedNumbers, Value, not_offered
 
 _SHIM = "def shim({arguments}):\n {call}\n{ending}"
 _GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
-"""A compiled function cannot raise into the engine: an exception becomes a number that is not finite.
+"""Text of a shim for a function that may raise. An exception cannot pass the engine, so the result becomes NaN.
 
-To compile the guard takes as long as to compile the function, so it is left out of functions that cannot raise.
+Compiling this guard takes as long as compiling the function. So functions that cannot raise get ``_SHIM``.
 """
 _PYTHON_SHIM = """def shim({arguments}):
  try: {call}
@@ -39,11 +39,14 @@ _INTERRUPTION = """ except KeyboardInterrupt:
   if not hold(): return shim({arguments})
   {failure}
 """
-"""An interrupt cannot pass the compiled engine."""
+"""Handler of Ctrl-C, which cannot pass the compiled engine.
+
+The first Ctrl-C is stored until the engine can stop, and the call is repeated. A second one makes the call fail.
+"""
 
 
 class _Entry(NamedTuple):
-    """Address of a function. If it runs in Python: why it is not compiled, and the shim with which a call is timed."""
+    """Address of a function. If it runs in Python: the reason, and the shim with which a call is timed."""
 
     address: int
     refusal: Refusal | None = None
@@ -52,7 +55,7 @@ class _Entry(NamedTuple):
 
 @functools.cache
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
-    """Names of a function's own parameters, in order."""
+    """Names of a function's parameters behind the roles of its form, in order."""
     return tuple(inspect.signature(function).parameters)[len(FORMS[form].roles) :]
 
 
@@ -114,7 +117,7 @@ def _vectors(values: Mapping[str, Value], names: tuple[str, ...]) -> tuple[bool,
 
 
 def refused(function: Callable[..., Any], form: str) -> Refusal | None:
-    """Reason why a function of numbers cannot be compiled; None if it can."""
+    """Reason why a function whose parameters are numbers cannot be compiled; None if it can."""
     return _entry(function, form, (False,) * len(parameter_names(function, form))).refusal
 
 
@@ -206,9 +209,9 @@ def _record(form: Form) -> str:
 def in_python(
     function: Callable[..., Any], form: str, values: Mapping[str, Value], move: Callable[..., Any]
 ) -> Callable[..., Any]:
-    """The function that the engine would call, as plain Python that raises what the function raises.
+    """Shim of a function as plain Python, in which an exception of the function is raised.
 
-    ``move(block, offset)`` takes the place of moved pointers.
+    ``move(block, offset)`` returns the block from an offset on. It replaces the moved pointers of the engine.
     """
     vectors = _vectors(values, parameter_names(function, form))
     scope = {"law": interpreted.in_python(function, move), "at": move}
@@ -223,11 +226,11 @@ def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
 
 
 _RAISING = ("RAISE_VARARGS", "BUILD_LIST", "BUILD_MAP", "BUILD_SET")
-"""Instructions that may raise an error. An index may be outside of a container."""
+"""Bytecode instructions that may lead to an exception: ``raise``, and containers, as an index may be out of range."""
 
 
 def _may_raise(function: Callable[..., Any]) -> bool:
-    """True if a function, or one that it names, may raise."""
+    """True if a function, or a function that it refers to, may raise an exception."""
     waiting, seen = [inspect.unwrap(function)], set()
     while waiting:
         one = waiting.pop()
@@ -265,9 +268,9 @@ def caller(form: str, address: int, numbers: NDArray[np.float64]) -> Callable[..
     form : str
         One of :data:`nonsmooth.engine.native.forms.FORMS`.
     address : int
-        The function's, from :func:`bind`.
+        Address of the function, from :func:`bind`.
     numbers : array
-        Its parameters, from :func:`bind`, and one number more.
+        Block of its parameters, from :func:`bind`. It must not be empty: append an unused number.
     """
     n_given = len(FORMS[form].given)
     if PLAIN:

@@ -20,12 +20,12 @@ _ENGINE = "nonsmooth.engine."
 
 
 def fingerprint(function: Callable[..., Any], context: str) -> str:
-    """Digest of a function's bytecode, of the constants and of the functions that it names, and of a context.
+    """Digest of a function's bytecode, of the constants and functions that it names, and of a context.
 
-    The digest is of what runs, not of files, which may be newer.  It covers numbers, strings, tuples of them, classes
-    of named tuples, functions at module level, those of the engine, and :mod:`math` and :mod:`numpy` with what is in
-    them; where a function names anything else there is none.  Nor is there one for a closure: a program may make any
-    number of them, and what is kept on disk would grow with it.
+    The digest describes the loaded code, not the files, which may be newer.  The function may name numbers, strings,
+    tuples of them, classes of named tuples, functions at module level, functions of the engine, :mod:`math`,
+    :mod:`numpy` and their members.  A function that names anything else has no digest.  A closure has no digest either:
+    a program may make any number of closures, and the files of code would grow without limit.
 
     Parameters
     ----------
@@ -37,14 +37,14 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
     Returns
     -------
     str
-        The digest; "" if there is none.
+        The digest; "" for a function without digest.
     """
     parts = [context]
     reached = [unshared(function)]
     for one in reached:  # grows as functions name further ones
         if not inspect.isfunction(one) or one.__closure__ is not None:
             return ""
-        if one.__module__ not in sys.modules:  # a module made by hand may change without notice
+        if one.__module__ not in sys.modules:  # the module was made by hand, not imported: it may change without notice
             return ""
         constants = (one.__code__.co_consts, one.__defaults__, *sorted((one.__kwdefaults__ or {}).items()))
         if not _is_constant(constants):
@@ -73,13 +73,13 @@ def _place_in_engine(value: Any) -> str:
 
 
 def _shape(code: CodeType) -> tuple[Any, ...]:
-    """All that makes two code objects equal, apart from constants."""
+    """All attributes of a code object that decide what it does, except its constants."""
     arguments = (code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags)
     return *arguments, code.co_code, code.co_exceptiontable, code.co_names, code.co_varnames
 
 
 def _place_in_modules(value: Any) -> str:
-    """Name of a value in a module that is known by its version; "" if no such module has it."""
+    """Name of a member of :mod:`math` or :mod:`numpy`, whose versions the machine code names; "" for other values."""
     found = (f"{module.__name__}.{name}" for module in _MODULES for name, one in vars(module).items() if one is value)
     return next(found, "")
 

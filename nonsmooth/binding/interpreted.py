@@ -1,8 +1,8 @@
-"""Functions that stay in Python: the engine, compiled or not, calls them by address like all others.
+"""Functions that run in Python because they cannot be compiled; the engine calls them by address like all others.
 
-What they raise cannot pass the engine.  It becomes a number that is not finite, and is kept here for the message.
-Ctrl-C within one is held back until the engine has come to a safe point: the call is made again, and a second Ctrl-C
-gives it up.
+An exception cannot pass through the engine.  The result becomes a number that is not finite, and the exception is
+stored here for the message.  A Ctrl-C within a function is stored until the engine has reached a safe point, and the
+call is repeated.  A second Ctrl-C makes the call fail.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from nonsmooth.engine.native.kernel import PLAIN, at, unshared
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
 _SECONDS = 5e-3
-"""How long a function is timed."""
+"""Longest time for which a function is timed [s]."""
 _CALLS = 100
 _alive: list[Any] = []
 _raised: dict[Callable[..., Any], str] = {}
@@ -29,43 +29,43 @@ _held: list[bool] = []
 
 
 def note(function: Callable[..., Any], error: BaseException) -> None:
-    """Keep what a function has raised."""
+    """Store the error that a function has raised, as text for a message."""
     _raised[function] = raised(function, error)
 
 
 def noted(function: Callable[..., Any]) -> str:
-    """Last error of a function with its place; nothing if it raised none."""
+    """Last error of a function with its place, as text; "" if it has raised no error."""
     return _raised.get(function, "")
 
 
 def forget() -> None:
-    """Begin anew: nothing was raised, nobody asked to stop."""
+    """Delete the stored errors and interrupts."""
     _raised.clear()
     _held.clear()
 
 
 def hold() -> bool:
-    """Keep a Ctrl-C for later; tell whether there was one before."""
+    """Store a Ctrl-C until the engine can stop; True if another one was stored already."""
     _held.append(True)
     return len(_held) > 1
 
 
 def let_go() -> bool:
-    """True, once, if there was a Ctrl-C while the engine ran."""
+    """True if a Ctrl-C is stored, which is then deleted."""
     asked = bool(_held)
     _held.clear()
     return asked
 
 
 def address(shim: Callable[..., Any], form: str) -> int:
-    """Address of a C function of a form that calls a Python one."""
+    """Address of a C function of a form that calls a Python shim; it is valid until the process ends."""
     callback = FORMS[form].prototype(_Pointer)(shim)
     _alive.append(callback)
     return int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
 
 
 def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str:
-    """Time of a call by address in words: of the function if it takes numbers only, else of an empty one."""
+    """Measured time of a call by address, as text; an empty function is timed in place of one that takes arrays."""
     kinds, prototype = tuple(FORMS[form].arguments.values()), FORMS[form].prototype(_Pointer)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
     given = tuple(heap if kind == "F" else 0 if kind == "i8" else 0.0 for kind in kinds)
@@ -87,7 +87,7 @@ def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
 
 
 def in_python(function: Callable[..., Any], move: Callable[..., Any]) -> Callable[..., Any]:
-    """Function as Python can run it: where it moves pointers, ``move(heap, offset)`` does it."""
+    """The function with ``move(heap, offset)`` in place of ``at``, which moves pointers, so that Python can run it."""
     return function if PLAIN else _moving(unshared(function), move)
 
 
@@ -114,7 +114,7 @@ def _moving(
 
 
 def move(heap: Any, offset: int) -> Any:
-    """Pointer, or a view, moved by ``offset`` numbers."""
+    """Pointer to the numbers from an offset on; in plain mode a view of them."""
     if PLAIN:
         return at(heap, offset)
     start = ctypes.addressof(heap.contents) + offset * ctypes.sizeof(ctypes.c_double)

@@ -1,4 +1,7 @@
-"""Which function of a law had no finite value, for which input, as the engine kept it before the parameters."""
+"""Find the function of a law that gave no finite value in the engine, and the input for which it did.
+
+The engine stores this input in front of the function's parameters.
+"""
 
 from __future__ import annotations
 
@@ -19,14 +22,14 @@ REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can 
 
 
 class Finding(NamedTuple):
-    """A sentence on a function of a law without a value; whether it has none for that input again."""
+    """Message on a function that gave no finite value, and whether it fails again if called with the same input."""
 
     text: str
     again: bool
 
 
 def first_without_value(findings: Iterable[Finding | None]) -> str:
-    """First sentence of what has no value again, else the first of all, nothing without any."""
+    """First message on a function that fails again, else the first message; "" if there is no message."""
     found = [finding for finding in findings if finding is not None]
     return next((finding.text for finding in found if finding.again), found[0].text if found else "")
 
@@ -34,18 +37,18 @@ def first_without_value(findings: Iterable[Finding | None]) -> str:
 def without_value(
     heap: NDArray[np.float64], part: LawFunction, state: Sequence[float] | NDArray[np.float64] = (), where: str = ""
 ) -> Finding | None:
-    """Last input for which a function had no finite value in the engine, if there is one.
+    """Message with the last input for which a function gave no finite value in the engine; None without such an input.
 
     Parameters
     ----------
     heap : array
-        The engine's, from the parameters of the function on.
+        The engine's floats, from the block of the function's parameters on.
     part : LawFunction
         The function.
     state : sequence of float
         The inner states of the law.
     where : str
-        The contact, for the sentence.
+        The contact, for the message.
     """
     numbers = heap[: FORMS[part.form].n_recorded].tolist()
     if not np.all(np.isfinite(numbers)):
@@ -63,7 +66,7 @@ def without_value(
 
 
 def _outcome(part: LawFunction, inputs: dict[str, Any], values: dict[str, Any], n_state: int) -> tuple[str, bool]:
-    """Value or error of a function as words, and True if that is not a finite number."""
+    """Value or error of a function as text, and True if it is an error or not finite."""
     if noted := interpreted.noted(part.function):
         return noted, True
     if FORMS[part.form].returns:

@@ -49,7 +49,7 @@ class LawFunction(NamedTuple):
 def law_functions(
     friction: TangentialLaw, impact: ImpactLaw | None = None, normal: NormalLaw | None = None
 ) -> Iterator[LawFunction]:
-    """Functions of the laws of a contact, impact maps apart."""
+    """Functions of the laws of a contact that the engine calls by address, except those of impact maps."""
     if isinstance(friction, TractionLaw):
         yield LawFunction(
             _CONTACT.traction_function, _CONTACT.traction_parameters, friction, friction.traction, "traction"

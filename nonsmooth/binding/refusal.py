@@ -1,4 +1,4 @@
-"""Why a function cannot be compiled: one line out of the compiler's many, and the line of source that it means."""
+"""Reason why a function cannot be compiled: one line of the compiler's message, and the source line that it names."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class Refusal:
     Attributes
     ----------
     reason : str
-        What the compiler says, in one line.
+        The compiler's reason, one line.
     file : str
-        File of the line that it means, or of the function.
+        File of the line that cannot be compiled; if the compiler names no line, the file of the function.
     line : int
-        The line there.
+        Number of that line.
     text : str
-        What stands in that line.
+        Text of that line.
     """
 
     reason: str
@@ -41,7 +41,7 @@ class Refusal:
     text: str
 
     def describe(self, file: str) -> str:
-        """Place and reason; a place in ``file`` is a line alone."""
+        """Place and reason as text; the name of the file is left out if it is ``file``."""
         place = f"line {self.line}" if self.file == file else f"{self.file}, line {self.line}"
         return f"{place}{f', `{self.text}`' if self.text else ''}: {self.reason}"
 
@@ -63,7 +63,7 @@ def _reason(message: str) -> str:
 
 
 def _place(message: str, file: str, first: int) -> tuple[str, int]:
-    """First place in the message that is a file of Python; the compiler goes from the inside out."""
+    """File and line of the innermost call that the message names outside of numba; else ``file`` and ``first``."""
     for found in _PLACES.finditer(message):
         named, line = found["file"] or found["path"], int(found["line"] or found["number"])
         if Path(named).name == Path(file).name:

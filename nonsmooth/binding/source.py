@@ -1,4 +1,4 @@
-"""Where a function stands, and where in it something was raised, for messages."""
+"""Name, file and line of a function, and of an error within it, for messages."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from nonsmooth.engine.native.kernel import unshared
 
 
 def name_of(function: Callable[..., Any]) -> str:
-    """Name of a function, or of what stands in the place of one."""
+    """Qualified name of a function; of an object without a name, its ``repr``."""
     return str(getattr(function, "__qualname__", repr(function)))
 
 
 def place_of(function: Callable[..., Any]) -> tuple[str, int]:
-    """File and first line of a function, decorators apart; no file and 0 for what is not written in Python."""
+    """File of a function and its first line after the decorators; ("", 0) if it is not written in Python."""
     code = _code(function)
     if code is None:
         return "", 0
@@ -31,15 +31,15 @@ def place_of(function: Callable[..., Any]) -> tuple[str, int]:
 
 
 def described(function: Callable[..., Any]) -> str:
-    """Name, file and line of a function in words."""
+    """Name, file and line of a function, as text."""
     file, line = place_of(function)
     return f"{name_of(function)} in {file}, line {line}" if file else f"{name_of(function)}, which has no source"
 
 
 def raised(function: Callable[..., Any], error: BaseException) -> str:
-    """Error that a function has raised, with its line and text, and the place if that is far from there.
+    """Text on an error that a function has raised: the error, the line, and the file if that is another one.
 
-    The line is the last one in the function's own file.
+    The line is the last one in the function's own file through which the error passed.
     """
     frames = traceback.extract_tb(error.__traceback__)
     last = _last_own(function, frames)
@@ -48,7 +48,7 @@ def raised(function: Callable[..., Any], error: BaseException) -> str:
 
 
 def line_of(function: Callable[..., Any], error: BaseException) -> str:
-    """Last line of a function's own file that an error has passed, with its text, in brackets."""
+    """Text in brackets: the last line of a function's own file through which an error passed, with its source."""
     file, line = place_of(function)
     last = _last_own(function, traceback.extract_tb(error.__traceback__))
     return _line(file, last.lineno if last is not None and last.lineno is not None else line)
@@ -61,7 +61,7 @@ def _last_own(function: Callable[..., Any], frames: Iterable[traceback.FrameSumm
 
 
 def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> tuple[str, Any]:
-    """Call a function; return what it returns, and in which line, or what it raises, in words, and the value."""
+    """Call a function: text on its value or error, with the line, and the value, None after an error."""
     code, lines = _code(function), [0]
 
     def follow(frame: FrameType, event: str, argument: Any) -> Any:

@@ -7,12 +7,12 @@ import re
 from typing import Any
 
 _MARKUP = re.compile(r":\w+:`(?:[^`]*\.)?([^`.]+)`")
-"""A reference to a name; its last part is kept."""
+"""A reference of Sphinx, such as :class:`nonsmooth.Solution`. Group 1 is the last part of the name."""
 _SECTIONS = ("Parameters", "Attributes")
 
 
 def plain(text: str) -> str:
-    """Return a text without markup."""
+    """Return a text without markup: references of Sphinx become plain names, double backquotes vanish."""
     return _MARKUP.sub(r"\1", text).replace("``", "")
 
 

@@ -18,7 +18,7 @@ DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 
 
 class _Version(argparse.Action):
-    """Prints the installed version; the metadata of packages are read only then."""
+    """Action of ``--version``: prints the installed version. Only this action reads the metadata of packages."""
 
     def __call__(self, parser: argparse.ArgumentParser, *given: Any) -> None:
         from importlib.metadata import version
@@ -28,7 +28,7 @@ class _Version(argparse.Action):
 
 
 def parser(words: Sequence[str]) -> argparse.ArgumentParser:
-    """Return the parser of all commands, with the options of the one that a request names."""
+    """Return the parser of all commands. Only the command that the request names gets its options."""
     top = argparse.ArgumentParser(
         prog="nonsmooth",
         description="Event-driven multibody dynamics with friction and energetic multiple impacts.",
@@ -52,7 +52,7 @@ def main(words: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     words : sequence of str, optional
-        The words after the program's name; those of the process by default.
+        Arguments after the program's name; by default ``sys.argv[1:]``.
     """
     words = sys.argv[1:] if words is None else words
     arguments = parser(words).parse_args(words)

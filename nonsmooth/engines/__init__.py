@@ -1,1 +1,1 @@
-"""Engines: what integrates a laid-out system, each with its options."""
+"""Engines that integrate an assembled system, each with its options."""

@@ -23,7 +23,7 @@ class PainlevePolicy(StrEnum):
     IMPACT = "impact"
     """An impact without collision, by the impact law of the contact."""
     COMPLIANT = "compliant"
-    """The same without loss, as a stiff spring does it."""
+    """An impact without collision and without loss of energy, as by a stiff spring."""
     REFUSE = "refuse"
     """The run ends."""
 
@@ -59,23 +59,23 @@ class EventDriven(Engine):
 
     @property
     def uses_flow(self) -> bool:
-        """Yes."""
+        """True: the motion between events is that of the built-in flow."""
         return True
 
     @property
     def records_contacts(self) -> bool:
-        """Yes: modes change at events only."""
+        """True: modes change at events only, and each event stores the modes and the impulses."""
         return True
 
     def check(self, system: System) -> None:
-        """Refuse nothing: whatever can be declared can be run."""
+        """Accept every system, because this engine can run all that a system can declare."""
 
     def counts(self, n_slots: int) -> Mapping[str, int]:
-        """Return for how many contacts Lemke's tableau is laid out."""
+        """Return the number of contacts for which the workspace has room in the tableau of Lemke's method."""
         return {"n_pivoted": pivoted_contacts(solver_of(self.solver), n_slots)}
 
     def settings(self, time_scale: float) -> Mapping[Any, float]:
-        """Return tolerances and first steps."""
+        """Return solver, policy, tolerances and first steps [s] as numbers of the workspace."""
         step = min(self.largest_step, time_scale / self.steps_per_period)
         return {
             Options.solver: solver_of(self.solver),
@@ -92,5 +92,5 @@ class EventDriven(Engine):
         }
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Call the entry point of that name."""
+        """Call the compiled entry point ``advance``; the result is its status."""
         return int(call("advance", most_steps, int(wary)))

@@ -21,7 +21,7 @@ UNITS_OF_Q, UNITS_OF_U = ("m", "rad", "1", "J"), ("m/s", "rad/s", "1/s", "W")
 """Units that coordinates and velocities may have; a coordinate in [J] is a work that a body integrates."""
 POSE_LABELS: NamesAndUnits = tuple(zip(("x", "y", "z", "q0", "q1", "q2", "q3"), "mmm1111", strict=True))
 TWIST_LABELS: NamesAndUnits = tuple(zip(("vx", "vy", "vz", "wx", "wy", "wz"), 3 * ["m/s"] + 3 * ["rad/s"], strict=True))
-"""Those of a free body: position and unit quaternion, velocity and angular velocity."""
+"""Labels of a free body: position and unit quaternion; here velocity and angular velocity."""
 
 
 class Body(Component, ABC):
@@ -36,10 +36,10 @@ class Body(Component, ABC):
     2. M du/dt = h + contact forces, dq/dt = B(q) u; the Jacobian maps u to the velocity of the frame
        origin and its angular velocity, both in world axes.
     3. A driven body has no coordinates and writes the motion of its frames only.
-    4. ``flight``, if it is known, is a plain function ``fly(t, q, u, out, ...)`` with such further arguments.  It
-       writes the q, and behind it the u, to which q and u come in a time t [s] of free motion: h alone acts, and does
-       not change with time.  The engine then integrates the body only where something touches or holds it.
-    5. ``state`` turns what a user says of the start into q and u, or raises InvalidInput.
+    4. ``flight``, if a closed form is known, is a plain function ``fly(t, q, u, out, ...)`` with further arguments of
+       the same kinds.  It writes q, and behind it u, after a time t [s] of free motion, in which h alone acts and does
+       not change with time.  The engine then integrates the body only while something touches or holds it.
+    5. ``state`` turns the keywords of a start into q and u, or raises InvalidInput.
     """
 
     @property
@@ -49,24 +49,24 @@ class Body(Component, ABC):
 
     @property
     def sketch(self) -> tuple[Look, ...]:
-        """What is seen of each frame besides its shapes, as a rod that touches nothing; none by default."""
+        """Visible parts of each frame other than its shapes, such as a rod without contacts; none by default."""
         return ()
 
     def strokes(self, q: Vector) -> Vector:
         """Return the ends of lines to draw at coordinates q [m], shape [n, 2, 3], in world axes; none by default.
 
-        They are for what no frame carries, as the links of a mechanism; their number is always the same.
+        The lines show parts without a frame, such as the links of a mechanism. Their number must not change.
         """
         return np.zeros((0, 2, 3))
 
     @property
     def q_labels(self) -> NamesAndUnits:
-        """Name and unit of every coordinate, by default of none: a driven body. A quaternion is of pure numbers."""
+        """Name and unit of every coordinate; empty by default, for a driven body. The unit of a quaternion is "1"."""
         return ()
 
     @property
     def u_labels(self) -> NamesAndUnits:
-        """Name and unit of every velocity, by default of none."""
+        """Name and unit of every velocity; empty by default, for a driven body."""
         return ()
 
     @property
@@ -81,39 +81,40 @@ class Body(Component, ABC):
 
     @property
     def quaternion(self) -> int:
-        """Offset of a unit quaternion in q, -1, by default, without one."""
+        """Offset of the unit quaternion in q; -1, the default, if there is no quaternion."""
         return -1
 
     @property
     def spin(self) -> int:
-        """Offset in u of an angular velocity along the axes that the quaternion turns, -1, by default, without one.
+        """Offset in u of the angular velocity along the axes that the quaternion turns; -1, the default, without one.
 
-        The quaternion's rate must be half its product with that: such a spin is integrated along axes in space, where
-        that of a symmetric top changes as slowly as its axis turns.
+        The quaternion's rate must be half the product of the quaternion and this angular velocity.  The engine then
+        integrates the angular velocity in axes fixed in space, in which that of a symmetric top changes as slowly as
+        its axis turns.
         """
         return -1
 
     @property
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
-        """The function of point 1."""
+        """The function of point 1 of the contract."""
 
     @property
     def flight(self) -> Callable[..., None] | None:
-        """The function of point 4; None, by default, where there is no closed form."""
+        """The function of point 4 of the contract; None, the default, without a closed form."""
         return None
 
     @property
     def length_scale(self) -> float:
-        """Size of the body [m], by default the distance of the farthest point of its shapes; 1 m without shapes."""
+        """Size of the body [m]; by default the distance of the farthest point of its shapes, or 1 m without shapes."""
         return max((shape.length for frame in self.frames for shape in frame), default=0.0) or 1.0
 
     @property
     def scales(self) -> tuple[Vector, Vector]:
         """Sizes of q and u below which errors count as absolute, shapes [n_q] and [n_u].
 
-        By default they follow from the units: the length of the body, the speed of a fall through it, and 1 for the
-        rest, angles and pure numbers.
+        By default they follow from the units: the length of the body, the speed of a fall through this length, and 1
+        for angles, pure numbers and all other units.
         """
         length = self.length_scale
         speed = math.sqrt(9.81 * length)
@@ -125,7 +126,7 @@ class Body(Component, ABC):
 
     @property
     def time_scale(self) -> float:
-        """Shortest time over which prescribed motion changes [s]; infinite, by default, without any."""
+        """Shortest time over which prescribed motion changes [s]; infinite, the default, without prescribed motion."""
         return math.inf
 
     @abstractmethod
@@ -135,5 +136,5 @@ class Body(Component, ABC):
         Raises
         ------
         InvalidInput
-            If a word is unknown, a shape is wrong, a number is not finite or a quaternion not unit.
+            If a keyword is unknown, a shape is wrong, a number is not finite, or a quaternion has no unit length.
         """

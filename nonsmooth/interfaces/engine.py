@@ -1,4 +1,4 @@
-"""Engine: what takes a laid-out system from its start to the end of a run."""
+"""Interface of engines, which integrate a system from its start to the end of a run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from nonsmooth.system.system import System
 
 FIRST_CODE = 100
-"""Least code of a cause of an engine's own; smaller ones are those of :mod:`nonsmooth.engine.memory.modes`."""
+"""Least code of an end cause of a single engine. :mod:`nonsmooth.engine.memory.modes` has the smaller codes."""
 
 
 @final
@@ -42,7 +42,7 @@ class Measure:
 @final
 @dataclass(frozen=True)
 class EndCause:
-    """A cause of an engine's own for which a run ends.
+    """A cause for which only one engine ends a run.
 
     Attributes
     ----------
@@ -96,7 +96,7 @@ class Engine(Component, ABC):
 
     @property
     def own(self) -> type[Singleton] | None:
-        """Class of the declarations of its own numbers, None if it has none."""
+        """Class of declarations of the numbers that the engine adds; None, the default, if it adds no numbers."""
         return None
 
     @property
@@ -106,17 +106,17 @@ class Engine(Component, ABC):
 
     @property
     def records_contacts(self) -> bool:
-        """Whether its events hold the modes after them and the impulses in them."""
+        """Whether its events store impulses, and the modes after the event."""
         return False
 
     @property
     def verdict(self) -> tuple[Measure, ...]:
-        """Numbers by which it judges a run, for ``Solution.end.verdict``."""
+        """Numbers by which the engine judges a run, for ``Solution.end.verdict``; none by default."""
         return ()
 
     @property
     def causes(self) -> tuple[EndCause, ...]:
-        """Causes of its own for which a run ends."""
+        """Causes for which only this engine ends a run; none by default."""
         return ()
 
     @property
@@ -129,12 +129,12 @@ class Engine(Component, ABC):
 
     @abstractmethod
     def check(self, system: System) -> None:
-        """Look whether it can run a system.
+        """Check that the engine can run a system.
 
         Raises
         ------
         InvalidInput
-            If it cannot; the message names what it is that it cannot run, and another engine.
+            If the engine cannot run the system. The message names the unsupported part and another engine.
         """
 
     @abstractmethod
@@ -174,12 +174,12 @@ class Engine(Component, ABC):
         Parameters
         ----------
         call : callable
-            ``call(name, *numbers)`` calls an entry point, or a step of its own, on the memory, watched: with progress,
-            and with Ctrl-C where nothing is lost.
+            ``call(name, *numbers)`` calls an entry point, or a step of the engine, on the memory. During the call,
+            progress is reported, and Ctrl-C interrupts at a point at which nothing is lost.
         memory : Memory
             The memory.
         most_steps : int
-            So many steps at most.
+            Largest number of steps.
         wary : bool
             Whether to pause before a step whose length depends on the end time.
 

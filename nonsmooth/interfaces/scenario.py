@@ -39,15 +39,15 @@ class Scenario(Component, ABC):
     Attributes
     ----------
     title : str
-        One line of text.
+        Title of the scenario, one line.
     samples : int
         Number of intervals between samples in a run.
     units : mapping
-        Units of the numbers of ``summarise`` by name; numbers that are left out have none.
+        Units of the numbers of ``summarise`` by name; numbers without an entry have no unit.
     coordinate_units : mapping
         Units of all ``coordinates`` by name.  The unit of z is also that of z_1, z_2 and so on.
     words : mapping
-        All words that a word of ``summarise`` can be, by name.
+        Possible values of the words of ``summarise``, by name.
     """
 
     title: ClassVar[str]
@@ -67,7 +67,7 @@ class Scenario(Component, ABC):
 
     @abstractmethod
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the numbers by which a finished run is judged, those that hold for these parameters."""
+        """Return the criteria by which a finished run is judged, as far as they apply to these parameters."""
 
     @property
     def sample_interval(self) -> float:
@@ -75,22 +75,22 @@ class Scenario(Component, ABC):
         return self.t_end / self.samples
 
     def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters with the values that the run uses; as they are given by default."""
+        """Return all parameters with the values that the run uses; by default the given values."""
         return {name: getattr(self, name) for name in rules(type(self))}
 
     @property
     def name(self) -> str:
-        """Name in messages; that of the class by default."""
+        """Name in messages; by default the name of the class."""
         return type(self).__name__
 
     @property
     def varies(self) -> Mapping[str, Rule]:
-        """Rules of the parameters that a study can vary, by name; of all parameters by default."""
+        """Rules of the parameters that a study can vary, by name; by default the rules of all parameters."""
         return {name: rule for name, (_, rule) in rules(type(self)).items()}
 
     @property
     def values(self) -> Mapping[str, Any]:
-        """Values that the run uses of the parameters that can be varied and of those derived from them, by name."""
+        """Values that the run uses, by name: of parameters that can be varied and of parameters derived from them."""
         return self.resolved()
 
     def varied(self, **changes: Any) -> Scenario:
@@ -104,7 +104,7 @@ class Scenario(Component, ABC):
         return dataclasses.replace(self, **changes)  # type: ignore[type-var]
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """Return coordinates of the scenario's own over the samples, by name, shape [n_samples]; none by default."""
+        """Return the scenario's own coordinates by name, at all samples, shape [n_samples]; by default none."""
         return {}
 
     def unit_of(self, coordinate: str) -> str:
@@ -113,7 +113,7 @@ class Scenario(Component, ABC):
         return known.get(coordinate) or known.get(_NUMBER.sub("", coordinate), "")
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u}, coordinates and velocities at the end; those of the system by default."""
+        """Return {q, u}, coordinates and velocities at the end; by default those of all bodies of the system."""
         return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
@@ -138,7 +138,7 @@ class Scenario(Component, ABC):
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the published figures by file name, and call ``run`` for the runs that they need.
 
-        By default the figures of a run of the default parameters.
+        By default it returns the figures of a run with the default parameters.
         """
         scenario = cls()
         return scenario.figures(run(scenario))

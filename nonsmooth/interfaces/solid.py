@@ -1,4 +1,4 @@
-"""SolidRegion: what a shape encloses, for what is asked once: whether bodies overlap, and where one meets another."""
+"""Interface of solids, the points that shapes enclose: for overlaps, distances and meetings of bodies."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class Piece:
     Attributes
     ----------
     support : callable
-        Returns a point of it that lies farthest along a direction of any length [m], both of shape [3].
+        Function that returns a point of the piece farthest along a direction of any length [m], both of shape [3].
     place : Vector
-        One of its points, in the middle where it has one [m], shape [3].
+        A point of the piece, its middle if it has one [m], shape [3].
     normals : tuple of Vector
-        Directions along which it is thin, to be tried first, shape [3] each.
+        Directions along which the piece is thin, shape [3] each. A search for a separating plane tries them first.
     """
 
     support: Callable[[Vector], Vector]
@@ -32,7 +32,9 @@ class Piece:
 
 
 class SolidRegion(ABC):
-    """The points that a shape encloses, in the frame of its body; gaps of contacts tell only of features that face.
+    """The points that a shape encloses, in the frame of its body.
+
+    Solids show overlaps that gaps of contacts cannot show, because gaps are those of features that face each other.
 
     The contract:
 
@@ -43,17 +45,17 @@ class SolidRegion(ABC):
     @property
     @abstractmethod
     def set_back(self) -> float:
-        """How far what contacts see may lie off the boundary [m]."""
+        """Largest distance between the surface that contacts see and the boundary [m]."""
 
     @property
     @abstractmethod
     def hollow(self) -> bool:
-        """Whether the pieces leave out what is inside."""
+        """Whether the pieces cover the boundary only and leave out the inside."""
 
     @property
     @abstractmethod
     def bounds(self) -> tuple[Vector, Vector]:
-        """Lowest and highest coordinates [m], shape [3] each."""
+        """Lowest and highest coordinates of the solid [m], shape [3] each."""
 
     @abstractmethod
     def support(self, direction: Vector) -> Vector:
@@ -66,8 +68,8 @@ class SolidRegion(ABC):
     @property
     @abstractmethod
     def inner(self) -> Vector:
-        """Points inside, off the boundary as far as that can be [m], shape [n, 3]; at least one."""
+        """Points inside, as far from the boundary as possible [m], shape [n, 3]; at least one."""
 
     @abstractmethod
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell whether a hollow one goes round a point that lies deeper than a margin under its boundary [m]."""
+        """Return True if a hollow solid encloses a point deeper than a margin under its boundary [m]."""

@@ -151,7 +151,7 @@ class Difference:
         Raises
         ------
         zlib.error, ValueError, IndexError
-            If they are damaged.
+            If the bytes are damaged.
         """
         numbers = np.frombuffer(zlib.decompress(content), "<i8").astype(np.int64)
         n = int(numbers[0])

@@ -26,7 +26,7 @@ def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[st
     Raises
     ------
     InvalidInput
-        If it decides another count, or a count is no length.
+        If the engine decides another count, or a count is negative or no integer.
     """
     found = engine.counts(n_slots)
     for name in _known(engine, "counts", found, free):
@@ -60,12 +60,12 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
 
 
 def own_of(engine: Engine) -> tuple[type[Singleton], ...]:
-    """The engine's own part of the workspace, a class of declarations, as a tuple of one or none.
+    """The engine's own part of the workspace, a class of declarations, as a tuple; empty without one.
 
     Raises
     ------
     InvalidInput
-        If it is no class of declarations.
+        If ``engine.own`` is no class of declarations.
     """
     own = engine.own
     if own is None:

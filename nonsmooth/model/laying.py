@@ -19,12 +19,12 @@ from nonsmooth.system.system import System
 
 @dataclass(frozen=True)
 class ArticulationLayout:
-    """Bodies that joints tie together, and these joints.
+    """Bodies of an articulation (tied together by joints), and its joints.
 
     Attributes
     ----------
     first : int
-        Number of the first body in the system; the others follow.
+        Number of the first body in the system; the other bodies have the next numbers.
     bodies : tuple of Body
         The bodies.
     joints : tuple of Tie
@@ -39,13 +39,13 @@ class ArticulationLayout:
 def articulations(system: System) -> list[ArticulationLayout]:
     """The articulations (groups of bodies that joints tie together) of a system, in the order of its bodies.
 
-    Each body belongs to one. They are the shortest ranges of consecutive bodies such that no joint ties movable bodies
-    of two ranges. A body between two tied ones belongs to their range even without a joint. That costs time and does
-    not change the motion. Each joint must have a movable body, one with velocities (``n_u`` > 0). A driven body ties no
-    others: its motion is given.
+    Each body belongs to one articulation. Articulations are the shortest ranges of consecutive bodies such that no
+    joint ties movable bodies of two ranges. A body between two tied bodies belongs to their range even without a joint.
+    That costs time and does not change the motion. Each joint must have a movable body, one with velocities
+    (``n_u`` > 0). A driven body ties no others, because its motion is given.
     """
     bodies = system.bodies
-    # of each body the last one that a joint ties to it
+    # for each body, the last body that a joint ties to it
     last = list(range(len(bodies)))
     for tie in system.joints:
         numbers = [i for i, body in enumerate(bodies) if (body is tie.first or body is tie.second) and body.n_u > 0]

@@ -331,8 +331,8 @@ _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.f
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
     """Layout of ``system``, which differs in its laws only, in the memory of a model. That memory must hold no run.
 
-    Addresses and parameters of the laws are overwritten in place, so ``model`` must not be used any more. Geometry
-    stays.
+    Addresses and parameters of the laws are overwritten in place, so ``model`` must not be used any more. The geometry
+    does not change.
 
     Raises
     ------
@@ -344,7 +344,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers}
     for numbers in kinds:
-        # one contact of each kind that the contacts of this kind had
+        # one contact for each kind that these contacts had with the former laws
         examples = {former_kind[number]: number for number in numbers}.values()
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):
@@ -374,7 +374,7 @@ def _check_same(one: System, other: System) -> None:
     Raises
     ------
     InvalidInput
-        If anything else differs.
+        If bodies, gravity, joints, loads, guards or contacts differ.
     """
     remedy = "Make it by nonsmooth.with_laws(model.system, ...), or assemble it."
     if list(map(id, one.bodies)) != list(map(id, other.bodies)) or one.gravity != other.gravity:

@@ -1,1 +1,1 @@
-"""Named starts: a body is moved along a line until it meets what it would touch."""
+"""Named starts: a body is moved along a line until it touches another one."""

@@ -16,25 +16,25 @@ _STEPS = 5000
 _FARTHEST = 1e6
 _ROUND_OFF = 1e-9
 _NEAR = 1e-7
-"""Gaps, relative to the size of a contact, that may be left where solids meet: the distance of round ones is rough."""
+"""Gap that may remain where solids meet, relative to the size of a contact: the distance of round solids is inexact."""
 _GRAZING = 1e4
-"""Gaps may fall so much slower than a body moves along the line, where the engine's gap makes a place exact."""
+"""Largest ratio of the speed along the line to the rate of the engine's gap, for which a place is made exact."""
 
 
 class Line:
     """The line along which a body can move without being turned.
 
-    Where the shapes of a contact have solids, these tell where it meets.  The gaps of the others do: none changes
-    faster than the body moves, so that a step as long as the least of them leads past nothing.
+    If all shapes of a contact have solids, their :class:`Passage` gives the meeting.  For other contacts the gaps give
+    it: a gap changes no faster than the body moves, so a step as long as the least gap passes no meeting.
 
     Parameters
     ----------
     probe : Probe
         The body where it starts.
     way : Vector
-        Unit vector along which it is to move, as far as it can, shape [3].
+        Unit vector along which the body is to move, shape [3]; the body moves in the nearest direction that it can.
     height : float
-        The distance at which it is to meet [m].
+        Gap at the meeting [m].
 
     Raises
     ------
@@ -61,12 +61,14 @@ class Line:
         ]
 
     def met(self) -> Vector:
-        """Coordinates of the body where it first meets something, or, if it overlaps, last does going back.
+        """Coordinates of the body at its first meeting along the line.
+
+        A body that overlaps is moved back until it overlaps with nothing.
 
         Raises
         ------
         InvalidInput
-            If there is nothing, or the body does not keep to a line.
+            If the body meets nothing, or does not move along a straight line.
         """
         free = self._clear(0.0)
         distance = self._ahead() if free else self._back()
@@ -94,7 +96,7 @@ class Line:
         return self._probe.gaps() - self._height
 
     def _least_gap(self, distance: float) -> float:
-        """Least gap of the contacts that no solids tell of, less the height [m]."""
+        """Least gap, minus the height, of the contacts with a shape without solid [m]."""
         return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
 
     def _at_distance(self, distance: float) -> list[Passage]:
@@ -128,7 +130,7 @@ class Line:
         return np.inf
 
     def _exact(self, distance: float) -> float:
-        """Root of the least gap of all contacts, if it is next to the place where the solids meet."""
+        """Distance at which the least gap of all contacts is the height [m], if close to the meeting of the solids."""
         from scipy.optimize import brentq
 
         def over(place: float) -> float:
@@ -136,7 +138,7 @@ class Line:
 
         gap, slack = over(distance), 2.0 * _ROUND_OFF * self._size + self._slack
         if gap == 0.0 or abs(gap) > _NEAR * self._size + self._slack:
-            # features that do not face have gaps that are none
+            # gaps of features that do not face each other have no meaning
             return distance
         step = np.copysign(max(abs(gap), 1e-16 * self._size), gap)
         while abs(step) < _GRAZING * slack:
@@ -148,7 +150,7 @@ class Line:
         return distance
 
     def _motion(self) -> tuple[Vector, Vector]:
-        """Coordinate rates of a unit velocity along the way, as far as the body can go there, and where."""
+        """Coordinate rates for unit speed in the possible direction nearest to the given one, and this direction."""
         probe = self._probe
         probe.frame(0)
         u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]

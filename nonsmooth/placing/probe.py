@@ -1,4 +1,4 @@
-"""One body of a laid-out system, moved by hand."""
+"""One body of a system, whose frames, gaps and rates are evaluated at coordinates that the caller sets."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from nonsmooth.system.system import System
 @final
 @dataclass(frozen=True)
 class Probe:
-    """A body with its contacts.
+    """A body with its contacts, to be evaluated at any coordinates.
 
     Attributes
     ----------
     model : LaidOut
-        A system without other contacts, laid out.
+        Layout of the system with the contacts of this body only.
     body : Body
         The body.
     number : int
-        Its number in the system.
+        Number of the body in the system.
     """
 
     model: LaidOut
@@ -41,7 +41,7 @@ class Probe:
 
     @classmethod
     def of(cls, system: System, body: Body) -> Probe:
-        """Probe of a body where it starts."""
+        """Probe of a body of a system, at its start."""
         number = next(i for i, other in enumerate(system.bodies) if other is body)
         return cls(lay_out(system.about(body), EventDriven()), body, number)
 
@@ -66,21 +66,21 @@ class Probe:
 
     @property
     def q(self) -> Vector:
-        """Its coordinates, to be written as well, shape [n_q]."""
+        """Coordinates of the body, shape [n_q]: a view that the caller may write to."""
         return self._state(0, "q", self.body.n_q)
 
     @property
     def u(self) -> Vector:
-        """Its velocities, to be written as well, shape [n_u]."""
+        """Velocities of the body, shape [n_u]: a view that the caller may write to."""
         return self._state(self.model.n_q, "u", self.body.n_u)
 
     def frame(self, number: int) -> Vector:
-        """Motion of a frame (:mod:`nonsmooth.engine.memory.blocks`)."""
+        """Motion of a frame at the present coordinates, shape [FRAME] (:mod:`nonsmooth.engine.memory.blocks`)."""
         call_entry("evaluate_at", self.model.memory)
         return self._part("out", number * (FRAME + 6 * self.body.n_u), FRAME).copy()
 
     def jacobian(self, number: int) -> Vector:
-        """Jacobian of a frame that was evaluated, shape [6, n_u]."""
+        """Jacobian of a frame, shape [6, n_u], at the coordinates of the last call of :meth:`frame`."""
         first = number * (FRAME + 6 * self.body.n_u) + FRAME
         return self._part("out", first, 6 * self.body.n_u).reshape(6, self.body.n_u).copy()
 
@@ -93,7 +93,7 @@ class Probe:
         return self._part("tail", 0, self.body.n_q).copy()
 
     def gaps(self) -> Vector:
-        """Gaps of its contacts [m]; bounds from below where shapes are too far apart to be looked at."""
+        """Gaps of its contacts [m]; lower bounds for contacts too far apart for the neighbour list."""
         self.model.list_contacts()
         gaps = np.asarray(self.model.gaps())
         margin = float(self.model.memory[owners.Island.list_margin])
@@ -104,7 +104,7 @@ class Probe:
         return gaps
 
     def rates(self, u: Vector) -> Vector:
-        """Gap rate and slip velocity [m/s] of its contacts for velocities, shape [n, 3]."""
+        """Gap rate and slip velocity of its contacts [m/s], shape [n, 3]; NaN if not on the neighbour list."""
         self.u[:] = u
         call_entry("evaluate_at", self.model.memory)
         n = int(self.model.memory[owners.Island.n_contacts])

@@ -1,4 +1,4 @@
-"""Named starts: a body is moved until it touches, or to a height over what it would touch."""
+"""Named starts: a body is moved until it touches another one, or to a height above it."""
 
 from __future__ import annotations
 
@@ -27,18 +27,19 @@ def touching(system: System, body: Body, *, direction: Sequence[float] | None = 
     Parameters
     ----------
     system : System
-        Its bodies placed, its contacts declared.
+        The system, with starts of its bodies and declared contacts.
     body : Body
         The body to move; the others stay where they start.
     direction : sequence of float, optional
-        Where to move it [m, shape (3)]; by default along gravity.  A body that overlaps moves the other way.
+        Vector along which to move it, shape [3], of any length; by default along gravity.  A body that overlaps moves
+        the opposite way.
     **start : object
-        The words of the body's ``state``.
+        Keyword arguments of the body's ``state``, such as ``position``.
 
     Raises
     ------
     InvalidInput
-        If the body is driven or has no contact, cannot move this way, or touches nothing there.
+        If the body is driven, has no contact, cannot move in this direction, or touches nothing there.
     """
     _move(system, body, 0.0, direction, start)
 
@@ -61,9 +62,9 @@ def at_height(
 
 
 def resting(system: System, body: Body, *, direction: Sequence[float] | None = None, **start: Any) -> None:
-    """Place a body as :func:`touching` does, with the velocity that the body which it touches has at t = 0.
+    """Place a body as :func:`touching` does, at rest relative to the body that it touches at t = 0.
 
-    It moves and turns as if it were fixed to that body, so that no contact between them slips.
+    It gets the velocity and angular velocity of a point fixed to that body, so that no contact between them slips.
 
     Raises
     ------
@@ -82,7 +83,7 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     _move(system, body, 0.0, direction, start)
     probe = Probe.of(system, body)
     gaps = probe.gaps()
-    # a meeting is told by the solids, and the gap that is left there need not be zero
+    # the solids give the meeting, and the remaining gap there need not be zero
     touched = gaps <= max(float(np.min(gaps)), 0.0) + _ROUND_OFF * max(contact.size for contact in probe.contacts)
     contact = probe.contacts[int(np.argmin(gaps))]
     own, other = (0, 1) if contact.first is body else (1, 0)
@@ -137,14 +138,14 @@ def _unit(system: System, direction: Sequence[float] | None) -> Vector:
 
 
 def turned_about(axis: Sequence[float], angle: float) -> tuple[float, float, float, float]:
-    """Orientation of a body that is turned about an axis, for ``System.place`` and wherever one is asked.
+    """Unit quaternion of a rotation about an axis, for ``System.place`` and other orientations.
 
     Parameters
     ----------
     axis : sequence of float
         Unit vector of the axis, shape [3].
     angle : float
-        The turn [rad], by the right-hand rule.
+        Angle of the rotation [rad], by the right-hand rule.
 
     Returns
     -------
@@ -154,7 +155,7 @@ def turned_about(axis: Sequence[float], angle: float) -> tuple[float, float, flo
     Raises
     ------
     InvalidInput
-        If the axis has not unit length, or the angle is not finite.
+        If the axis is not a unit vector, or the angle is not finite.
     """
     x, y, z = unit_vector("turned_about: axis", axis)
     if not is_finite(angle):

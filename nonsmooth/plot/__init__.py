@@ -1,7 +1,7 @@
 """Pictures of any run: functions from a solution to matplotlib axes, which can be composed (``nonsmooth[full]``).
 
-Each takes axes to draw on, or makes new ones, and returns them.  Contacts, bodies and coordinates are given by their
-names.  Charts of other numbers than those of a solution are in :mod:`nonsmooth.charts`.
+Each function takes axes to draw on, or makes new axes, and returns the axes.  Contacts, bodies and coordinates are
+given by their names.  Charts of other numbers than those of a solution are in :mod:`nonsmooth.charts`.
 """
 
 from nonsmooth.plot.contacts import forces, gaps, impulses, velocities

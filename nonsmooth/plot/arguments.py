@@ -23,12 +23,12 @@ if TYPE_CHECKING:
 
 OneContact: TypeAlias = Contact | str | int
 Contacts: TypeAlias = OneContact | Sequence[OneContact]
-"""A contact, by itself, its name or its number, or several of them."""
+"""One or several contacts, each given as an object, by its name or by its number."""
 
 MOST = 8
-"""Contacts that are told apart by their lines."""
+"""Largest number of contacts of a picture by default, so that their lines can be distinguished."""
 _MOST_EVENTS = 2000
-"""Events whose two sides are both drawn: of more, none would be seen for itself."""
+"""Largest number of events that are drawn with both sides: more events could not be distinguished."""
 
 
 def pyplot() -> ModuleType:
@@ -37,7 +37,7 @@ def pyplot() -> ModuleType:
     Raises
     ------
     MissingPackagesError
-        If it is not installed.
+        If matplotlib is not installed.
     """
     try:
         import matplotlib.pyplot
@@ -47,7 +47,7 @@ def pyplot() -> ModuleType:
 
 
 def axes_of(ax: Axes | None, height: float = 3.6) -> Axes:
-    """Axes given, or those of a new figure [inches]."""
+    """The given axes, or the axes of a new figure of this height [inches]."""
     if ax is not None:
         return ax
     made: Axes = pyplot().subplots(layout="constrained", figsize=(7.2, height))[1]
@@ -55,14 +55,14 @@ def axes_of(ax: Axes | None, height: float = 3.6) -> Axes:
 
 
 def times_of(where: str, solution: Solution, times: ArrayLike | None, *, before: bool = True) -> Floats:
-    """Times to draw [s]: those given, else of the samples and both sides of events, in order, shape [n].
+    """Times to draw [s], shape [n]: the given times, or the times of all samples and events in order.
 
-    Without ``before`` the side after events only.
+    With ``before``, the last time before each event is added. With more than 2000 events, the samples are drawn only.
 
     Raises
     ------
     InvalidInput
-        If the run was not there.
+        If a given time is outside of the run.
     """
     if times is not None:
         return np.atleast_1d(read_times(where, solution, times))
@@ -77,12 +77,12 @@ def times_of(where: str, solution: Solution, times: ArrayLike | None, *, before:
 
 
 def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most: int = MOST) -> list[int]:
-    """Numbers of the contacts to draw: those given, else the busiest, in the order of the system.
+    """Numbers of the contacts to draw: the given ones, or the ``most`` contacts with most events in the system's order.
 
     Raises
     ------
     InvalidInput, UnknownName
-        If there is none, or the system has no such contact.
+        If there is no contact to draw, or the system does not have a given contact.
     """
     declared = solution.system.contacts
     if contacts is None:
@@ -96,12 +96,12 @@ def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most:
 
 
 def part_of(where: str, part: str, parts: Sequence[str]) -> int:
-    """Number of the part of a picture with a name.
+    """Index of ``part``, the quantity that the user wants to draw, in ``parts``.
 
     Raises
     ------
     InvalidInput
-        If it is none of them.
+        If ``part`` is not in ``parts``.
     """
     if part not in parts:
         rule = f"must be {' or '.join(map(repr, parts))}"
@@ -110,7 +110,7 @@ def part_of(where: str, part: str, parts: Sequence[str]) -> int:
 
 
 def draw_lines(ax: Axes, solution: Solution, numbers: Sequence[int], times: Floats, values: Floats) -> None:
-    """Draw values [n, one for each contact] over time, with a legend; what is not a number is left out."""
+    """Draw values, shape [n, number of contacts], over times [s], with a legend; NaN interrupts a line."""
     for place, (number, value) in enumerate(zip(numbers, values.T, strict=True)):
         ax.plot(times, value, label=solution.system.contacts[number].name, **line(place))
     over_time(ax, solution)
@@ -126,13 +126,13 @@ def over_time(ax: Axes, solution: Solution) -> None:
 
 
 def beside(ax: Axes, title: str = "", handles: Sequence[Artist] | None = None) -> None:
-    """Put the legend beside the axes, where it covers no curve; within them where the figure makes no room for it."""
+    """Put the legend to the right of the axes, or within them if the figure has no layout that makes room for it."""
     outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
     place: dict[str, Any] = outside if ax.figure.get_layout_engine() is not None else {"loc": "best"}
     ax.legend(handles=handles, fontsize=8, title=title or None, title_fontsize=8, **place)
 
 
 def title_of(numbers: Sequence[int], solution: Solution) -> str:
-    """Entry of a legend that does not list all contacts."""
+    """Title of a legend that does not list all contacts, such as "8 of 12 contacts"; "" if it lists all."""
     total = len(solution.system.contacts)
     return f"{len(numbers)} of {total} contacts" if len(numbers) < total else ""

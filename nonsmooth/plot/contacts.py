@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _SEEN = 1e-6
-"""Range of gaps that the axes show at least, relative to the smallest shape: round-off is no motion to be seen."""
+"""Least gap to which the axis extends, up and down, relative to the smallest shape, so that round-off is not seen."""
 
 
 def gaps(
@@ -39,12 +39,12 @@ def gaps(
     solution : Solution
         The run.
     contacts : Contact, str, int or sequence of them, optional
-        Which contacts; by default those with most events, eight at most.
+        Contacts to draw; by default the eight contacts with most events.
     ax : Axes, optional
-        Axes to draw on; those of a new figure by default.
+        Axes to draw on; by default the axes of a new figure.
     times : array, optional
-        Times of the run [s], shape [n]; by default those of its samples and both sides of its events, if there are no
-        more than 2000 of these.
+        Times of the run [s], shape [n]; by default the times of samples and both sides of events.  Events are omitted
+        if there are more than 2000.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def gaps(
     Raises
     ------
     InvalidInput, UnknownName
-        If the system has no such contact, or none at all, or a time is not within the run.
+        If the system has no contact, or not a given one, or a time is not within the run.
     """
     where, declared = "nonsmooth.plot.gaps", solution.system.contacts
     numbers, row = contacts_of(where, solution, contacts), times_of(where, solution, times)
@@ -82,7 +82,7 @@ def velocities(
     solution, contacts, ax, times
         As for :func:`nonsmooth.plot.gaps`.
     part : str
-        "normal" for the rate of the gap, "slip" for the speed across the normal.
+        "normal" for the rate of the gap, "slip" for the slip speed.
 
     Returns
     -------
@@ -92,7 +92,7 @@ def velocities(
     Raises
     ------
     InvalidInput, UnknownName
-        As for :func:`nonsmooth.plot.gaps`, or if there is no such part.
+        As for :func:`nonsmooth.plot.gaps`, or if ``part`` is another word.
     """
     where = "nonsmooth.plot.velocities"
     which = part_of(where, part, ("normal", "slip"))
@@ -131,7 +131,7 @@ def forces(
     Raises
     ------
     InvalidInput, UnknownName
-        As for :func:`nonsmooth.plot.gaps`, or if there is no such part.
+        As for :func:`nonsmooth.plot.gaps`, or if ``part`` is another word.
     """
     where = "nonsmooth.plot.forces"
     which = part_of(where, part, ("normal", "friction"))
@@ -167,7 +167,7 @@ def impulses(
     Raises
     ------
     InvalidInput, UnknownName
-        As for :func:`nonsmooth.plot.gaps`, or if there is no such part.
+        As for :func:`nonsmooth.plot.gaps`, or if ``part`` is another word.
     """
     where = "nonsmooth.plot.impulses"
     which = part_of(where, part, ("normal", "friction"))

@@ -21,16 +21,16 @@ _LAYERS = (
     ("restitution_loss", "lost to restitution", "#d55e00", "...."),
     ("closing_loss", "lost in closings", "#7f7f7f", "xxxx"),
 )
-"""Variable, words, colour and hatch, from below."""
+"""Layers of the stack, the lowest first: variable, label, colour and hatch."""
 _SEEN = 1e-3
-"""Part of the largest sum that a layer must have once to be seen, and named."""
+"""Least peak of a layer that the legend names, relative to the largest sum; smaller layers cannot be seen."""
 
 
 def energies(solution: Solution, ax: Axes | None = None, *, times: ArrayLike | None = None) -> Axes:
     """Draw energies [J] and all losses since the start over time [s], stacked.
 
-    The line is what they have to add up to: the energy at the start and the work of driven bodies, loads and compliant
-    contacts since.  Where the stack leaves it, the account is open.
+    The line is the sum that the stack must have: the energy at the start and the work of driven bodies, loads and
+    compliant contacts since then.  A difference between stack and line is energy that is not accounted for.
 
     Parameters
     ----------

@@ -68,7 +68,7 @@ def modes(solution: Solution, contacts: Contacts | None = None, ax: Axes | None 
 
 
 def _spans(edges: Floats, holds: Integers) -> list[tuple[float, float]]:
-    """Begin and length of the times in which a mode holds, those next to each other as one."""
+    """Begin and length [s] of each span in which a mode holds; adjoining spans are merged."""
     turns = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(np.int64)))
     begins, ends = edges[turns[::2]], edges[turns[1::2]]
     return [(float(begin), float(end - begin)) for begin, end in zip(begins, ends, strict=True) if end > begin]

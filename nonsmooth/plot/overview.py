@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Panel: TypeAlias = "Callable[[Axes], Axes]"
 _WIDTH, _HEIGHT = 13.0, 2.6
 _LOOKS, _BODIES = 30, 40
-"""Instants at which, and bodies of which, the way is compared."""
+"""Approximate number of instants, and largest number of bodies, that are compared to find the farthest path."""
 
 
 def overview(solution: Solution) -> Figure:
@@ -64,7 +64,7 @@ def _path(solution: Solution, body: Body, plane: str, ax: Axes) -> Axes:
 
 
 def _farthest(solution: Solution) -> tuple[Body, str] | None:
-    """Body that goes farthest, and the plane in which it does; None if none goes anywhere."""
+    """Body with the largest range of positions, and the plane of its path such as "xz"; None if no body moves."""
     times = solution.t[:: max(1, len(solution.t) // _LOOKS)]
     if len(times) == 0:  # a run that was cut off at once
         return None

@@ -23,14 +23,14 @@ _WHERE = "nonsmooth.plot.phase_portrait"
 def phase_portrait(
     solution: Solution, coordinate: str, ax: Axes | None = None, *, times: ArrayLike | None = None
 ) -> Axes:
-    """Draw the rate of a coordinate over the coordinate; what it jumps by in events is dotted.
+    """Draw the rate of a coordinate over the coordinate; jumps at events are dotted.
 
     Parameters
     ----------
     solution, ax, times
         As for :func:`nonsmooth.plot.gaps`.
     coordinate : str
-        Its name with that of the body, as ``solution.history("q").labels["coordinate"]`` lists them: "ball z".
+        Name of body and coordinate, such as "ball z".  ``solution.history("q").labels["coordinate"]`` lists them.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def phase_portrait(
 
 
 def _ways(values: Floats, jumps: Integers) -> Floats:
-    """Values before and after jumps, apart by what is not a number."""
+    """Values before and after each jump, separated by NaN, so that each jump becomes a line of its own."""
     return np.column_stack([values[jumps], values[jumps + 1], np.full(len(jumps), np.nan)]).ravel()
 
 

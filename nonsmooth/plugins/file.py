@@ -1,4 +1,4 @@
-"""Classes by name: of an installed plug-in, or of a single file that nobody installed."""
+"""Classes by name, from an installed plug-in or from a single Python file."""
 
 from __future__ import annotations
 
@@ -27,29 +27,29 @@ def is_file(word: str) -> bool:
 
 
 def find(thing: str, group: str, base: type, word: str, folder: Path | None = None) -> Any:
-    """Class that a word means.
+    """Class of an installed name, or of ``file.py:Class``.
 
     Parameters
     ----------
     thing : str
-        What asks for it, for messages ("--law friction").
+        Option or entry that names the class, for messages ("--law friction").
     group : str
         Group of the installed names.
     base : type
-        The interface that it must implement.
+        The interface that the class must implement.
     word : str
         An installed name, or ``file.py:Class``.
     folder : Path, optional
-        Where the path of a file starts; the working folder by default.
+        Folder from which the path of a file starts; by default the working folder.
 
     Raises
     ------
     UnknownName
-        If nothing is installed under that name, or the file has no such class.
+        If no class of this interface is installed under that name, or the file has no such class.
     InvalidInput
-        If there is no such file, or what is installed is of another kind.
+        If the file does not exist, or ``word`` names a file without a class.
     PluginError
-        If it cannot be loaded.
+        If the class cannot be loaded, or a class of a file does not implement the interface.
     """
     if is_file(word):
         return load(thing, (base,), word, folder)
@@ -64,7 +64,7 @@ def find(thing: str, group: str, base: type, word: str, folder: Path | None = No
 
 
 def load(thing: str, bases: tuple[type, ...], word: str, folder: Path | None = None) -> Any:
-    """Class of a file; parameters and errors are those of :func:`find`."""
+    """Class of ``file.py:Class`` that implements one of ``bases``; otherwise as :func:`find`."""
     match = _FILE.fullmatch(word)
     if match is None:
         example = f"For example {word.partition(':')[0]}:My{bases[0].__name__}; a script is run by python itself."
@@ -89,7 +89,7 @@ def _fits(owner: type, bases: tuple[type, ...]) -> bool:
 
 
 def loaded() -> tuple[Path, ...]:
-    """Files that this process has loaded so."""
+    """Files from which this process has loaded classes by :func:`load`."""
     files = {
         name: Path(str(vars(sys.modules[name]).get("__file__"))) for name in [*sys.modules] if _KEY.fullmatch(name)
     }
@@ -97,12 +97,12 @@ def loaded() -> tuple[Path, ...]:
 
 
 def again(path: Path) -> None:
-    """Load a file that another process has loaded, unless this one has.
+    """Load a file that another process has loaded, unless this process has loaded it already.
 
     Raises
     ------
     PluginError
-        If it cannot be loaded.
+        If the file cannot be loaded.
     """
     with _LOADING:
         if _key(path) not in sys.modules:
@@ -110,7 +110,7 @@ def again(path: Path) -> None:
 
 
 def _key(path: Path) -> str:
-    """Name of the module of a file, which no package has."""
+    """Module name for a file, with a digest of its path, so that no package has the same name."""
     return f"{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
 
 

@@ -51,7 +51,7 @@ GROUPS = {group: interfaces for group, (_, interfaces) in _GROUPS.items()}
 KINDS = {group: kind for group, (kind, _) in _GROUPS.items()}
 """Word for a member of each group, for messages."""
 _LAWS = {NormalLaw: "normal law", TangentialLaw: "friction law", ImpactLaw: "impact law"}
-"""Word for a law by its kind, for messages."""
+"""Word for a law by its interface, for messages."""
 
 
 class BrokenPlugin(NonsmoothWarning):
@@ -120,14 +120,14 @@ def packages() -> frozenset[str]:
 def _is_namespace(package: str) -> bool:
     try:
         spec = importlib.util.find_spec(package)
-    except ValueError:  # a module made by hand, without a specification
+    except ValueError:  # a program has created the module, without a specification
         return True
     return spec is None or spec.origin is None
 
 
 @functools.cache
 def _name_and_version(distribution: Distribution) -> tuple[str, str]:
-    # both read and parse a file
+    # cached, because either attribute reads and parses a file
     return distribution.name, distribution.version
 
 
@@ -174,7 +174,7 @@ def imported(group: str, name: str) -> str:
 
 
 def called(word: str, groups: Iterable[str]) -> list[tuple[str, str]]:
-    """Group and name of the components of a name, or of a class. Nothing is imported.
+    """Group and name of each component that has the name ``word``, or whose class has it. Nothing is imported.
 
     The name of a class may be in lower case with underscores: BoxBody, box_body.
 
@@ -200,7 +200,7 @@ def load(group: str, name: str) -> Any:
     UnknownName
         If the group has no component of this name.
     PluginError
-        If it cannot be imported, or does not implement the interface of the group.
+        If the class cannot be imported, or does not implement the interface of the group.
     """
     if name not in _points(group):
         raise UnknownName(KINDS[group], name, names(group), kinds_named(name))
@@ -231,7 +231,7 @@ def kind_of(owner: type) -> str:
 
 
 def kinds_named(name: str) -> str:
-    """Kinds of the components of a name, in all groups: "a friction law and a body"; "" if there is none."""
+    """Kinds of the components with a name, in all groups, as in "a friction law and a body"; "" without any."""
     found: dict[str, None] = {}
     for group in GROUPS:
         if name in names(group) and (owner := _loaded(group, name)) is not None:
@@ -262,7 +262,7 @@ def name_of(owner: type) -> str | None:
     for group, bases in GROUPS.items():
         if issubclass(owner, bases):
             for name, point in _points(group).items():
-                # a module may re-export a class of another one
+                # a module may re-export a class of another module
                 if point.attr == owner.__name__ and _loaded(group, name) is owner:
                     return name
     return None
@@ -276,7 +276,7 @@ def _loaded(group: str, name: str) -> Any:
 
 
 def load_all(group: str, some: Iterable[str] | None = None) -> dict[str, Any]:
-    """Usable classes of a group by name: all of them, or ``some``. A broken one is a warning that names it."""
+    """Usable classes of a group by name: all, or those with the names ``some``. A warning names each broken class."""
     loaded = {}
     for name in names(group) if some is None else some:
         try:

@@ -1,1 +1,1 @@
-"""Contact and impact problems by themselves: solved from matrices and rates, without a run."""
+"""Contact and impact problems, solved from matrices and rates, without a run."""

@@ -1,4 +1,4 @@
-"""Sustained contact at an instant by itself, on matrices."""
+"""Solver of one problem of sustained contact, given by matrices, without a run."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ def solve_contact(
 ) -> ContactResult:
     """Solve for forces and modes of closed contacts, M u' = h + W lambda_N + N lambda_T with Eqs. (14)-(18).
 
-    Every contact has zero gap and gap rate.  One with slip rubs against it or opens; one without sticks within its
-    static coefficient, starts to slide against its slip acceleration with the kinetic one, or opens.  Nothing is
-    assumed of the past.
+    Every contact has zero gap and gap rate.  A contact with slip slides, with friction against the slip, or opens.  A
+    contact without slip sticks within its static coefficient, starts to slide with its kinetic coefficient, or opens.
+    Friction then acts against the slip acceleration.  Modes of the past are not used.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def solve_contact(
     friction : sequence of FrictionLaw
         Friction law of every contact, length n.
     slip : array, optional
-        Slip velocity [m/s], shape [n, 2]; exactly zero is at rest, as are all by default.
+        Slip velocity [m/s], shape [n, 2]; zero by default. A contact with a slip of exactly zero is at rest.
     bias : array, optional
         Accelerations of the contacts while u' = 0, S of Eq. (13) [m/s^2], shape [n, 3]; zero by default.
     solver : str
@@ -67,10 +67,10 @@ def solve_contact(
     Raises
     ------
     InvalidInput
-        If a shape is wrong, a number not finite, M not symmetric positive definite, a contact cannot be moved
-        along its normal, or there are too many contacts to enumerate.
+        If a shape is wrong, a number is not finite, M is not symmetric positive definite, a column of W is zero, or
+        there are too many contacts to enumerate.
     UnknownName
-        If there is no such solver.
+        If no solver has the name ``solver``.
     RunFailed
         If the solver finds no forces that fulfil the laws, as in Painlevé's paradox, or, for mu_s > mu, between
         the two bounds.
@@ -103,7 +103,7 @@ def solve_contact(
         )
     check_mass("solve_contact", m)
     columns = columns_of(w, t)
-    # with M = L L^T everything goes by L^-1 times the columns
+    # with M = L L^T, the Delassus matrix is scaled^T scaled
     scaled = np.linalg.solve(np.linalg.cholesky(m), columns)
     if np.any(np.linalg.norm(scaled[:, ::3], axis=0) == 0.0):
         raise InvalidInput("solve_contact: normal", "must have no column of zeros", w.tolist(), "Leave it out.")

@@ -1,4 +1,4 @@
-"""ContactResult: forces, accelerations and modes of a contact problem, and whether they are unique."""
+"""Result of a contact problem: forces, accelerations and modes, and whether they are unique."""
 
 from __future__ import annotations
 
@@ -41,18 +41,18 @@ class ContactResult:
     Attributes
     ----------
     normal_force : array
-        [N], shape [n].
+        Normal force of every contact [N], shape [n].
     tangential_force : array
-        [N], shape [n, 2].
+        Friction force of every contact [N], shape [n, 2].
     acceleration : array
-        u', shape [n_u].
+        Generalised accelerations u', shape [n_u].
     contact_acceleration : array
         Second derivative of the gap and rate of the slip velocity [m/s^2], shape [n, 3].
     modes : tuple of ContactMode
         Mode of every contact, length n. Each is a str, too: "open", "stick" or "slide".
 
-    Where several sets of forces give the same motion, those of least norm are given if they keep Coulomb's bound, with
-    contacts that would pull left open; otherwise forces near them that keep it.
+    If several sets of forces give the same motion, the result is the set of least norm, with contacts that would pull
+    left open.  If this set breaks Coulomb's bound, the result is a set near it that keeps the bound.
     """
 
     normal_force: Floats
@@ -65,16 +65,17 @@ class ContactResult:
 
     @property
     def _size(self) -> float:
-        """Largest of the accelerations that cancel one another [m/s^2]."""
+        """Size of the contact accelerations that cancel each other [m/s^2], the scale of their round-off."""
         delassus = read_delassus(self._memory, len(self.modes))
         return max(float(np.max(np.abs(delassus))) * float(np.max(np.abs(self.normal_force))), 1e-300)
 
     @cached_property
     def null_space(self) -> Floats:
-        """Changes of the forces that leave the motion as it is [N], shape [k, n, 3], orthonormal in what is free.
+        """Basis of the changes of the forces that do not change the motion [N], shape [k, n, 3].
 
-        A contact that sticks, or touches without any acceleration apart, changes its force freely; one that slides
-        changes its normal force, its friction in proportion; one that parts has none.
+        It is orthonormal in the free components of the forces.  A contact at rest that sticks, or touches without
+        separating, has three of them.  A contact that slides has one: its normal force, with friction in proportion.
+        A contact that separates has no free component.
         """
         n = len(self.modes)
         mu, d = (
@@ -101,24 +102,24 @@ class ContactResult:
 
     @property
     def forces_are_unique(self) -> bool:
-        """Whether only these forces give this motion: the reduced matrix of what is held has full rank.
+        """Whether only these forces give this motion: :attr:`null_space` is empty.
 
-        True is a proof.  False says that :attr:`null_space` has directions; a force on the border of its
-        bounds may be able to follow one of them one way only, or, now and then, neither.
+        True is a proof.  False means that the null space has directions.  If a force is at its bound, a change along a
+        direction may be possible with one sign only, or, rarely, not at all.
         """
         return len(self.null_space) == 0
 
     @cached_property
     def proved_unique(self) -> bool:
-        r"""Whether a criterion proves that no other forces than these, or no other motion, exists.
+        r"""Whether a criterion proves that the motion is unique, and with a regular G the forces too.
 
-        For two answers, f and f' with accelerations a and a', Eqs. (16) and (17) with mu_s = mu give
+        For two solutions, f and f' with accelerations a and a', Eqs. (16) and (17) with mu_s = mu give
 
             (f - f') . G (f - f')  <=  sum of mu_i |a_T - a_T'|_i |f_N - f_N'|_i
 
-        Without friction the right-hand side is zero, so G (f - f') is: the motion is unique, G being positive
-        semidefinite.  With friction and a regular G the right-hand side is at most s times the left-hand one,
-        s^2 = (largest eigenvalue of G_TT) (largest one of D (G^-1)_NN D), D holding the coefficients: s < 1 proves it.
+        Without friction the right-hand side is zero, and so is G (f - f'), as G is positive semidefinite: the motion is
+        unique.  With friction and a regular G the right-hand side is at most s times the left-hand side, where
+        s^2 = (largest eigenvalue of G_TT) (largest eigenvalue of D (G^-1)_NN D), D = diag(mu).  So s < 1 proves it.
         """
         n = len(self.modes)
         mu = self._memory[owners.ActiveContact.friction_coefficient][:n]
@@ -138,13 +139,14 @@ class ContactResult:
 
     @cached_property
     def motion_is_unique(self) -> bool | None:
-        """Whether no other motion fulfils the laws; None if that is not known.
+        """Whether no other motion fulfils the laws; None for more than six contacts without a proof.
 
-        True if :attr:`proved_unique`, or if, for at most six contacts, the search through every combination of modes
-        and every solver meet this motion only.  The search is complete where the slips have given directions; the
-        directions in which contacts at rest start to slide it looks for from several starts, which is no proof.
-        False if another motion was found.  Sliding on which more normal force gives more approach counts as no
-        motion: it is balanced on an edge.
+        True if :attr:`proved_unique`.  Also True if, for at most six contacts, a search through all combinations of
+        modes and all solvers find this motion only.  The search is complete if the directions of all slips are given.
+        It finds directions in which contacts at rest start to slide from several initial guesses, which is no proof.
+
+        False if another motion was found.  Sliding in which more normal force gives more approach does not count as a
+        motion, because it is unstable.
         """
         if self.proved_unique:
             return True

@@ -1,4 +1,4 @@
-"""One impact by itself, on matrices."""
+"""Solver of one impact, given by matrices, without a run."""
 
 from __future__ import annotations
 
@@ -38,18 +38,18 @@ class ImpactResult:
     Attributes
     ----------
     velocity : array
-        u after the impact, shape [n_u].
+        Generalised velocities u after the impact, shape [n_u].
     normal_impulse : array
-        [N s], shape [n].
+        Normal impulse of every contact [N s], shape [n].
     tangential_impulse : array
-        [N s], shape [n, 2].
+        Friction impulse of every contact [N s], shape [n, 2].
     stored, returned : array
-        Energy stored in compression and returned in expansion [J], shape [n].  What a contact keeps that ends wedged,
-        at rest under load because joints or other contacts hold its point, is not returned.
+        Energy stored in compression and returned in expansion [J], shape [n].  A contact may end wedged: at rest under
+        load, because joints or other contacts hold its point.  The energy that it then keeps is not returned.
     friction_loss : array
         Energy lost to friction [J], shape [n].
     phases : int
-        Number of phases: compressions begun, turns, ends, changes between stick and slip.
+        Number of phases: starts of compression, turns to expansion, ends, changes between stick and slip.
     steps : int
         Integration steps.
     truncated : bool
@@ -85,8 +85,8 @@ def solve_impact(
 ) -> ImpactResult:
     """Solve one multiple impact with friction, Eqs. (19)-(28).
 
-    The matrices may be those of jointed bodies in coordinates that keep the joints; a contact's own three rows of
-    [W N]^T M^-1 [W N] may be singular then.
+    The matrices may be those of jointed bodies, in coordinates that satisfy the joints.  The 3 x 3 block of a contact
+    in [W N]^T M^-1 [W N] may then be singular.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Checks of matrices and laws, the memory, and the Delassus matrix of problems of contacts and of impacts."""
+"""Common parts of contact and impact problems: checks of matrices and laws, memory, and Delassus matrix."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 
 
 def read_arrays(call: str, remedy: str, **given: tuple[ArrayLike | None, tuple[int, ...]]) -> list[Floats]:
-    """Arrays of floats with the shapes given with them; zeros in place of None.
+    """Given arrays as floats, checked for the shapes given with them; zeros in place of None.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def check_mass(call: str, mass: Floats) -> None:
 
 
 def check_friction(thing: str, friction: Sequence[FrictionLaw]) -> None:
-    """Raise InvalidInput if a law is not a coefficient of the slip speed alone, with a round bound."""
+    """Raise InvalidInput if a law is no friction law, is anisotropic or has inner states."""
     for law in friction:
         if not isinstance(law, FrictionLaw) or isinstance(law, (AnisotropicFrictionLaw, StatefulFrictionLaw)):
             rule = "must be laws with a round bound and without inner states"

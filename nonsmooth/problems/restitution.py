@@ -1,4 +1,4 @@
-"""Restitution of a contact by itself, for engines that take steps in velocities and for users."""
+"""Restitution coefficient of a single contact by an impact law, for time-stepping engines and for users."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from nonsmooth.problems.impact import solve_impact
 
 
 def restitution(law: ImpactLaw, speed: float) -> float:
-    """Ratio of the speeds after and before an impact of one contact, without slip and friction.
+    """Ratio of separation speed to approach speed in an impact of one contact, without slip and friction.
 
-    Whatever an impact law is made of, this is what it says at velocity level: a law with energies or impulses has this
-    coefficient as long as no other contact takes part.  It does not depend on the mass.
+    Every impact law, also one in energies or impulses, has this coefficient as long as no other contact takes part.
+    The coefficient does not depend on the mass.
 
     Parameters
     ----------
@@ -78,11 +78,11 @@ def _no_friction(speed: float) -> float:
 @final
 @dataclass(frozen=True)
 class _Smooth(FrictionLaw):
-    """No friction."""
+    """Friction law of a contact without friction."""
 
     @property
     def coefficient(self) -> Callable[..., float]:
-        """Zero."""
+        """Function of the slip speed that returns zero."""
         return _no_friction
 
     def is_fulfilled(

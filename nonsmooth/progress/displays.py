@@ -22,7 +22,7 @@ class Display(ABC):
 
     @abstractmethod
     def show(self, part: float, reached: str, details: str) -> None:
-        """Show a state.
+        """Show the state of the computation.
 
         Parameters
         ----------
@@ -36,7 +36,7 @@ class Display(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Remove what should not stay on the screen."""
+        """End the display, and remove it from the screen if it is temporary."""
 
 
 @final
@@ -67,7 +67,7 @@ class Bar(Display):
             self._bar.stop()
 
     def _started(self) -> Progress:
-        # importing it takes as long as many a run
+        # imported on use, because the import takes as long as many short runs
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn
 
@@ -80,7 +80,7 @@ class Bar(Display):
 
 @final
 class Lines(Display):
-    """An occasional line on a stream that is no terminal.
+    """An occasional line on a stream that is not a terminal.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Lines(Display):
         self._stream.flush()
 
     def close(self) -> None:
-        """Keep the lines."""
+        """Do nothing, because the lines remain."""
 
 
 @final
@@ -117,5 +117,5 @@ class Quiet(Display):
 
 def on_standard_error() -> Display:
     """Return a bar if standard error is a terminal, else lines."""
-    stream = sys.stderr or io.StringIO()  # None if it was closed from the start
+    stream = sys.stderr or io.StringIO()  # sys.stderr is None if it was closed before the start
     return Bar(stream) if stream.isatty() else Lines(stream)

@@ -1,4 +1,4 @@
-"""Progress of runs, times and ranges: when a display shows it, and the remaining time."""
+"""Meters of progress in runs, time or a range: they decide when a display shows it, and estimate the remaining time."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from nonsmooth.progress.displays import Display
 
 @final
 class ProgressMeter:
-    """Shows the completed part of a computation now and then while it is entered, after a first silence.
+    """Context in which a display shows the completed part of a computation, at the intervals of the display.
 
     Parameters
     ----------
     display : Display
-        Where it is shown.
+        Display of the completed part.
     clock : callable
-        Wall time [s].
+        Returns the wall time [s].
     """
 
     def __init__(self, display: Display, clock: Callable[[], float] = time.monotonic) -> None:
@@ -41,9 +41,9 @@ class ProgressMeter:
         Parameters
         ----------
         part : float
-            From 0 to 1; less than before when the next of several computations begins.
+            Completed part, from 0 to 1. A value below the previous one means that another computation has begun.
         words : callable
-            From the time since the first part [s] to the progress in words, and further details.
+            Function of the time since the computation began [s]. It returns the progress in words, and details.
         """
         now = self._clock()
         if part < self._part:
@@ -68,9 +68,9 @@ class RunsDone:
     Parameters
     ----------
     meter : ProgressMeter
-        Shows them.
+        Shows the count.
     total, done : int
-        Number of all runs, and of those completed before.
+        Number of all runs, and of the runs completed before.
     """
 
     def __init__(self, meter: ProgressMeter, total: int, done: int = 0) -> None:
@@ -96,7 +96,7 @@ class TimeReached:
     Attributes
     ----------
     meter : ProgressMeter
-        Shows it.
+        Shows the time.
     """
 
     meter: ProgressMeter
@@ -109,18 +109,18 @@ class TimeReached:
 
 @final
 class RangeCovered:
-    """Counts the orbits along a parameter, from a first value both ways.
+    """Counts the orbits along a parameter, which are computed from a first value in both directions.
 
     Parameters
     ----------
     meter : ProgressMeter
-        Shows them.
+        Shows the count.
     name : str
-        The parameter.
+        Name of the parameter.
     value : float
-        Its first value.
+        First value of the parameter.
     span : tuple of float
-        Its range; the remaining time is that to both ends.
+        Range of the parameter. The remaining time is the time until both ends are reached.
     """
 
     def __init__(self, meter: ProgressMeter, name: str, value: float, span: tuple[float, float]) -> None:

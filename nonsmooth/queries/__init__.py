@@ -1,1 +1,1 @@
-"""Questions about a system that no run asks: how far bodies are apart, and which are near each other."""
+"""Queries without a run: distances of bodies and shapes, and the pairs of bodies that are near each other."""

@@ -1,4 +1,4 @@
-"""The distance of two bodies or shapes, and all pairs of the shapes of two bodies, prepared once."""
+"""Distance of two bodies or shapes, by the pairs of their shapes."""
 
 from __future__ import annotations
 
@@ -57,11 +57,11 @@ class BodyPair:
             for j, (other, two) in enumerate(sides[1])
         ]
         if len(numbered) > 1:
-            # two planes have no nearest points: they count only, as an error, if the bodies have no other shapes
+            # two unbounded shapes have no nearest points: one such pair is used, and raises, only if there is no other
             bounded = [pair for pair in numbered if math.isfinite(min(pair[3].extent, pair[4].extent))]
             numbered = bounded or numbered[:1]
         self._numbered = numbered
-        # a single pair that no method knows is an error at once; other pairs are prepared when they are near
+        # a single pair is prepared here, so that unsupported shapes raise at once; of several, each when it is near
         self._pairs: dict[tuple[int, int], ShapePair] = {}
         if len(self._numbered) == 1:
             self._pair(*self._numbered[0][0], *self._numbered[0][3:])
@@ -95,7 +95,7 @@ class BodyPair:
             try:
                 found = self._pair(*shapes, one, two).at(first[frame], second[other])
             except NoDistance as error:
-                # by contacts alone, a pair without features that face each other has no distance
+                # by="exact", a pair without features that face each other has no distance; other pairs may have one
                 if self._by != EXACT:
                     raise
                 missing = error
@@ -119,8 +119,8 @@ def distance(
         Bodies or shapes; all shapes of a body count.
     at : sequence of two
         Pose of each: a position [m], shape [3], or a position and a unit quaternion (scalar first), of the frame of the
-        body or of the shape.  By default, None, it is neither moved nor turned; a driven body or a mechanism is where
-        it is at t = 0.
+        body or of the shape.  None, the default, is the origin without rotation; for a driven body or a mechanism it is
+        the pose at t = 0.
     by : str, optional
         Method: "exact", "planes" or the name of a library ("fcl", "coal"), as an independent check.  By default the
         best method that knows the shapes; ``how`` names it.
@@ -133,11 +133,12 @@ def distance(
     Raises
     ------
     InvalidInput
-        An argument is neither a body nor a shape, a pose is wrong, or no method, or not the one asked for, knows them.
+        An argument is neither a body nor a shape, a pose is wrong, or no method, or not the method `by`, supports the
+        shapes.
     NoDistance
-        The method asked for gives no distance at these poses.
+        No method, or not the method `by`, gives a distance at these poses.
     MissingPackagesError
-        The library asked for is not installed.
+        The library `by` is not installed.
     """
     if not isinstance(at, (tuple, list)) or len(at) != 2:
         raise InvalidInput(

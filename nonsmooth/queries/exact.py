@@ -1,4 +1,4 @@
-"""The contacts of two shapes, called from Python: their least gap of features that face each other."""
+"""Least gap of two shapes by their contact kinematics, called from Python."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from nonsmooth.queries.result import EXACT, DistanceResult
 from nonsmooth.system.pairing import installed_pair
 
 _HALVINGS = 40
-"""How often less is looked for, where too many features are near each other."""
+"""Most halvings of the reach of a search that finds more features than the contacts can hold."""
 
 
 class _Given:
-    """Contacts of given features."""
+    """Contacts with fixed features."""
 
     def __init__(self, contacts: Sequence[ContactKinematics]) -> None:
         self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Geometry blocks, and up to which gap there is no other one [m]."""
+        """Geometry block of each contact, with the gap up to which all features are known [m], which is infinite."""
         for call in self._calls:
             out = np.zeros(GEOMETRY)
             call(a, b, out)
@@ -36,7 +36,7 @@ class _Given:
 
 
 class _Searched:
-    """Contacts whose features are searched for."""
+    """Contacts whose features a search finds at each pose."""
 
     def __init__(self, contacts: Sequence[ContactKinematics], search: CandidateSearch) -> None:
         one, name = contacts[0], type(contacts[0]).__name__
@@ -46,7 +46,7 @@ class _Searched:
         self._most = len(contacts)
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Geometry blocks of features no farther than a reach [m], or a part of it if these are too many."""
+        """Geometry block of each pair of features within a reach [m], with the reach, halved if there are too many."""
         found, n = np.zeros(1 + CANDIDATE * (self._most + 1)), 0
         for _ in range(_HALVINGS):
             found[0] = reach
@@ -75,11 +75,11 @@ class Contacts:
     Raises
     ------
     LookupError
-        If no kinematics is known for them.
+        If no kinematics is installed for the shapes.
     InvalidInput
         If the kinematics refuses them, as meshes with too many features.
     PluginError
-        In a query, if its search for features fails.
+        In a query, if the search of the kinematics for features fails.
     """
 
     def __init__(self, first: Shape, second: Shape) -> None:
@@ -93,14 +93,14 @@ class Contacts:
         self._extent = first.extent + second.extent
 
     def least(self, one: Place, two: Place) -> DistanceResult | None:
-        """Least gap that faces, None if none does; bounds are its own value, as nobody has proved it."""
+        """Least gap of features that face each other; None if no features do. Its bounds equal the gap, unproved."""
         a, b = np.zeros(FRAME), np.zeros(FRAME)
         for block, (position, axes) in zip((a, b), (one, two) if self._in_order else (two, one), strict=True):
             block[:3], block[3:12] = position, axes.ravel()
         best: Vector | None = None
         reach = float(np.linalg.norm(a[:3] - b[:3])) + self._extent
         for out, known in self._contacts.blocks(a, b, reach):
-            # a gap that is no number is none
+            # a gap of NaN fails both comparisons, so its contact is skipped
             if out[PAST_END] <= 0.0 and (out[0] < best[0] if best is not None else out[0] <= known):
                 best = out
         if best is None:

@@ -15,7 +15,7 @@ from nonsmooth.queries.places import BodyFrames
 from nonsmooth.system.system import System
 
 Pairs = frozenset[tuple[int, int]]
-"""Pairs of numbers of bodies, the lower one first."""
+"""Pairs of body numbers, the lower number first."""
 
 
 def places_at_start(system: System) -> list[list[Place]]:
@@ -51,13 +51,13 @@ def near_bodies(
 
 
 def size_of(body: Body) -> float:
-    """Largest finite extent of the shapes of a body [m], infinite without any."""
+    """Largest finite extent of the shapes of a body [m]; infinite if no shape has one."""
     extents = [shape.extent for shapes in body.frames for shape in shapes if np.isfinite(shape.extent)]
     return max(extents, default=np.inf)
 
 
 def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
-    """Lower and upper corner of the box of all shapes [m], shape [3] each; infinite and reversed without shapes."""
+    """Lower and upper corner of the box of all shapes [m], shape [3] each; without shapes, a box that meets none."""
     balls = [(place, shape.extent) for (place, _), shapes in zip(frames, body.frames, strict=True) for shape in shapes]
     if not balls:
         return np.full(3, np.inf), np.full(3, -np.inf)
@@ -68,7 +68,7 @@ def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
 
 
 def touching(size: Any) -> Any:
-    """Largest gap or overlap of bodies that touch [m], the same as at the start of a run."""
+    """Largest gap or overlap that counts as touching [m], for the size of a body [m]; also at the start of a run."""
     return np.maximum(1e-9, 1e-6 * size)
 
 
@@ -82,7 +82,7 @@ class Ties:
     declared, joined, excluded : Pairs
         Pairs with contacts, with a joint, and pairs that the user excluded.
     mechanisms : tuple of frozenset of int
-        Bodies that joints tie together, directly or through others; a driven body is in each of its mechanisms.
+        Groups of bodies that joints tie together, directly or through others; a driven body may be in several groups.
     """
 
     declared: Pairs
@@ -92,7 +92,7 @@ class Ties:
 
     @classmethod
     def of(cls, system: System) -> Ties:
-        """Pairs of a system."""
+        """Declared, joined and excluded pairs of a system."""
         number = {id(body): i for i, body in enumerate(system.bodies)}
 
         def pairs(bodies: Iterable[tuple[Body, Body]]) -> Pairs:

@@ -24,11 +24,11 @@ class LibraryPair:
     Attributes
     ----------
     name : str
-        The library's.
+        Name of the library.
     backend : DistanceBackend
         The library.
     solids : tuple
-        Its objects.
+        The two shapes as objects of the library.
     """
 
     name: str
@@ -65,14 +65,14 @@ def library_pair(first: Shape, second: Shape) -> LibraryPair | None:
 
 
 def named_pair(name: str, first: Shape, second: Shape) -> LibraryPair:
-    """Two shapes as objects of the library of a name.
+    """Two shapes as objects of the library with a given name.
 
     Raises
     ------
     MissingPackagesError
-        If its packages are not installed.
+        If the library is not installed.
     InvalidInput
-        If it has no such kinds of shapes.
+        If the library does not support one of the shapes.
     """
     backend = _backends()[name]
     if not backend.installed:
@@ -90,15 +90,15 @@ def named_pair(name: str, first: Shape, second: Shape) -> LibraryPair:
 
 
 def library_names() -> tuple[str, ...]:
-    """Names of all libraries, the first to be asked first."""
+    """Names of all libraries, in the order in which they are tried."""
     return tuple(_backends())
 
 
 _ROUND_OFF, _LEAST = 1e-9, 1e-12
-"""Differences that count as none, relative to a gap, and [m]."""
+"""Difference of two methods that counts as round-off: relative to the gap, and absolute [m]."""
 
 _MOST_PIECES = 2000
-"""Pieces of a surface up to which contacts are made: in a second, where a hundred thousand take many minutes."""
+"""Most pieces of a surface whose contacts are prepared: it takes a second, for 100 000 pieces many minutes."""
 
 
 @final
@@ -110,15 +110,16 @@ class ShapePair:
     first, second : Shape
         The shapes.
     by : str, optional
-        The one way to be taken: "exact", "planes" or the name of a library.  By default contacts are asked, and what
-        they say is proved by planes or, of surfaces that are not convex, by a library; where that fails, these answer.
+        Method: "exact", "planes" or the name of a library.  By default the distance is that of the contacts, with
+        bounds by planes or, for surfaces that are not convex, by a library.  If the bounds exclude it, the distance is
+        that of the planes or the library.
     quick : bool
-        Whether contacts are left alone where solids tell: those of a mesh take seconds to make.
+        True to use solids in place of contacts, if both shapes have one: contacts of a mesh take seconds to prepare.
 
     Raises
     ------
     InvalidInput
-        If there is no such way, or it does not know the shapes, or nothing does.
+        If ``by`` names no method, or no method, or not this one, supports the shapes.
     MissingPackagesError
         If the library is not installed.
     """
@@ -148,7 +149,7 @@ class ShapePair:
 
     @property
     def _many(self) -> bool:
-        """Whether a surface has so many pieces that its contacts take longer to make than who asks will wait."""
+        """Whether a surface has so many pieces that its contacts would take minutes to prepare."""
         surfaces = [solid for solid in self._solids if solid is not None and solid.hollow]
         return any(len(solid.pieces(*solid.bounds)) > _MOST_PIECES for solid in surfaces)
 
@@ -169,7 +170,7 @@ class ShapePair:
         Raises
         ------
         NoDistance
-            If the way that was asked for tells nothing there, or nothing does.
+            If no method, or not the method ``by``, gives a distance there.
         """
         if self._by == EXACT:
             return self._told(self._least(one, two), "no features of theirs face each other")
@@ -186,12 +187,12 @@ class ShapePair:
         return self._of_surfaces(found, one, two)
 
     def _of_surfaces(self, found: DistanceResult | None, one: Place, two: Place) -> DistanceResult:
-        """Answer for surfaces that are not convex: that of contacts, if it is within what else is known."""
+        """Distance of surfaces that are not convex: by contacts, if within the bounds by a library or by planes."""
         told = None if self._library is None else self._library.separation(one, two)
         if told is not None and not told.overlap:
             assert self._library is not None
             bound = self._library.result(told)
-            # points of contacts are points of the shapes: what is nearer contradicts the library
+            # contact points lie on the shapes: a gap below the lower bound of the library proves it wrong
             if found is None or found.gap >= bound.lower:
                 return self._within(found, bound)
         return self._within(found, self._by_planes(*self._placed(one, two)))
@@ -200,7 +201,7 @@ class ShapePair:
         """Distance by contacts with the bounds of another method; the result of that method if it excludes it."""
         if found is None:
             return bound
-        # planes leave no more than round-off between their bounds; contacts see some bodies smaller than they are
+        # bounds by planes may be equal up to round-off; contacts see some shapes smaller than their solids
         slack = _ROUND_OFF * abs(bound.gap) + _LEAST
         slack += sum(solid.set_back for solid in self._solids if solid is not None)
         if not bound.lower - slack <= found.gap <= bound.upper + slack:
@@ -237,7 +238,7 @@ class ShapePair:
 
 
 def shape_pair(first: Shape, second: Shape, by: str | None, quick: bool) -> ShapePair:
-    """Pair of two shapes; the last pairs of equal shapes are kept.
+    """Prepared pair of two shapes. The last 32 pairs are cached, if the shapes are hashable.
 
     Raises
     ------

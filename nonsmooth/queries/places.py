@@ -1,4 +1,4 @@
-"""Places of the frames of bodies: from a pose that a user gives, or from their motion and coordinates."""
+"""Places (origin and axes) of the frames of bodies, from a pose that a user gives or from the body's coordinates."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ HERE: Place = (np.zeros(3), np.eye(3))
 
 
 def read_place(thing: str, pose: Any) -> Place:
-    """Place from a position [m], or from a position and a unit quaternion (scalar first).
+    """Place (origin [m] and axes) from a position [m], or from a position and a unit quaternion (scalar first).
 
     Raises
     ------
     InvalidInput
-        The pose is neither of them, a number is not finite, or the quaternion has no unit length.
+        The pose has another form, a number is not finite, or the quaternion has no unit length.
     """
     try:
         parts = tuple(pose)

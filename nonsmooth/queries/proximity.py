@@ -1,4 +1,4 @@
-"""Which bodies of a system are near each other at the start, touch or overlap, whatever is declared of them."""
+"""Pairs of bodies that are near each other, touch or overlap at the start, with or without a declared contact."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from nonsmooth.system.system import System
 
 NEAR, TOUCHING, OVERLAPPING = "near", "touching", "overlapping"
 _PART = 0.1
-"""Default distance of bodies that are near, relative to the smaller body."""
+"""Default of the largest gap of bodies that count as near, relative to the extent of the smaller body."""
 
 
 @final
@@ -31,13 +31,13 @@ class NearPair:
     bodies : tuple of Body
         The bodies.
     numbers : tuple of int
-        Their numbers in the system.
+        Numbers of the bodies in the system.
     state : str
-        "near", "touching" (to a millionth of the smaller one's extent, at least 1e-9 m) or "overlapping".
+        "near", "touching" (a gap or overlap of at most 1e-6 of the smaller extent, or 1e-9 m) or "overlapping".
     declared, joined, excluded : bool
-        Whether they have contacts, are tied by joints, be it over other bodies, or are said not to touch.
+        Whether the pair has a declared contact; is tied by joints, directly or through other bodies; is excluded.
     distance : DistanceResult
-        How far they are from each other, and how that was found.
+        Distance of the bodies, with the method.
     """
 
     bodies: tuple[Body, Body]
@@ -55,26 +55,26 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
     Parameters
     ----------
     system : System
-        Its bodies where they start.
+        The system, with the starts of its bodies.
     within : float, optional
-        Gaps up to which pairs are told [m]; by default, for every two bodies, a tenth of the extent of the smaller one.
+        Largest gap of the pairs to list [m]; by default, for each pair, a tenth of the extent of the smaller body.
 
     Returns
     -------
     tuple of NearPair
-        The least gap first; pairs of driven bodies are left out.
+        The pairs in order of their gaps, the least gap first. Pairs of driven bodies are left out.
 
     Raises
     ------
     InvalidInput
-        If it is no system, or ``within`` is negative or not finite.
+        If ``system`` is not a System, or ``within`` is negative or not finite.
     """
     check_kind("proximity: system", system, System, "Make it by nonsmooth.System([...]).")
     if within is not None and not (is_finite(within) and within >= 0.0):
         raise InvalidInput("proximity: within", "must be finite and not negative [m]", within, "Leave it out.")
     bodies, places, ties = system.bodies, places_at_start(system), Ties.of(system)
     sizes = np.array([size_of(body) for body in bodies])
-    # whoever is unbounded is as near as the other one allows
+    # an unbounded body gets no margin of its own: the size of the other body decides
     finite = np.where(np.isfinite(sizes), sizes, 0.0)
     margins = np.maximum(_PART * finite if within is None else within, touching(finite))
     found = []

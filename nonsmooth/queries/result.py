@@ -1,4 +1,4 @@
-"""DistanceResult: the distance of two bodies or shapes."""
+"""Result of a query for the distance of two bodies or shapes: gap, bounds, nearest points, normal and method."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import final
 from nonsmooth.interfaces.solid import Vector
 
 EXACT, PLANES = "exact", "planes"
-"""Methods that find a distance, apart from the names of libraries."""
+"""Names of the methods that need no library, for ``DistanceResult.how``."""
 
 
 @final
@@ -23,12 +23,12 @@ class DistanceResult:
     lower, upper : float
         Bounds of the gap [m]; for a library, the gap less and plus the error that it states.
     first, second : Vector
-        Point of each that is nearest to, or deepest in, the other one, in world axes [m], shape [3].
+        Point of each body that is nearest to the other body, or deepest in it, in world axes [m], shape [3].
     normal : Vector
         Unit vector from the first to the second, shape [3].
     how : str
-        Method: "exact", the contact kinematics of the pair, proved by ``lower``; "planes", solids between planes that
-        separate them or bound their overlap; or the name of a library.
+        Method: "exact" for the contact kinematics of the pair; "planes" for planes that separate the solids or bound
+        their overlap; or the name of a library.
     shapes : tuple of int
         Number of the shape of each body, counted through all of its frames.
     """
@@ -48,7 +48,7 @@ class DistanceResult:
         return max(self.upper - self.gap, self.gap - self.lower)
 
     def exchanged(self) -> DistanceResult:
-        """The same distance with the two exchanged."""
+        """The same distance with first and second body exchanged."""
         return DistanceResult(
             self.gap, self.lower, self.upper, self.second, self.first, -self.normal, self.how, self.shapes[::-1]
         )

@@ -1,4 +1,4 @@
-"""How far solids are apart, or how deep they overlap, between bounds that planes prove."""
+"""Distance of two solids, or depth of their overlap, with bounds that planes prove."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.solids.separation import nearest
 
 _CLOSE, _ROUND_OFF = 1e-13, 1e-14
-"""Error of a search for the nearest points, and overlap below which solids touch, relative to the size."""
+"""Error of a search for nearest points, and overlap that counts as touching; relative to the size of the solids."""
 _SAME = 1e-9
-"""A gap of contacts may be off planes and points that prove it by so much, relative to the size."""
+"""Largest difference of a gap by contacts from the planes and points that prove it, relative to the size."""
 _MOST_PAIRS = 4_000_000
 
 
 class TooManyPieces(Exception):
-    """There are more pairs of pieces than are looked at one by one."""
+    """There are too many pairs of pieces to check them one by one; the argument is their number."""
 
 
 def whole(solid: Placed) -> Piece:
@@ -30,12 +30,12 @@ def whole(solid: Placed) -> Piece:
 
 
 def by_planes(one: Placed, two: Placed) -> DistanceResult:
-    """Distance of two solids, or minus the depth of their overlap.
+    """Distance of two solids, or minus the depth of their overlap, with nearest points and bounds by planes.
 
     Raises
     ------
     TooManyPieces
-        If they are made of so many pieces that it would take minutes.
+        If the solids have so many pieces that it would take minutes.
     """
     if not (one.solid.hollow or two.solid.hollow):
         return _of_convex(_only(one), _only(two), _size(one, two))
@@ -44,10 +44,10 @@ def by_planes(one: Placed, two: Placed) -> DistanceResult:
 
 
 def deep(one: Placed, two: Placed) -> DistanceResult | None:
-    """Overlap of two solids that need not be convex, None without overlap.
+    """Overlap of two solids that need not be convex; None if they do not overlap.
 
-    Their hulls, parted, part them; how deep at least two pieces overlap, or how deep a surface goes round the other
-    solid, is the other bound.
+    A translation that separates their convex hulls separates the solids, and so bounds the depth from above. The
+    overlap of two pieces, or the depth of one solid within the other one, bounds it from below.
     """
     size = _size(one, two)
     way = _middle(two) - _middle(one)
@@ -66,8 +66,8 @@ def deep(one: Placed, two: Placed) -> DistanceResult | None:
 def proved(found: DistanceResult, one: Placed, two: Placed) -> DistanceResult | None:
     """Distance of two convex solids by contacts, with bounds that planes prove; None if the bounds exclude it.
 
-    Apart, planes across the normal leave the gap between them.  In one another, the gap is the way out along the
-    normal, and no shorter one is known.
+    If the solids are apart, two planes across the normal have the gap between them.  If the solids overlap, a
+    translation along the normal by the depth separates them, and the search for the depth finds no shorter one.
     """
     tolerance = _SAME * _size(one, two) + one.solid.set_back + two.solid.set_back
     n, gap = found.normal, found.gap
@@ -116,7 +116,7 @@ def _overlapping(out: Penetration) -> DistanceResult:
 
 
 def _of_pieces(one: Placed, two: Placed) -> DistanceResult:
-    """Distance of solids apart, by pieces whose boxes are nearer than the nearest points so far."""
+    """Distance of two solids that do not overlap: the least of their pieces, in order of the distances of boxes."""
     way = _middle(two) - _middle(one)
     reach = float(np.linalg.norm(two.support(-way) - one.support(way))) if np.any(way) else _size(one, two)
     (low, high), (below, above) = one.bounds, two.bounds

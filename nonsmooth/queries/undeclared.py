@@ -22,33 +22,33 @@ from nonsmooth.system.contact import Contact, Tie
 from nonsmooth.system.system import System
 
 Places = Sequence[Sequence[Place]]
-"""Where the frames of all bodies stand."""
+"""Places of the frames of all bodies, body by body."""
 _NAMED = 3
-"""Pairs that are named; of others the number is told."""
+"""Most pairs that a warning names; it counts the others."""
 
 
 class UndeclaredOverlap(NonsmoothWarning):
-    """Bodies without a contact that overlap: where a run starts, or where it ended, having passed into each other."""
+    """Bodies without a contact overlap at the start of a run, or have passed into each other at its end."""
 
 
 class UndeclaredContact(NonsmoothWarning):
-    """A body that moves by itself and has no contact with any other, though there are some that it could meet."""
+    """A movable body has no contact, joint or load, although it could meet other bodies."""
 
 
 @final
 @dataclass(frozen=True)
 class Undeclared:
-    """Pairs of bodies of which a system says nothing.
+    """Undeclared pairs of bodies of a system, between which contacts may have been forgotten.
 
-    Left alone are pairs with a declared contact, be it of some of their shapes, of one mechanism, of driven bodies, and
-    those that the user excluded; and all of a system without any contact, in which nothing is meant to touch.
+    Pairs of driven bodies, of one mechanism, with a declared contact (even of some shapes only), and pairs that the
+    user excluded do not count.  A system without any contact has no undeclared pairs: nothing in it is meant to touch.
 
     Attributes
     ----------
     system : System
         The system.
     ties : Ties
-        What it says of pairs.
+        Its declared, joined and excluded pairs.
     """
 
     system: System
@@ -56,12 +56,12 @@ class Undeclared:
 
     @classmethod
     def of(cls, system: System) -> Undeclared:
-        """Pairs of a system."""
+        """Undeclared pairs of a system."""
         return cls(system, Ties.of(system))
 
     @functools.cached_property
     def any(self) -> bool:
-        """Whether there are any, however far apart."""
+        """Whether the system has an undeclared pair, at any distance."""
         if not self.system.declarations:
             return False
         shaped = [i for i, body in enumerate(self.system.bodies) if any(body.frames)]
@@ -73,9 +73,9 @@ class Undeclared:
         return moves and not said and not self.ties.same_mechanism(i, j)
 
     def warn_of_lone(self) -> None:
-        """Warn of bodies that move and have no contact at all, where another one is there that they could meet.
+        """Warn of movable bodies without any contact that could meet another body.
 
-        Bodies that a joint or a load ties to another one are held by that.
+        Bodies with a joint or a load are left out, because it may hold them.
         """
         bodies, names = self.system.bodies, self.system.names.bodies
         said: list[Contact | Tie] = [*self.system.contacts, *self.system.joints, *self.system.loads]
@@ -94,13 +94,13 @@ class Undeclared:
         )
 
     def near(self, places: Places) -> list[tuple[int, int]]:
-        """Pairs whose boxes meet, with the frames at these places."""
+        """Undeclared pairs whose boxes overlap, with the frames at given places."""
         bodies = self.system.bodies
         met = near_bodies(bodies, places, np.zeros(len(bodies))) if self.any else iter(())
         return [(i, j) for i, j in met if self._is_one(i, j)]
 
     def warn_of_start(self, places: Places) -> None:
-        """Warn of bodies that overlap at the start, but for planes, on whose wrong side one may be meant to be."""
+        """Warn of bodies that overlap at the start. Planes are left out: a body may start behind one on purpose."""
         bodies = self.system.bodies
         found = [
             (i, j, depth)
@@ -110,7 +110,7 @@ class Undeclared:
         self._warn(found, "overlap at the start, and will pass through each other")
 
     def warn_of_end(self, before: Places, after: Places) -> None:
-        """Warn of bodies that overlap where a run ended and did not where it began, planes included."""
+        """Warn of bodies that overlap at the end of a run and did not at its start, planes included."""
         found = [
             (i, j, -gap)
             for i, j in self.near(after)
@@ -119,13 +119,13 @@ class Undeclared:
         self._warn(found, "overlap where the run ended, having passed into each other")
 
     def _gap(self, i: int, j: int, places: Places) -> float:
-        """Gap of two bodies [m], 0 where they touch."""
+        """Gap of two bodies [m]; 0 if they touch or no method gives their distance."""
         bodies = self.system.bodies
         sizes = [size for size in (size_of(bodies[i]), size_of(bodies[j])) if math.isfinite(size)]
         try:
             gap = BodyPair(bodies[i].frames, bodies[j].frames, quick=True).at(places[i], places[j]).gap
         except (InvalidInput, NoDistance):
-            # of unbounded ones, or of shapes that no way knows, nothing is told
+            # two unbounded shapes, or shapes that no method supports, have no distance
             return 0.0
         return gap if abs(gap) > touching(min(sizes, default=0.0)) else 0.0
 
@@ -159,7 +159,7 @@ def _overlap(one: Body, places: Sequence[Place], two: Body, others: Sequence[Pla
 
 
 def _solids(body: Body, places: Sequence[Place]) -> list[tuple[Placed, float]]:
-    """Solids of a body where they stand, with the extents of their shapes [m]."""
+    """Solids of a body, with its frames at given places, and the extents of their shapes [m]."""
     return [
         (Placed(solid, *place), shape.extent)
         for place, shapes in zip(places, body.frames, strict=True)

@@ -1,4 +1,4 @@
-"""Checks of a run before it begins: of its arguments, and of the state with which it begins.
+"""Checks before a run begins: of the arguments of the call, and of the initial state.
 
 A user may write any arrays into a state, and a state may come from a file.
 """
@@ -24,9 +24,9 @@ from nonsmooth.system.input_checks import check_quaternion
 _DEFAULT_SAMPLES = 2000
 """Number of samples if no interval is given: enough for a curve as wide as a screen."""
 _MOST_SAMPLES = 10**8
-"""Largest number of samples of a run. Those of one small body then take more memory than most machines have."""
+"""Largest number of samples of a run. The samples of one small body then fill the memory of most machines."""
 _MOST_STEPS = 10**10
-"""Largest number of steps of a run. At a microsecond each, the least possible, they take three hours."""
+"""Largest number of steps of a run. At a microsecond a step, the shortest possible time, they take three hours."""
 
 
 def check_calls(name: str, until: Until | None, progress: Progress | None) -> None:
@@ -35,7 +35,7 @@ def check_calls(name: str, until: Until | None, progress: Progress | None) -> No
     Raises
     ------
     InvalidInput
-        If one is no function of its arguments.
+        If one of them is not a function, or takes other arguments.
     """
     check_callable(f"{name}: until", until, "until(run)")
     check_callable(f"{name}: progress", progress, "progress(t, t_end)")
@@ -60,9 +60,10 @@ def check_steps(duration: float, largest_step: float) -> None:
 
 
 def check_times(name: str, t_end: float, sample_interval: float | None, start: float = 0.0) -> float:
-    """Check the times [s] of a run from ``start``. Time between samples [s]: a 2000th of the run if None is given.
+    """Check the times of a run that begins at ``start`` [s], and return the time between its samples [s].
 
-    ``name`` is that of the user's call, for messages. Comparisons are written so that NaN fails them.
+    The default ``None`` gives a 2000th of the run. ``name`` is the user's call, for messages. The comparisons are
+    written so that NaN fails them.
 
     Raises
     ------
@@ -87,7 +88,7 @@ def checked_request(folder: SolutionFolder, until: Until | None) -> RunRequest:
     Raises
     ------
     InvalidInput
-        If the run was not cut off, its condition is missing, or the folder is damaged.
+        If the run was not cut off, the condition ``until`` that it had is not given, or the folder is damaged.
     """
     folder.check_cut_off()
     request = folder.request
@@ -106,7 +107,7 @@ _INTEGERS = ("modes", "guards_spent")
 _REALS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
 _REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
 _LARGEST_GAP = 1e3
-"""Largest gap of a closed contact, in gap tolerances. Numbers that a user rounds give smaller ones."""
+"""Largest gap of a closed contact of a state, relative to the gap tolerance: a user's rounding gives smaller gaps."""
 
 
 def check_arrays(model: LaidOut, state: State) -> None:
@@ -152,7 +153,7 @@ def check_numbers(model: LaidOut, state: State) -> None:
     Raises
     ------
     InvalidInput
-        If a number is not finite, or a quaternion has another length.
+        If a number is not finite, or the length of a quaternion is not 1.
     """
     for name in _REALS:
         value = getattr(state, name).ravel()
@@ -168,12 +169,12 @@ def check_numbers(model: LaidOut, state: State) -> None:
 
 
 def check_closed(model: LaidOut, state: State) -> None:
-    """Check that the closed contacts of a state, which the memory holds, have no gap, as they may after a change of q.
+    """Check that the closed contacts of the state in the memory have no gap, as a user's change of q may open one.
 
     Raises
     ------
     InvalidInput
-        If one has a gap of more than a thousand gap tolerances, beyond the reach of its law.
+        If the gap of a closed contact exceeds the reach of its law by more than a thousand gap tolerances.
     """
     if not np.any(state.modes):
         return
@@ -197,7 +198,7 @@ def check_candidates(model: LaidOut) -> None:
     """Check the pair of features that a search has found for each contact, in a state that comes from a file.
 
     The kinematics of the contact uses the numbers of the features as places in a table, and a wrong number would read
-    outside of it. Contacts without a search, or for which none were found, are left out.
+    outside of it. Contacts without a search, or for which no pair was found, are not checked.
 
     Raises
     ------

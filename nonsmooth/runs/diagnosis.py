@@ -55,7 +55,7 @@ _FAILED_CHECKS = {
         "{allowed:.3g}. The rates that {evaluator} gives do not keep its length. "
     ),
 }
-"""Sentences on a run that failed a check of its own: the contact or body, the value found and the value allowed."""
+"""Message for each check of the engine that a run can fail: contact or body, value found and value allowed."""
 _CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report one of nonsmooth."
 """Remedy for a contact or body that contradicts its own numbers."""
 _SHIFT = "Shift or turn a body a little, or give it rounded edges."
@@ -114,7 +114,7 @@ def _failed_check(model: LaidOut, status: Status) -> str:
         things |= {"contact": contact, "first": first, "second": second}
     text = _FAILED_CHECKS[status].format(**things)
     if status == Status.GAP_UNEXPLAINED:
-        # other closed contacts of its bodies contradict a closed one; else its kinematics is not continuous
+        # a closed contact is contradicted by other closed contacts of its bodies; else the kinematics is discontinuous
         if memory[owners.ContactRecord.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
             return f"{text}It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
         return f"{text}It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
@@ -124,7 +124,8 @@ def _failed_check(model: LaidOut, status: Status) -> str:
 def _other_closed(model: LaidOut, contact: Contact) -> str:
     """Names of closed contacts that share a free body with a contact, or "".
 
-    Of contacts between the same two bodies the first is named. Those between both bodies of ``contact`` are left out.
+    Of several contacts between the same two bodies only the first is named. Contacts between the two bodies of
+    ``contact`` are not named.
     """
     modes = model.memory[owners.ContactRecord.mode][: len(model.active)]
     # a driven body has no velocities, and takes no part in a contradiction

@@ -1,7 +1,7 @@
 """EngineDriver: calls of an engine's ``advance``, checked against its contract.
 
-An engine may be a plug-in. One that returns an unknown status would end a run without a reason, and one that does
-nothing would be called for ever. Both are found at the call, and the message names the rule.
+An engine may be a plug-in. An engine that returns an unknown status would end a run without a reason, and an engine
+that does nothing would be called for ever. Both faults are found at the call, and the message names the rule.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _CALL_COUNTERS = places("request.n_work", "request.work_budget", "run.n_calls")
 """Scalars that a call changes even if the engine does nothing."""
 (_N_CALLS,) = places("run.n_calls").tolist()
 UNLIMITED = 1 << 62
-"""Steps of a run without a limit."""
+"""Largest number of steps of a run that has no limit."""
 
 
 @final
@@ -38,9 +38,9 @@ class EngineDriver:
     model : LaidOut
         The model that runs.
     call : callable
-        Calls an entry point by its name; ``advance`` gets it.
+        Calls an entry point of the compiled code by name; it is an argument of the engine's ``advance``.
     most_steps : int
-        Steps of the run after which it is stopped.
+        Number of steps after which the run is stopped.
     """
 
     def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any], most_steps: int = UNLIMITED) -> None:

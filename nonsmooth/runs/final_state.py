@@ -1,7 +1,7 @@
 """FinalState: the memory of a model after a run, from which state and end of the run are read when they are needed.
 
-Many runs of a study need the samples only. To read the state takes longer than a short run, so a solution reads it at
-the first use of ``Solution.end``.
+Many runs of a study need only their samples. Reading the state takes longer than a short run, so a solution reads it
+at the first use of ``Solution.end``.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from nonsmooth.system.system import System
 
 
 class FixedPlaces(NamedTuple):
-    """Where a checkpoint of a model has the numbers that the state of a run needs. All runs of a model share these.
+    """Places, in a checkpoint of a model, of the numbers that the state of a run needs. All runs of a model share them.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class FixedPlaces(NamedTuple):
 
 
 class FinalState(NamedTuple):
-    """The memory of a model after a run, and all that its reading needs.
+    """The memory of a model after a run, with the data that are needed to read it.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class FinalState(NamedTuple):
     places: FixedPlaces
 
     def end(self, outcome: RunOutcome, code: int, wall: float, recorded: Recorded) -> End:
-        """End of the run.
+        """End of the run, after checks of its energy account and quaternions.
 
         Parameters
         ----------
@@ -173,7 +173,7 @@ class FinalState(NamedTuple):
     def _suspicions(self, end: End, recorded: Recorded) -> str:
         """Sentences about a run that reached its end but fails a check of its energy or of its quaternions, or "".
 
-        ``end`` is the end of the run without their result.
+        ``end`` is the end of the run without the result of these checks.
         """
         now, run = self.now, owners.Run
         solution = Solution(self.system, recorded, end)
@@ -247,7 +247,7 @@ class FinalState(NamedTuple):
 
 
 class UnreadEnd(NamedTuple):
-    """The end of a run before it is read: a source of ``Solution.end``.
+    """Data from which ``Solution.end``, the end of a run, is read at its first use.
 
     Attributes
     ----------

@@ -18,16 +18,16 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 
 _STEPS_PER_CALL = 2000
-"""Steps of the engine per call if nothing is written. So many cost far more than the call itself."""
+"""Steps of the engine per call if nothing is written. They take far longer than the call itself."""
 
 
 class OutputSink:
-    """Takes the results of a run at its checkpoints, from which another process could continue it.
+    """Takes the results of a run at its checkpoints, from which another process can continue the run.
 
-    This class writes nothing, for a run whose results stay in memory. The order of calls:
+    This class writes nothing: it serves a run whose results stay in memory. The order of calls:
 
     1. ``begin`` with the checkpoint at the start of the run.
-    2. ``write`` with each checkpoint, which the memory holds at that moment. It may drain the records.
+    2. ``write`` with each checkpoint, while the memory holds it. ``write`` may drain the records.
     3. ``finish`` with the solution of the whole run.
     4. ``close`` at the end, also if the run or a call failed.
     """
@@ -42,7 +42,7 @@ class OutputSink:
         Raises
         ------
         FileError
-            If it cannot be written.
+            If the folder cannot be written to.
         """
 
     def write(self, checkpoint: Checkpoint) -> None:
@@ -51,7 +51,7 @@ class OutputSink:
         Raises
         ------
         FileError
-            If they cannot be written.
+            If the folder cannot be written to.
         """
 
     def finish(self, solution: Solution) -> None:
@@ -60,7 +60,7 @@ class OutputSink:
         Raises
         ------
         FileError
-            If they cannot be written.
+            If the folder cannot be written to.
         """
 
     def close(self) -> None:
@@ -78,9 +78,9 @@ _FEWEST_STEPS = 4
 _FIRST_STEPS = 64
 """Number of steps of the first call, before the wall time of a step is known."""
 _MOST_STEPS = 2000
-"""Largest number of steps per call. More gain no time."""
+"""Largest number of steps per call. A larger number saves no time."""
 _LARGEST_SIZE = 1 << 25
-"""Size of events and samples in memory [bytes], above which written ones are dropped, and unwritten ones written."""
+"""Size of records in memory [bytes] above which the unwritten records are written, and the written ones dropped."""
 
 
 @final
@@ -93,7 +93,7 @@ class FolderSink(OutputSink):
     folder : SolutionFolder
         The folder.
     records : Records
-        What the engine has recorded.
+        Events and samples that the engine has recorded.
     state_at : callable
         Makes the state of a checkpoint.
     wall : float
@@ -129,7 +129,7 @@ class FolderSink(OutputSink):
         wanted = self._steps * _CALL_TIME / max(now - self._last_call, 1e-6)
         self._steps = int(min(_MOST_STEPS, 4 * self._steps, max(_FEWEST_STEPS, wanted)))
         is_time = now >= self._next_commit and (self._commit is None or self._commit.done())
-        # a run that records faster than the disk writes waits for it
+        # a run that records faster than the disk writes waits for the disk
         if is_time or records.size(unwritten=True) > _LARGEST_SIZE:
             # raises the error of the last commit
             self._wait()
@@ -159,7 +159,7 @@ class FolderSink(OutputSink):
         Raises
         ------
         FileError
-            If it could not be written.
+            If the last commit could not be written.
         """
         if self._commit is not None:
             self._commit.result()

@@ -1,9 +1,9 @@
 """The loop that calls the engine, empties its buffers, and evaluates the user's functions.
 
-The last step of a run ends at the end time, so its length depends on it. A run that is continued must not contain such
-a step, or it would differ from one that was not stopped. The engine therefore pauses before it. A checkpoint is taken
-there, and then the engine is called again to take the last steps. A continued run starts from the checkpoint, and
-repeats these.
+The last step of a run ends at the end time, so its length depends on the end time. A run that is continued must not
+contain such a step, or it would differ from a run that was not stopped. The engine therefore pauses before this step.
+A checkpoint is taken there, and then the engine is called again to take the last steps. A continued run starts from
+the checkpoint, and repeats the last steps.
 """
 
 from __future__ import annotations
@@ -28,23 +28,23 @@ from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.storage.files import FileError
 
 _CHECKPOINT_CALL = 16
-"""Time of the checkpoint of a small model, in that of the shortest steps, a microsecond: calls of Python take it."""
+"""Time that calls of Python take for a checkpoint of a small model, in times of the shortest step, a microsecond."""
 _COPIED = 1 << 13
-"""Size of a checkpoint that is copied in the time of such a step [bytes]."""
+"""Size of the part of a checkpoint that is copied in the time of the shortest step [bytes]."""
 Progress = Callable[[float, float], None]
 
 
 class Callbacks(NamedTuple):
-    """Functions of the user that a run calls, None if the user gives none; and its most steps.
+    """Functions of the user that a run calls, each None if not given, and the largest number of steps.
 
     Attributes
     ----------
     progress : callable
         ``progress(time, t_end)`` [s], called repeatedly.
     until : callable
-        The condition that ends the run.
+        ``until(run)``, the condition that ends the run.
     most_steps : int
-        Steps after which the run is stopped.
+        Number of steps after which the run is stopped.
     """
 
     progress: Progress | None
@@ -60,15 +60,15 @@ class LoopEnd(NamedTuple):
     status : int
         Last status of the engine.
     is_interrupted : bool
-        The user interrupted the run.
+        True if the user interrupted the run.
     checkpoint : Checkpoint
         The last content of the memory that does not depend on the end time. A continued run starts there.
     n_known_events : int
         Number of events after the checkpoint, which are recorded already.
     hint : str
-        What a failed run stalled at, as a sentence; "" if that is unknown.
+        Sentence with the reason why a failed run stalled; "" if it is unknown.
     output_error : str
-        Why results were lost, "" if none were.
+        Reason why results were lost; "" if no result was lost.
     """
 
     status: int
@@ -159,8 +159,8 @@ class EngineLoop:
     def _call_engine(self) -> int:
         """Call the engine until the run ends; the result is the status.
 
-        Between two calls ``until`` is evaluated and ``progress`` is called. Within a long call the engine asks a watch
-        now and then whether to stop. The watch reports the time to ``progress``, and turns Ctrl-C into a
+        Between two calls ``until`` is evaluated and ``progress`` is called. Within a long call the engine repeatedly
+        calls the interrupt check of a watch. The watch reports the time to ``progress``, and turns Ctrl-C into a
         KeyboardInterrupt.
         """
         memory, progress = self.model.memory, self.callbacks.progress
@@ -202,7 +202,7 @@ class EngineLoop:
                 # an engine with full buffers takes no step
                 self._monitor.observe(status)
                 records.drain()
-            # as many steps as take the time of the checkpoint. A continued run repeats them
+            # as many steps as take the time of the checkpoint; a continued run repeats these steps
             most_steps = max(_CHECKPOINT_CALL, self._checkpoint.size // _COPIED)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
         # the monitor reads the buffers, so they are drained after it

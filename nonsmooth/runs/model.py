@@ -53,7 +53,7 @@ from nonsmooth.storage.files import FileError
 from nonsmooth.system.system import System
 
 _LARGEST_UNREAD = 1 << 20
-"""Largest memory of checkpoints that a solution holds [bytes]. Many solutions of a study are held at once."""
+"""Largest size of the checkpoints that a solution may hold [bytes], because a study holds many solutions at once."""
 
 
 @final
@@ -202,9 +202,9 @@ class Model:
         t_end : float
             End time [s].
         start : State, optional
-            Start; :attr:`start` by default.  From the ``state`` of a solution of this model, of a copy, or of an equal
-            model in another process, the run continues as if it had not stopped: with the same events to the last
-            bit.  Any other state is a new start, which may be at any time.
+            State at the start; :attr:`start` by default.  From the ``state`` of a solution of this model, of a copy of
+            the model, or of an equal model in another process, the run continues as if it had not stopped: with the
+            same events to the last bit.  Any other state is a new start, which may be at any time.
         sample_interval : float, optional
             Time between stored samples [s], from the start on; by default a 2000th of the run.  The end of the run is
             a sample, too.  Events are stored exactly in any case.

@@ -22,9 +22,9 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, Integers
 
 _NEGLIGIBLE = 0.1
-"""Part of the largest change of the imbalance that may lie outside of the span at each end. It shortens the span."""
+"""Share of the whole change of the imbalance that the span may omit at each end, so that the span is short."""
 _MODE_AFTER_FALLBACK = 4
-"""Column of ``Events.listed_memory`` with the mode after the time-stepping fallback, open without it."""
+"""Column of ``Events.listed_memory`` with the mode after the time-stepping fallback; without fallback it is open."""
 _N_NAMED = 4
 """Largest number of bodies that the message names."""
 
@@ -76,9 +76,9 @@ def _span(imbalance: Floats) -> tuple[int, int]:
 
 
 def _contacts_within(events: Events, begin: float, end: float) -> tuple[Integers, bool]:
-    """Contacts of the events from ``begin`` to ``end`` [s], and whether they are those of the fallback.
+    """Numbers of the contacts of the events from ``begin`` to ``end`` [s], and True if these are in the fallback.
 
-    If any is in the time-stepping fallback, which solves for mean forces, only those are in the result.
+    If some contacts are in the time-stepping fallback, which solves for mean forces, the result has only these.
     """
     # the last event before the span shows the contacts at its beginning
     first = max(0, int(np.searchsorted(events.time, begin, side="right")) - 1)
@@ -117,7 +117,7 @@ def outcome(model: LaidOut, ending: LoopEnd, engine: Engine) -> RunOutcome:
     The first that holds is the reason: lost results, a function that wrote past its block, a cause that the engine
     declares, a failure, the end time or a condition.
     """
-    # what a function wrote past its block may have changed anything, also the status
+    # a function that wrote past its block may have changed any number, also the status
     overrun, status = block_overrun(model), ending.status
     at = f"At t = {model.memory[owners.Island.time]:.9g} s"
     if ending.output_error:
@@ -136,7 +136,7 @@ def outcome(model: LaidOut, ending: LoopEnd, engine: Engine) -> RunOutcome:
 
 
 _MOVED = 0.01
-"""Displacement between two compared samples, relative to the smallest body. A deeper overlap is not missed."""
+"""Displacement between two compared samples, relative to the smallest body, so that no deeper overlap is missed."""
 
 
 def interpenetration(model: LaidOut, rows: Floats) -> str:
@@ -149,10 +149,10 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
     model : LaidOut
         The model that ran.
     rows : Floats
-        Its samples, shape [n, m]: columns are t [s], q, u and more.
+        Samples of the run, shape [n, m]: columns are t [s], q, u and more.
     """
     contacts, numbers = model.system.contacts, model.contacts_without_parts
-    # the engine has compared all others during the run
+    # the engine has checked all other contacts during the run
     if not numbers:
         return ""
     before = Checkpoint.of(model.memory)
@@ -184,9 +184,9 @@ def _sentences(model: LaidOut, t: float, overlap: Overlap) -> str:
 
 
 def _moved_samples(q: Floats, least_move: float) -> list[int]:
-    """Numbers of the samples that are compared: the first, the last, and between them each that moved enough.
+    """Numbers of the samples to compare: the first, the last, and each sample between them that moved enough.
 
-    That is one of which a coordinate has changed by more than ``least_move`` [m or rad] since the last chosen sample.
+    A sample moved enough if a coordinate changed by more than ``least_move`` [m or rad] since the last chosen sample.
     """
     chosen = [0]
     for i in range(1, len(q)):

@@ -30,7 +30,7 @@ StoredRecords: TypeAlias = tuple[Events, Callable[[], Floats]]
 _START_PART, _END_PART = -1, -2
 """Keys of the parts before the first call and after the last one. The others have the number of their call."""
 _ROUND_OFF = 1e-9
-"""Difference of two times relative to the sample interval, below which they are the same."""
+"""Difference of two times, relative to the sample interval, below which the times count as equal."""
 _ACCOUNTED = places("totals.driven_work", "totals.restitution_loss", "totals.friction_loss", "totals.closing_loss")
 _ALWAYS = 1 << BEFORE | 1 << DURING | 1 << AFTER
 """Factor that turns the code of a mode into that of a contact with this mode before, during and after an event."""
@@ -94,7 +94,8 @@ class Records:
     def drain(self) -> None:
         """Copy the buffers of the engine and empty them.
 
-        If an interrupt came between the two, the part of the engine's last call exists, and they are only emptied.
+        If an interrupt came after the copy, the part of the engine's last call exists. Then the buffers are only
+        emptied.
         """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
@@ -173,7 +174,7 @@ class Records:
             )
         # the floats of an event begin with its time
         first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
-        # the start event of a run whose records are stored was there
+        # if records are stored, the start event is among them
         if self.stored is None and engine.records_contacts and first > start:
             raise InvalidInput(
                 thing,
@@ -216,12 +217,12 @@ class Records:
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def size(self, *, unwritten: bool) -> int:
-        """Size of all parts in memory, or of those that were not taken to be written [bytes]."""
+        """Size of all parts in memory [bytes], or, with ``unwritten``, of the parts that were not taken for writing."""
         parts = list(self._parts.values())[self._n_taken if unwritten else 0 :]
         return sum(array.nbytes for part in parts for array in part)
 
     def release(self, stored: StoredRecords) -> None:
-        """Drop the parts that were taken; ``stored`` has all events and samples until then."""
+        """Drop the parts that were taken for writing; ``stored`` reads all events and samples written until now."""
         before = 0 if self.stored is None else len(self.stored[0])
         for call in list(self._parts)[: self._n_taken]:
             del self._parts[call]

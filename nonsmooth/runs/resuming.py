@@ -1,6 +1,7 @@
 """Resume a run that was cut off.
 
-A module apart from :mod:`nonsmooth.runs.simulate`: reading a folder of results and a system takes a tenth of a start.
+This module is not part of :mod:`nonsmooth.runs.simulate`, because its imports, which read folders of results and
+systems, take a tenth of the time of a start.
 """
 
 from __future__ import annotations
@@ -28,22 +29,22 @@ def resume(
     progress: Progress | None = None,
     trust: bool = False,
 ) -> Solution:
-    """Resume a run that was cut off, to the end that it would have had, to the last bit.
+    """Resume a run that was cut off; the result equals that of an uninterrupted run to the last bit.
 
     Parameters
     ----------
     output : Output, Path or str
-        The folder of its results, to which the rest is appended.
+        The folder of the run's results, to which the remaining results are appended.
     system : System, optional
         The system that ran; by default it is built from the folder.
     engine : Engine, optional
         The engine that ran it; by default the one that the folder names.
     until : callable, optional
-        The condition of the run, which no file holds.
+        The condition that ends the run, if the run had one; a folder cannot hold it.
     progress : callable, optional
         As for :func:`nonsmooth.simulate`.
     trust : bool, optional
-        True if the folder may name code that is no installed plug-in, as for :func:`nonsmooth.load_system`.
+        True if the folder may name code outside of installed plug-ins, as for :func:`nonsmooth.load_system`.
 
     Returns
     -------

@@ -19,14 +19,14 @@ __all__ = ["Progress", "assemble", "run_scenario", "simulate"]
 
 
 def assemble(system: System, engine: Engine | None = None) -> Model:
-    """Lay out a system once, to be run often: ``model.run(t_end, start=...)``.
+    """Assemble a system once, to run it many times: ``model.run(t_end, start=...)``.
 
     Parameters
     ----------
     system : System
-        Bodies, contacts, starts; what is changed in it later the model does not know.
+        Bodies, contacts, starts.  Later changes of the system do not change the model.
     engine : Engine, optional
-        What integrates it, with its options; :class:`EventDriven` by default.
+        Engine with its options; :class:`EventDriven` by default.
 
     Returns
     -------
@@ -36,7 +36,7 @@ def assemble(system: System, engine: Engine | None = None) -> Model:
     Warns
     -----
     UndeclaredOverlap
-        If bodies overlap at the start that have no contact, are not joined and not excluded.
+        If two bodies overlap at the start that have no contact, no joint and no exclusion between them.
 
     Raises
     ------
@@ -67,36 +67,36 @@ def simulate(
     sample_interval : float, optional
         Time between stored samples [s]; t_end / 2000 by default.  Events are stored exactly in any case.
     engine : Engine, optional
-        What integrates it, with its options; :class:`EventDriven` by default.
+        Engine with its options; :class:`EventDriven` by default.
     until : callable, optional
         A condition that ends the run (:meth:`nonsmooth.Model.run`).
     progress : callable, optional
-        Called now and then with the time reached and the end time [s], in the middle of a long impact, too.  What it
-        raises ends the run and is raised.
+        ``progress(time, t_end)`` [s], called repeatedly, also within a long impact.  An exception ends the run and is
+        raised.
     output : Output, Path or str, optional
-        A folder to which events and samples are appended as they come (:meth:`nonsmooth.Model.run`).  The system is
-        there, too, where all of its classes are installed; else who opens the folder gives it (:func:`open_solution`).
+        A folder to which events and samples are appended during the run (:meth:`nonsmooth.Model.run`).  The system is
+        stored there, too, if all of its classes are installed; otherwise give it to :func:`open_solution`.
 
     Returns
     -------
     Solution
-        With status "done", "suspect" where its own checks found something (the message says what), or "interrupted"
-        after Ctrl-C.
+        Its status is "done", "suspect" if a check of the run failed (the message names it), or "interrupted" after
+        Ctrl-C.
 
     Warns
     -----
     UndeclaredOverlap
-        If bodies overlap at the start that have no contact, are not joined and not excluded.
+        If two bodies overlap at the start that have no contact, no joint and no exclusion between them.
 
     Raises
     ------
     InvalidInput
-        If the engine cannot run the system, the start or a number is not valid, or a run was cut off in the folder;
-        nothing has run then.
+        If the engine cannot run the system, the start or a number is not valid, or the folder holds a run that was cut
+        off.  Nothing has run then.
     FileError
         If the folder cannot be written to as the run begins.
     RunFailed
-        If the run cannot go on, or cannot be written any more; its ``solution`` holds what was computed.
+        If the run cannot continue, or cannot be written any more; its ``solution`` holds the results until then.
     """
     check_times("simulate", t_end, sample_interval)
     if output is not None:

@@ -14,20 +14,20 @@ from nonsmooth.scene.scene import FrameLook, Scene
 _ROUND = 1.0
 """Margin of a sheet around the moving bodies, relative to their size, so that they are seen to stand on it."""
 _STILL = 1e-9
-"""Change of a pose relative to the extent, below which it is round-off."""
+"""Change of a pose that is round-off, relative to the extent."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """Box of all visible parts over a run; a sheet, which is unbounded, counts by its point nearest to the others.
+    """Box of all visible parts over a run; a sheet, which is unbounded, counts by its point nearest to the other parts.
 
     Attributes
     ----------
     low, high : array
         Corners of the box [m], shape [3].
     reach : float
-        Largest radius of a moving body about the origin of its frame [m].
+        Largest radius of a moving body about the origin of its frame; without one, 0.3 of the diagonal of the box [m].
     """
 
     low: Floats
@@ -64,7 +64,7 @@ class Extent:
 
     @property
     def unit(self) -> float:
-        """Unit of length of lines and arrows [m]."""
+        """Length by which lines and arrows are scaled [m]."""
         return min(self.reach, 0.5 * float(np.linalg.norm(self.high - self.low)))
 
 
@@ -136,7 +136,7 @@ def _rectangle(part: FrameLook, origin: Floats, axes: Floats, places: Floats, ra
 
 
 def _cut(corners: Floats, normal: Floats, level: float) -> Floats:
-    """FrameLook of a convex polygon with positive ``corners @ normal + level``; the whole polygon if there is none."""
+    """Part of a convex polygon where ``corners @ normal + level`` is positive; the whole polygon if this is empty."""
     heights = corners @ normal + level
     kept = list[Floats]()
     for a, b, p, q in zip(corners, np.roll(corners, -1, axis=0), heights, np.roll(heights, -1), strict=True):

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _FEWEST = 600
-"""A run with fewer times is also drawn between its samples, so that ballistic motion is seen as a curve."""
+"""Fewest times at which a run is drawn, if necessary between samples, so that ballistic motion is seen as a curve."""
 _SPECK = 1e-2
-"""Smallest visible size of a shape or a gap, relative to its distance from the origin of the frame."""
+"""Size of a shape or a gap that is too small to be seen, relative to the extent of the shapes on its frame."""
 
 
 @final
@@ -55,9 +55,9 @@ class Stroke:
     kind : str
         "link" of a mechanism, "load" or "joint".
     name : str
-        Of the body, load or joint.
+        Name of the body, load or joint.
     frames : tuple of int
-        The two frames; those behind the last frame of a body are the ends of links.
+        Numbers of the two frames. Numbers behind those of the frames of all bodies are ends of links.
     ends : array
         The points in their frames [m], shape [2, 3].
     """
@@ -84,7 +84,7 @@ class Scene:
     strokes : tuple of Stroke
         Links, loads and joints.
     n_frames : int
-        Number of frames, the ends of links with them.
+        Number of frames, including the ends of links.
     """
 
     system: System
@@ -117,7 +117,7 @@ class Scene:
         Parameters
         ----------
         times : array
-            [s], shape [n].
+            Times [s], shape [n].
         q, u : array
             Coordinates and velocities of all bodies, shapes [n, n_q] and [n, n_u].
         """
@@ -153,7 +153,7 @@ def _looks(body: Body) -> Iterator[tuple[int, Look]]:
 
 
 def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[FrameLook]) -> Iterator[Stroke]:
-    """Line between the ends of a load or joint; for a joint also lines to its ends from bodies that are too short."""
+    """Line between the ends of a load or joint; for a joint also lines from frames whose shapes do not reach it."""
     bodies = tie.first, tie.second
     frames = [first[id(body)] + offset for body, offset in zip(bodies, tie.frames, strict=True)]
     yield Stroke(kind, tie.name, (frames[0], frames[1]), tie.component.ends)
@@ -186,5 +186,5 @@ def knots(solution: Solution, most: int) -> Floats:
 
 
 def sides(system: System) -> Floats:
-    """1 for each contact, or -1 if only its first body moves: arrows show forces on bodies that move; shape [n]."""
+    """Sign of the drawn force of each contact, shape [n]: -1 if only its first body is movable, else 1."""
     return np.array([-1.0 if c.second.n_u == 0 < c.first.n_u else 1.0 for c in system.contacts])

@@ -1,1 +1,1 @@
-"""Solids in the world: whether they overlap, how far apart they are, where one meets another."""
+"""Solids at their places in the world: overlaps, distances and meetings."""

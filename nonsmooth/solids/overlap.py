@@ -1,9 +1,10 @@
-"""How deep two convex sets overlap, with a proof either way.
+"""Depth of the overlap of two convex sets, with a lower and an upper bound.
 
-All differences of points of two convex sets are a convex set that holds the origin where they overlap, and the sets can
-be parted by the distance from there to its boundary.  A polytope within it, whose face nearest to the origin is pushed
-out until it is on the boundary, bounds that depth from below; every support plane bounds it from above (G. van den
-Bergen, "Proximity queries and penetration depth computation on 3D game objects", Game Developers Conference, 2001).
+The differences of points of two convex sets form a convex set.  If the sets overlap, it contains the origin, and the
+distance of the origin from its boundary is the depth.  A polytope within this set bounds the depth from below: its face
+nearest to the origin is pushed out until it is on the boundary.  Every support plane bounds the depth from above
+(G. van den Bergen, "Proximity queries and penetration depth computation on 3D game objects", Game Developers
+Conference, 2001).
 """
 
 from __future__ import annotations
@@ -19,13 +20,13 @@ from nonsmooth.interfaces.solid import Piece, Vector
 from nonsmooth.solids.separation import Point, as_point, combined, cross, dot, minus
 
 _EXACT, _CLOSE = 0.1, 1e-3
-"""A depth is told as exactly as this, relative to it: a bound, and where the shortest way out is asked for."""
+"""Relative error of a depth: in :func:`depth`, where a bound is enough, and in :func:`penetration`."""
 _ROUND_OFF = 1e-14
 _MOST = 400
-"""Steps, after which the bound is taken as it is."""
+"""Most steps of a search for the depth. The bound is valid after any number of steps, but less close."""
 
 _Face = tuple[float, Point, int, int, int]
-"""Height over the origin, outward normal, corners counter-clockwise seen from outside."""
+"""A face: distance of its plane from the origin, outward normal, corners counter-clockwise seen from outside."""
 
 
 @final
@@ -36,11 +37,12 @@ class Penetration:
     Attributes
     ----------
     lower, upper : float
-        No way that parts them is shorter than the first; that by the second along the normal does [m].
+        Bounds of its length [m]: no shorter translation than ``lower`` separates the sets; ``upper`` along the normal
+        does.
     normal : Vector
-        Unit vector along which the second is to be moved, shape [3].
+        Unit vector of the translation of the second set, shape [3].
     first, second : Vector
-        Points of either that are farthest in the other one [m], shape [3] each.
+        Point of each set that is deepest in the other set [m], shape [3] each.
     """
 
     lower: float
@@ -51,14 +53,14 @@ class Penetration:
 
 
 def depth(one: Piece, two: Piece, tolerance: float) -> float:
-    """Least translation that separates two convex sets [m], or 0 if it is within a tolerance [m].
+    """Lower bound, to 10 %, of the least translation that separates two convex sets [m]; 0 within a tolerance.
 
     Parameters
     ----------
     one, two : Piece
         The sets, in the same axes.
     tolerance : float
-        By how much sets that touch may overlap [m].
+        Overlap that counts as touching [m].
     """
 
     def farthest(direction: Vector) -> Vector:
@@ -79,16 +81,16 @@ def depth(one: Piece, two: Piece, tolerance: float) -> float:
 
 
 def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
-    """Shortest way that parts two convex sets to a thousandth, None if a tolerance covers their overlap.
+    """Shortest translation that separates two convex sets, to 1e-3; None if a tolerance covers their overlap.
 
-    Round ones may be told less exactly: what is known lies between the bounds.
+    The search may end earlier for round sets.  The bounds of the result are valid in any case.
 
     Parameters
     ----------
     one, two : Piece
         The sets, in the same axes.
     tolerance : float
-        By how much sets that touch may overlap [m].
+        Overlap that counts as touching [m].
     """
     points: dict[Point, tuple[Vector, Vector]] = {}
     best: list[tuple[float, Point]] = []
@@ -108,13 +110,13 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
     if lower == 0.0:
         return None
     upper, normal = min(best)
-    # the points under the face that is nearest to the origin
+    # the points of both sets whose difference is the point of that face nearest to the origin
     first, second = combined(lower * np.array(unit), corner, (points[point] for point in corner))
     return Penetration(min(lower, upper), upper, np.array(normal), first, second)
 
 
 def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[Point]:
-    """Four points that span a volume, counter-clockwise round the first; none if the sets part on the way."""
+    """Four differences that span a volume, the first three counter-clockwise from outside; empty without overlap."""
     points: list[Vector] = []
     while len(points) < 4:
         best, most = np.zeros(3), 0.0
@@ -127,7 +129,7 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
             if not points or off > most:
                 best, most = found, off
         if points and most <= _ROUND_OFF * float(np.linalg.norm(best)):
-            # flat: a plane that it lies in parts them unless it lies to one side of the origin
+            # all differences are in one plane, so the sets overlap in no volume
             return []
         points.append(best)
     a, b, c, d = points
@@ -137,7 +139,7 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
 
 
 def _across(points: list[Vector]) -> Iterable[Vector]:
-    """Unit vectors across the flat set through some points, with either sign."""
+    """Unit vectors across the line or plane through two or three points, with both signs; else those of the axes."""
     if len(points) == 3:
         normal = np.cross(points[1] - points[0], points[2] - points[0])
         ways = [normal / np.linalg.norm(normal)]
@@ -154,7 +156,7 @@ def _across(points: list[Vector]) -> Iterable[Vector]:
 def _expanded(
     corners: list[Point], farthest: Callable[[Vector], Vector], tolerance: float, exact: float
 ) -> tuple[float, list[Point], Point]:
-    """Depth, or 0, and corners and normal of the face that it is that of."""
+    """Depth, 0 within the tolerance, with corners and normal of the face at this distance from the origin."""
     points = list(corners)
     faces = [_face(points, *trio) for trio in ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2))]
     size = max(math.hypot(*point) for point in points)
@@ -174,7 +176,7 @@ def _expanded(
 
 
 def _pushed_out(points: list[Point], faces: list[_Face], least: float) -> list[_Face]:
-    """Faces of the hull of a polytope and the last of the points, which lies over one of its faces."""
+    """Faces of the convex hull of a polytope and the last of ``points``, which is outside of it."""
     top = points[-1]
     kept: list[_Face] = []
     rims: set[tuple[int, int]] = set()

@@ -1,7 +1,7 @@
-"""Where a solid that is moved along a line, without being turned, meets another one.
+"""First meeting of two solids, one of which is moved along a line without rotation.
 
-The distance of two convex sets that so move is a convex function of the way.  The planes that prove a distance let the
-sets come as near as that at least, so that the first meeting is approached from before it and never passed.
+The distance of two convex sets is a convex function of this translation.  Each step of the search moves the solid as
+far as the planes that prove the distance allow.  So the first meeting is approached from before it and never passed.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ from nonsmooth.solids.placed import Placed, near_pairs, nested
 from nonsmooth.solids.separation import separation
 
 _EXACT = 1e-13
-"""Gaps that count as none, relative to the size of both solids."""
+"""Gap that counts as zero, relative to the extent of both solids together and the height."""
 _MOST = 1000
 
 
 @final
 @dataclass(frozen=True)
 class Passage:
-    """The way of a solid past another one.
+    """A solid that is moved along a line towards another one.
 
     Attributes
     ----------
     one, two : Placed
-        The solids; it is the first that moves.
+        The solids; the first one moves.
     way : Vector
-        Unit vector along which it moves, shape [3].
+        Unit vector along which the first solid moves, shape [3].
     height : float
-        The distance that counts as met [m].
+        Gap at which the solids have met [m].
     """
 
     one: Placed
@@ -45,29 +45,29 @@ class Passage:
 
     @functools.cached_property
     def _size(self) -> float:
-        """No points of the two are farther from each other than this [m]."""
+        """Upper bound of the distance of any two points of the solids [m]."""
         (low, high), (below, above) = self.one.bounds, self.two.bounds
         return float(np.linalg.norm(np.maximum(high, above) - np.minimum(low, below)))
 
     @functools.cached_property
     def tolerance(self) -> float:
-        """How much nearer than the height solids may be that have met [m]."""
+        """Distance by which the gap may be smaller than the height after the meeting [m]."""
         sizes = [float(np.linalg.norm(high - low)) for low, high in (self.one.bounds, self.two.bounds)]
-        # a point has no size
+        # the second number is for a point, which has no size
         return max(1e-9 * min(sizes), 1e-15 * max(sizes))
 
     @property
     def clear(self) -> bool:
-        """Whether the solids are as far apart as they may be."""
+        """Whether the gap of the solids is at least the height, within the tolerance."""
         return not self._near and nested(self.one, self.two, self.tolerance) == 0.0
 
     def ahead(self) -> float:
-        """Distance that the first, now clear, can move along the way [m]; infinite if it meets nothing."""
+        """Distance of the first solid from its meeting, along the way [m]; infinite without one. It must be clear."""
         pairs = near_pairs(self.one, self.two, self.height, (self._size + self.height) * self.way)
         return self._first(list(pairs), 0.0)
 
     def back(self) -> float:
-        """Least distance that the first, not clear now, must go back [m]; it need not suffice."""
+        """Lower bound of the distance that the first solid must move back to be clear [m]. It must not be clear now."""
         if near := self._near:
             return -self._first(near, self._far)
         met = (
@@ -77,19 +77,19 @@ class Passage:
 
     @property
     def _far(self) -> float:
-        """Where the first has all of the second ahead of it [m]."""
+        """Place along the way, negative, at which all of the second solid is ahead of the first one [m]."""
         return -2.0 * (self._size + self.height)
 
     @functools.cached_property
     def _near(self) -> list[tuple[Piece, Piece]]:
-        """The pieces that are nearer than they may be."""
+        """Pairs of pieces whose gap is smaller than the height by more than the tolerance."""
         pairs, least, still = near_pairs(self.one, self.two, self.height), self.tolerance, np.zeros(3)
         if self.height == 0.0:
             return [(a, b) for a, b in pairs if depth(a, b, least) > 0.0]
         return [(a, b) for a, b in pairs if separation(a, b, still, self.height, 0.1 * least)[0] < -least]
 
     def _first(self, pairs: list[tuple[Piece, Piece]], start: float) -> float:
-        """Distance at which the first of some pairs of pieces meets, from a place where all are apart [m]."""
+        """Place along the way of the first meeting of any pair of pieces [m]; at ``start`` all pairs must be apart."""
         least, best = _EXACT * (self._size + self.height), math.inf
         bounds = [
             (float(self.way @ (two.support(-self.way) - one.support(self.way))) - self.height, i)
@@ -108,7 +108,7 @@ class Passage:
             if gap <= least:
                 break
             speed = float(normal @ self.way)
-            # they do not come nearer, and never will, as the distance is a convex function of the way
+            # the pieces do not approach, and never will, as their distance is a convex function of the translation
             if speed <= 0.0 or distance > 2.0 * (self._size + self.height):
                 return math.inf
             distance += gap / speed

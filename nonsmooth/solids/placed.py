@@ -1,4 +1,4 @@
-"""A solid where its body stands, and whether two of them overlap."""
+"""Solids at their places in the world, and the overlap of two of them."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class Placed:
     rotation: Vector
 
     def moved(self, way: Vector) -> Placed:
-        """The same solid, moved by ``way`` [m], shape [3]."""
+        """The same solid, moved by the translation ``way`` [m], shape [3]."""
         return replace(self, position=self.position + way)
 
     @functools.cached_property
     def bounds(self) -> tuple[Vector, Vector]:
-        """Corners of a box along the axes that holds it [m], shape [3] each."""
+        """Lower and upper corner of a box along the world axes that contains the solid [m], shape [3] each."""
         return _box(*self.solid.bounds, self.rotation, self.position)
 
     def support(self, direction: Vector) -> Vector:
@@ -47,7 +47,7 @@ class Placed:
 
     @property
     def inner(self) -> Vector:
-        """Points inside [m], shape [n, 3]."""
+        """Points inside the solid [m], shape [n, 3]."""
         return self.position + self.solid.inner @ self.rotation.T
 
     def holds(self, point: Vector, margin: float) -> bool:
@@ -55,7 +55,7 @@ class Placed:
         return self.solid.holds(self.rotation.T @ (point - self.position), margin)
 
     def pieces(self, low: Vector, high: Vector) -> list[Piece]:
-        """Pieces that may reach into a box [m], in the axes of the world."""
+        """Pieces that may reach into the box between two corners [m], in world axes."""
         inverse = self.rotation.T
         box = _box(low, high, inverse, -inverse @ self.position)
         return [self._in_world(piece) for piece in self.solid.pieces(*box)]
@@ -77,10 +77,10 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
     one, two : Placed
         The solids.
     tolerance : float
-        By how much they may overlap [m].
+        Overlap that counts as touching [m].
     normal : Vector
-        Unit vector from the first to the second across which there may be a plane between them, shape [3]: if there is,
-        nothing else is looked at.
+        Unit vector from the first to the second, shape [3]. If a plane across it separates them, the result is 0 at
+        once.
     """
     if float(normal @ (one.support(normal) - two.support(-normal))) <= tolerance:
         return 0.0
@@ -92,17 +92,17 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Lower bound of the depth of points of one solid in the other, hollow one [m]; 0 if a tolerance covers it.
+    """Lower bound of the depth of one solid inside the other, hollow one [m]; 0 if a tolerance covers it.
 
-    No pieces of them may overlap by more than the tolerance.
+    The pieces of the two must not overlap by more than the tolerance.
     """
     if not (one.solid.hollow or two.solid.hollow):
         return 0.0
     deepest, pairs = 0.0, list(near_pairs(one, two, tolerance))
     for outer, inner, near in ((one, two, [b for _, b in pairs]), (two, one, [a for a, _ in pairs])):
         if outer.solid.hollow:
-            # what does not cross is inside as a whole, or outside; boundaries that lie in one another for a part and
-            # then go inside have pieces there that are next to one another
+            # a solid whose boundary does not cross the other one is wholly inside or outside: inner points decide.
+            # boundaries that coincide in part and then go inside have near pieces there, whose points are checked
             places = np.unique(np.array([*inner.inner, *(piece.place for piece in near)]), axis=0)
             low, high = outer.bounds
             for place in places[np.all((places > low) & (places < high), axis=1)]:
@@ -115,16 +115,16 @@ def nested(one: Placed, two: Placed, tolerance: float) -> float:
 def near_pairs(
     one: Placed, two: Placed, margin: float = 0.0, way: Vector | None = None
 ) -> Iterator[tuple[Piece, Piece]]:
-    """Pieces of two solids whose boxes meet.
+    """Pairs of pieces of two solids whose boxes meet.
 
     Parameters
     ----------
     one, two : Placed
         The solids.
     margin : float
-        Boxes that are so near meet, too [m].
+        Distance of boxes that still count as meeting [m].
     way : Vector, optional
-        By which the first is moved, its boxes being those of all that it passes [m], shape [3].
+        Translation of the first solid [m], shape [3]. The boxes of its pieces then contain the whole path.
     """
     path = np.zeros(3) if way is None else way
     low, high = two.bounds
@@ -141,6 +141,6 @@ def near_pairs(
 
 
 def _box(low: Vector, high: Vector, axes: Vector, place: Vector) -> tuple[Vector, Vector]:
-    """Box along the axes of one frame that holds a box along those of another."""
+    """Corners of a box along the axes of one frame that contains a box along the axes of another frame."""
     middle, half = place + axes @ (0.5 * (low + high)), np.abs(axes) @ (0.5 * (high - low))
     return middle - half, middle + half

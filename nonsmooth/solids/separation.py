@@ -1,7 +1,7 @@
-"""Distance of two convex sets, with a plane that proves it, and the points that are nearest.
+"""Distance of two convex sets, with a plane that proves it, and their nearest points.
 
-The search of E. Gilbert, D. Johnson and S. Keerthi, IEEE J. Robotics Automat. 4 (1988) 193, for the point nearest to
-the origin of the set of all differences.
+The differences of points of two convex sets form a convex set.  Its point nearest to the origin gives the distance.
+The search for this point is that of E. Gilbert, D. Johnson and S. Keerthi, IEEE J. Robotics Automat. 4 (1988) 193.
 """
 
 from __future__ import annotations
@@ -19,22 +19,23 @@ _MOST = 200
 Point = tuple[float, float, float]
 """A point or a vector; three floats are faster than an array here."""
 _Nearest = tuple[float, Point, tuple[Point, ...]]
-"""Squared distance from the origin, the nearest point of a simplex, the corners that it lies between."""
+"""Squared distance of a simplex from the origin, its nearest point, and the corners between which this point is."""
 
 
 @final
 @dataclass(frozen=True)
 class Nearest:
-    """Where two convex sets are nearest.
+    """Nearest points of two convex sets, with a proved lower bound of their distance.
 
     Attributes
     ----------
     lower : float
-        All of the second is so far beyond all of the first along the normal [m]; not above 0 where they overlap.
+        Lower bound of the distance [m]: along the normal, all of the second set is beyond all of the first by it. At
+        most 0 if the sets overlap.
     normal : Vector
         Unit vector from the first to the second, shape [3].
     first, second : Vector
-        Points of either, as far apart as the sets to the accuracy asked for [m], shape [3] each.
+        Nearest point of each set [m], within the accuracy of the search, shape [3] each.
     """
 
     lower: float
@@ -51,17 +52,17 @@ def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float
     one, two : Piece
         The sets, in the same axes.
     way : Vector
-        By which the first is moved [m], shape [3].
+        Translation of the first set [m], shape [3].
     margin : float
-        What is taken off [m].
+        Distance that is subtracted [m].
     enough : float
-        By how much the bound may be too low [m]; a thousandth of it is allowed in any case.
+        Allowed error of the bound [m]; an error of a thousandth of the bound is allowed in any case.
 
     Returns
     -------
     bound, normal
-        All of the second is so far beyond all of the first along the unit normal, shape [3], and beyond the margin.
-        Not above -margin, with some unit vector, where they overlap or nearly touch.
+        Along the unit normal, shape [3], all of the second set is beyond all of the first by the bound plus the margin.
+        If the sets overlap or nearly touch, the bound is at most -margin, and the normal has no meaning.
     """
     found = _search(one, two, way, margin, enough, 1e-3)
     return found.bound - margin, found.normal
@@ -75,7 +76,7 @@ def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
     one, two : Piece
         The sets, in the same axes.
     enough : float
-        By how much the bound may be too low [m].
+        Allowed error of the bound [m].
     """
     found = _search(one, two, np.zeros(3), 0.0, enough, 0.0)
     if not found.corners:
@@ -85,7 +86,9 @@ def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
 
 
 def combined(point: Vector, corners: Sequence[Point], pairs: Iterable[tuple[Vector, Vector]]) -> Iterator[Vector]:
-    """Points of two sets [m], shape [3] each, in the parts with which corners make up a point of the differences.
+    """Point of each of two sets [m], shape [3] each, from a point of the set of their differences.
+
+    The point is a weighted mean of corners.  The same weights give the points of the two sets.
 
     Parameters
     ----------
@@ -97,7 +100,7 @@ def combined(point: Vector, corners: Sequence[Point], pairs: Iterable[tuple[Vect
         The points of the two sets at each corner.
     """
     known = np.array(corners)
-    # the last row makes the sum of the parts 1, in the scale of the others
+    # the last row makes the sum of the weights 1, in the scale of the other rows
     rows = np.vstack([known.T, np.full(len(known), np.max(np.abs(known), initial=1e-300))])
     shares = np.linalg.lstsq(rows, np.append(point, rows[3, 0]), rcond=None)[0]
     return (shares @ np.array(points) for points in zip(*pairs, strict=True))
@@ -175,10 +178,10 @@ def _of_triangle(a: Point, b: Point, c: Point) -> _Nearest:
     normal = _normal(a, b, c)
     square = dot(normal, normal)
     if square > 0.0:
-        # the origin is over the inside where it is on the inner side of all three
+        # the origin projects into the triangle if it is on the inner side of all three edges
         inside = dot(cross(a, b), normal) >= 0.0 and dot(cross(b, c), normal) >= 0.0 and dot(cross(c, a), normal) >= 0.0
         if inside:
-            # of the corner next to the origin, which leaves the least round-off
+            # the height from the corner nearest to the origin has the least round-off
             height = dot(min((a, b, c), key=lambda p: dot(p, p)), normal) / square
             point = height * normal[0], height * normal[1], height * normal[2]
             return dot(point, point), point, (a, b, c)
@@ -186,9 +189,9 @@ def _of_triangle(a: Point, b: Point, c: Point) -> _Nearest:
 
 
 def _normal(a: Point, b: Point, c: Point) -> Point:
-    """Normal of a triangle, as long as twice its area, of its two shorter edges.
+    """Normal of a triangle, with twice its area as length, from its two shorter edges.
 
-    Of two long edges that are nearly parallel it would be off by as much as moves the height of a sliver.
+    In a thin triangle the two long edges are nearly parallel: their product has an error that moves the height.
     """
     edges = minus(b, a), minus(c, b), minus(a, c)
     longest = max(range(3), key=lambda i: dot(edges[i], edges[i]))

@@ -54,7 +54,7 @@ class CaseFactory(ABC):
     @property
     @abstractmethod
     def name(self) -> str:
-        """Its name in messages."""
+        """Name of the scenario or function, for messages."""
 
     @abstractmethod
     def check(self, sampling: Sampling) -> None:
@@ -63,12 +63,12 @@ class CaseFactory(ABC):
         Raises
         ------
         InvalidInput
-            If a name is unknown or a value breaks its rule.
+            If a name is unknown, or a value breaks the rule of its parameter.
         """
 
     @abstractmethod
     def case(self, parameters: Mapping[str, Value]) -> Case:
-        """Return the case of these parameters."""
+        """Return the case of a run with these parameters."""
 
     @abstractmethod
     def attributes(self, name: str) -> dict[str, str]:
@@ -76,7 +76,7 @@ class CaseFactory(ABC):
 
     @abstractmethod
     def described(self) -> Mapping[str, Any]:
-        """Return its definition, for the specification of the study."""
+        """Return the definition of the cases, a part of the specification of the study."""
 
 
 @final
@@ -92,7 +92,7 @@ class ScenarioCases(CaseFactory):
         return self.scenario.name
 
     def check(self, sampling: Sampling) -> None:
-        """Check the least and the greatest value of each; each run checks rules between parameters."""
+        """Check names, and the least and greatest value of each; each run checks rules between parameters."""
         known, owner = self.scenario.varies, self.name
         for name, values in sampling.columns.items():
             if name not in known:
@@ -120,7 +120,7 @@ class ScenarioCases(CaseFactory):
         return described(rule.doc, rule.unit)
 
     def described(self) -> Mapping[str, Any]:
-        """Return class, digest of its text, and parameters."""
+        """Return class of the scenario, digest of the source text of the class, and all parameters."""
         owner = type(self.scenario)
         values = {field.name: getattr(self.scenario, field.name) for field in dataclasses.fields(self.scenario)}  # type: ignore[arg-type]
         name = f"{owner.__module__}:{owner.__qualname__}"
@@ -135,7 +135,7 @@ class FunctionCases(CaseFactory):
     Attributes
     ----------
     function : callable
-        A function of a module.
+        Function that is defined in a module, with arguments for the varied parameters.
     t_end : float
         End time of every run [s].
     """
@@ -154,7 +154,7 @@ class FunctionCases(CaseFactory):
         return self.function.__name__
 
     def check(self, sampling: Sampling) -> None:
-        """Check that the function takes these names, and needs no others."""
+        """Check that varied parameters are arguments of the function, and that its other arguments have defaults."""
         takes = inspect.signature(self.function).parameters
         free = any(one.kind is one.VAR_KEYWORD for one in takes.values())
         named = {name: one for name, one in takes.items() if one.kind in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY)}
@@ -167,15 +167,15 @@ class FunctionCases(CaseFactory):
                 raise InvalidInput(thing, "must be varied, as it has no default", None, "Add it to the sampling.")
 
     def case(self, parameters: Mapping[str, Value]) -> Case:
-        """Call the function."""
+        """Build the system by calling the function with these parameters."""
         return Case(None, self.function(**parameters), self.t_end, None)
 
     def attributes(self, name: str) -> dict[str, str]:
-        """Return the name; a function declares nothing else."""
+        """Return the name of the parameter as its description, because a function declares no units."""
         return described(name)
 
     def described(self) -> Mapping[str, Any]:
-        """Return its name, digest of its text, and the end time."""
+        """Return name and digest of the source text of the function, and the end time [s]."""
         name = f"{self.function.__module__}:{self.function.__qualname__}"
         return {"function": name, "source_sha256": digest(self.function), "t_end": self.t_end}
 
@@ -186,7 +186,7 @@ def case_factory(runs: Scenario | System | Callable[..., System], t_end: float |
     Raises
     ------
     InvalidInput
-        If it is of another kind, the end time [s] is missing, or given for a scenario.
+        If `runs` has another type, `t_end` [s] is missing or not positive, or `t_end` is given for a scenario.
     """
     if isinstance(runs, Scenario):
         if t_end is not None:

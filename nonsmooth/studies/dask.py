@@ -1,4 +1,4 @@
-"""Workers of dask: processes of this machine, or of a scheduler elsewhere."""
+"""Executor that computes a study by workers of dask: processes of this machine, or of a scheduler elsewhere."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _DEATHS = 3
 
 
 class SchedulerLost(NonsmoothError):
-    """The scheduler ended, or cannot be reached any more, before the end of the study."""
+    """The scheduler ended, or could no longer be reached, before the end of the study."""
 
 
 @final
@@ -41,7 +41,7 @@ class Dask(Executor):
     Parameters
     ----------
     scheduler : str, optional
-        Address of a scheduler of dask, as "tcp://10.0.0.1:8786"; processes of this machine by default.
+        Address of a scheduler of dask, such as "tcp://10.0.0.1:8786"; processes of this machine by default.
     n : int, optional
         Number of processes; one for each processor by default.
     """
@@ -55,15 +55,15 @@ class Dask(Executor):
     def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
         """Yield results as workers return them.
 
-        A chunk whose workers died may only have run next to the one that killed them.  Such chunks are repeated last,
-        run by run with nothing else, which finds the run that kills a worker.
+        A chunk may lose its worker through another chunk that killed the worker.  Chunks whose workers died too often
+        are therefore repeated last, one run at a time.  This identifies the run that kills a worker.
 
         Raises
         ------
         InvalidInput
             If no scheduler answers, or workers have other versions, or do not find the classes of the study.
         SchedulerLost
-            If the scheduler ends before the study.
+            If the scheduler ends, or can no longer be reached, before the end of the study.
         """
         require("the executor dask", "dask", "distributed")
         from distributed import CancelledError
@@ -88,7 +88,7 @@ class Dask(Executor):
 
         settings = {
             "distributed.scheduler.allowed-failures": _DEATHS - 1,
-            # a worker profiles its stacks for an hour: 100 MB after some minutes
+            # by default a worker keeps a profile of its stacks for an hour, 100 MB after some minutes
             "distributed.worker.profile.enabled": False,
         }
         stack.enter_context(dask.config.set(settings))
@@ -96,7 +96,7 @@ class Dask(Executor):
         if address is None:
             n = check_workers("Dask: n", self.n)
             address = stack.enter_context(_cluster(n))
-            # the nanny that restarts a worker is gone, too, if the worker dies at once
+            # replaces dead workers: the nanny, which would restart a worker, ends with a worker that dies at once
             address.adapt(minimum=n, maximum=n)
         try:
             return stack.enter_context(Client(address, timeout=_PATIENCE))
@@ -106,12 +106,12 @@ class Dask(Executor):
 
 
 def _cluster(n: int) -> LocalCluster:
-    """Return processes of this machine.
+    """Start ``n`` worker processes on this machine.
 
     Raises
     ------
     InvalidInput
-        If none starts.
+        If the processes cannot start.
     """
     from distributed import LocalCluster
 
@@ -124,7 +124,7 @@ def _cluster(n: int) -> LocalCluster:
 
 
 def _check_workers(client: Client, parcel: Parcel) -> None:
-    """Raise InvalidInput if workers would give other bits than this process, or lack the modules of the study."""
+    """Raise InvalidInput if a worker lacks modules of the study, or has other versions, which change the last bits."""
     client.wait_for_workers(1, timeout=_PATIENCE * 12)
     here = dict(versions())
     for address, there in client.run(versions).items():
@@ -145,7 +145,7 @@ def _computed(parcel: Parcel, chunk: Chunk) -> ChunkResult:
 def _in_turn(
     client: Client, parcel: Parcel, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
 ) -> Generator[ChunkResult, None, None]:
-    """Yield the results of all chunks; those whose workers died too often become suspects."""
+    """Yield the results of chunks; a chunk whose workers died too often is added to ``suspects`` instead."""
     from distributed import KilledWorker, as_completed
 
     left, running, done = iter(chunks), {}, as_completed()
@@ -169,7 +169,7 @@ def _in_turn(
 
 
 def _run_by_run(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the result of a suspected chunk; its runs are alone, so a worker that dies dies because of its run."""
+    """Return the result of a suspected chunk, one run at a time: a worker that dies is then killed by its run."""
     from distributed import KilledWorker
 
     def result(run: Chunk) -> ChunkResult:
@@ -185,16 +185,17 @@ def _run_by_run(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
 @final
 @dataclass(frozen=True)
 class Parcel:
-    """Work for another process, with the files of its classes.
+    """Pickled work for another process, with the files of user classes that it needs.
 
-    The task opens it, so that an error belongs to the task; objects that dask opens would end the connection.
+    The task opens the parcel, so that a failure is an error of the task.  If dask unpickled the work, a failure would
+    end the connection.
 
     Attributes
     ----------
     content : bytes
         The work, pickled.
     files : tuple of tuple of str
-        Path and sha256 of the files that were named as FILE.py:CLASS.
+        Path and sha256 of each file with a class that was named as FILE.py:CLASS.
     """
 
     content: bytes
@@ -202,18 +203,18 @@ class Parcel:
 
     @classmethod
     def of(cls, work: Work) -> Parcel:
-        """Pack work."""
+        """Pickle work, and list the files of user classes that this process has loaded."""
         import cloudpickle
 
         return cls(cloudpickle.dumps(work), tuple((str(path), _digest(path)) for path in file.loaded()))
 
     def open(self) -> Work:
-        """Return the work.
+        """Load the files, and return the unpickled work.
 
         Raises
         ------
         InvalidInput
-            If a file is not there, or is another one.
+            If a file is missing or has another content.
         ImportError
             If a module is not installed.
         """
@@ -227,10 +228,10 @@ class Parcel:
         return work
 
     def fault(self) -> str:
-        """Return the reason why it cannot be opened here, "" if it can."""
+        """Return the error that prevents opening the parcel in this process, "" without an error."""
         try:
             self.open()
-        except Exception as error:  # of the modules of a user, too
+        except Exception as error:  # a module of a user may raise anything
             return f"{type(error).__name__}: {error}"
         return ""
 

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST = 12
-"""Panels at most."""
+"""Largest number of panels."""
 _NAMED = 20
-"""Classes with their names beside a map, at most."""
+"""Largest number of classes that are named at the colour bar of a map."""
 _GREY = "0.5"
 
 
@@ -29,7 +29,7 @@ def draw_study(study: xarray.Dataset) -> Figure:
     """Draw the records of a study that are one number, or one word, per run.
 
     Over one parameter they are points, over two a map with failed runs hatched.  With more parameters, or without a
-    grid, each record is drawn over each parameter.  Words come first; constant numbers are in the title.
+    grid, each record is drawn over each parameter.  Words come first; numbers equal in all runs are in the title.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def draw_study(study: xarray.Dataset) -> Figure:
     Raises
     ------
     InvalidInput
-        If it has no record that is one number or word per run.
+        If the study has no record that is one number or word per run.
     """
     from matplotlib.figure import Figure
 
@@ -73,7 +73,7 @@ def draw_study(study: xarray.Dataset) -> Figure:
 
 
 def _varying(records: dict[str, xarray.DataArray], valued: NDArray[np.bool_]) -> list[str]:
-    """Return the records that are words, or differ between runs."""
+    """Return the names of the records that are words, or numbers that differ between runs."""
     return [
         name for name, one in records.items() if _words(one) or len(np.unique(one.values[valued], equal_nan=True)) > 1
     ]

@@ -14,7 +14,7 @@ from nonsmooth.checks import check_count
 from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
 WINDOW = 2
-"""Chunks per thread that are handed out at once."""
+"""Number of chunks per worker that are submitted at a time."""
 
 
 class Executor(ABC):
@@ -44,7 +44,7 @@ def check_workers(thing: str, n: int | None) -> int:
     Raises
     ------
     InvalidInput
-        If it is not a positive whole number.
+        If the number is not a positive integer.
     """
     if n is None:
         return os.cpu_count() or 1
@@ -71,7 +71,8 @@ class _Ended(Exception):
 class Threads(Executor):
     """Computes chunks in threads of this process.
 
-    The engine runs without the lock of Python; building and summarising runs do not.
+    The engine releases the global lock of Python, so that runs are computed in parallel.  Building and summarising runs
+    hold the lock.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ _REMEDY = 'pip install "nonsmooth[studies]"'
 
 
 def require(what: str, *packages: str) -> None:
-    """Raise MissingPackagesError unless all packages are installed; none is imported."""
+    """Raise MissingPackagesError unless all packages are installed; they are not imported."""
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     if missing:
         raise MissingPackagesError(f"{what} needs {', '.join(missing)}: {_REMEDY}")
@@ -29,7 +29,7 @@ def meter(display: Display | None) -> ProgressMeter:
     Raises
     ------
     InvalidInput
-        If the display is of another kind.
+        If `display` is not a :class:`Display`.
     """
     remedy = "Leave it out, or give nonsmooth.progress.Quiet(), which shows nothing, or a Display of your own."
     if display is not None:
@@ -58,12 +58,12 @@ def check_phase(thing: str, at: Any, period: float | None) -> None:
 
 
 def rising_times(thing: str, at: ArrayLike) -> Array:
-    """Return times as an array [s].
+    """Return times as an array [s], shape [n].
 
     Raises
     ------
     InvalidInput
-        If they are not positive, or do not rise.
+        If the times are not positive, or do not rise.
     """
     times = np.atleast_1d(floats(thing, at))
     if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):

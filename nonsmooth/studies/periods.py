@@ -1,4 +1,4 @@
-"""Periods of motions that are sampled once a period, and whether they still settle."""
+"""Number of periods after which a sampled motion repeats, and a test whether it still settles."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from nonsmooth.types import Array
 
 _ALIKE = 1e-5
-"""Part of the range of all points within which two points count as equal."""
+"""Largest difference of points that count as equal, relative to the range of all points."""
 _LEAST = 1e-3
-"""Smallest range, as a part of the scale of the coordinate: a single point has no range."""
+"""Smallest range, relative to the scale of the coordinate: points that are all equal have the range 0."""
 
 
 def alike(points: Array, scale: float) -> float:
@@ -21,14 +21,14 @@ def alike(points: Array, scale: float) -> float:
     points : array
         All points, nan if a run failed; any shape.
     scale : float
-        Scale of the coordinate by the size of its body, in its unit.
+        Scale of the coordinate, from the size of its body, in the unit of the coordinate.
     """
     known = points[np.isfinite(points)]
     return _ALIKE * max(float(np.ptp(known)) if len(known) else 0.0, _LEAST * scale)
 
 
 def periods(points: Array, near: float) -> NDArray[np.int64]:
-    """Return the least n after which all points of each motion repeat, up to half of them; 0 if none does.
+    """Return the least n after which the samples of each motion repeat, up to half of them; 0 if they do not repeat.
 
     Points that are n, 2 n, 3 n ... samples apart must all agree: a motion that settles slowly does not repeat.
 
@@ -37,7 +37,7 @@ def periods(points: Array, near: float) -> NDArray[np.int64]:
     points : array
         Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan does not repeat.
     near : float
-        Largest difference of a coordinate of equal points.
+        Largest difference of points that count as equal, in each coordinate.
     """
     found = np.zeros(len(points), np.int64)
     for n in range(points.shape[1] // 2, 0, -1):
@@ -49,16 +49,18 @@ def periods(points: Array, near: float) -> NDArray[np.int64]:
 def settling(points: Array, near: float) -> NDArray[np.bool_]:
     """Return True for each motion that still approaches its attractor.
 
-    Points n samples apart then differ less and less: by less than half as much in the second half of the samples, or
-    always to the same side and never more.  Differences below a thousandth of ``near`` count as zero, as tolerances of
-    runs cause them.  A spiral that loses less than half in half of the samples is not noticed.
+    The differences of samples n apart are then compared, with n from :func:`periods`, or n = 1 to 4 if the motion does
+    not repeat.  The motion settles if the largest difference in the second half of the samples is less than half of
+    that in the first half.  It also settles if differences keep their sign and never grow.  Differences below a
+    thousandth of ``near`` count as zero, because tolerances of runs cause them.  A spiral that loses less than half of
+    its size in half of the samples is not noticed.
 
     Parameters
     ----------
     points : array
         Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan does not settle.
     near : float
-        Largest difference of a coordinate of equal points.
+        Largest difference of points that count as equal, in each coordinate.
     """
     found, repeats = np.zeros(len(points), np.bool_), periods(points, near)
     for i, one in enumerate(points):
@@ -69,7 +71,7 @@ def settling(points: Array, near: float) -> NDArray[np.bool_]:
             if half < 2 * n or not np.isfinite(change).all():
                 continue
             early, late = (float(np.max(np.abs(part))) for part in (change[:half], change[half:]))
-            # rounding and chaos change the side or the size
+            # rounding and chaos change the sign of differences, or make them grow
             rows = [change[k::n, j] for k in range(n) for j in range(one.shape[1])]
             drifts = all(np.all(row * row[0] >= 0.0) and np.all(np.diff(np.abs(row)) <= 0.0) for row in rows)
             found[i] |= early > 1e-3 * near and (late < 0.5 * early or drifts)

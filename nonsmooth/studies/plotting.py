@@ -23,13 +23,13 @@ MARKS = {
 }
 """Mark of each kind of special point."""
 HATCHED: dict[str, Any] = {"edgecolor": "0.6", "hatch": "xxx", "linewidth": 0.0}
-"""Areas of runs without records."""
+"""Style of areas of runs without records."""
 DOTTED: dict[str, Any] = {"linewidth": 0.9, "linestyle": ":"}
-"""Lines at runs without records."""
+"""Style of lines at runs without records."""
 MOST_CLASSES = 12
-"""Classes that one picture distinguishes."""
+"""Largest number of classes that one picture distinguishes."""
 _TITLE, _TICKS = 10, 6
-"""Size of a title [pt], and ticks of an axis at most: labels of eight characters fit."""
+"""Size of a title [pt], and largest number of ticks of an axis: labels of eight characters then fit."""
 
 
 def finish(
@@ -48,13 +48,13 @@ def finish(
     ax : Axes
         The axes.
     x, y : str
-        Labels with units; an axis without a label stays as it is.
+        Labels with units; an empty label changes nothing.
     title : str
-        The statement of the picture.
+        Title: the result that the picture shows.
     grid : str
         Axes with grid lines behind all else: "both", "y" or "".
     legend : bool or sequence of Artist
-        Whether there is a legend beside the axes, or its entries.
+        True for a legend beside the axes, False for none, or its entries.
     """
     if x:
         ax.set_xlabel(x)
@@ -70,7 +70,7 @@ def finish(
 
 
 def few_ticks(ax: Axes) -> None:
-    """Let the ticks along x be so few that their labels fit."""
+    """Limit the number of ticks along x, so that their labels fit."""
     ax.locator_params(axis="x", nbins=_TICKS)
 
 
@@ -87,7 +87,7 @@ def with_unit(name: str, unit: str) -> str:
 
 def class_colours(n: int) -> list[str]:
     """Return a colour for each of n classes: those of lines, then a row of hues."""
-    # black is the last of them: areas of it outshine the others
+    # black comes last: black areas would dominate the others
     first, more = (*COLOURS[1:], COLOURS[0]), n - len(COLOURS)
     if more <= 0:
         return list(first[:n])

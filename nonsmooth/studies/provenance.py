@@ -12,11 +12,11 @@ from typing import Any
 from nonsmooth.results.output import versions
 
 _BEFORE, _SHOWN = 20, 60
-"""Characters of a text before a difference, and in all."""
+"""Number of characters that a message shows before a difference, and in total."""
 
 
 def digest(owner: Any) -> str:
-    """Return the sha256 of the text of a function or class, "" if it is unknown, as in a terminal."""
+    """Return the sha256 of the source text of a function or class, "" if it has no source file."""
     try:
         text = inspect.getsource(owner)
     except (OSError, TypeError):
@@ -40,14 +40,14 @@ def _differing(one: Any, other: Any, key: str) -> Iterator[str]:
 
 
 def _about(text: str, at: int) -> str:
-    """Return the text around a place."""
+    """Return the part of a text around a character."""
     first = max(0, at - _BEFORE)
     head, tail = "... " if first else "", " ..." if first + _SHOWN < len(text) else ""
     return f"{head}{text[first : first + _SHOWN]}{tail}"
 
 
 def provenance() -> Mapping[str, str]:
-    """Return the versions that decide the last bits, and the processor of this machine."""
+    """Return the versions that decide the last bits of results, and the processor of this machine."""
     return {**versions(), "processor": _processor()}
 
 

@@ -47,7 +47,7 @@ class RunResult:
 
     @cached_property
     def summary(self) -> Mapping[str, Any]:
-        """The numbers of the scenario, computed once for all records."""
+        """Summary of the run by its scenario, computed once for all records; empty without a scenario."""
         return {} if self.scenario is None else dict(self.scenario.summarise(self.solution))
 
     def labels(self, axis: str) -> list[str]:
@@ -65,7 +65,7 @@ class StudyRecord:
     Attributes
     ----------
     name : str
-        Its name among the variables of the study.
+        Name of the variable in the dataset of the study.
     find : callable
         Returns its value for a RunResult: a number, None for a missing one, a word of ``words``, or an array.
     attributes : mapping
@@ -73,11 +73,11 @@ class StudyRecord:
     axes : mapping
         Name of each axis after the runs, and the labels along it.
     words : tuple of str
-        All words that a class can have; empty for numbers.
+        All words that the value can be; empty for numbers.
     dtype : str
-        Type of its values: "int8" of a class, "int64" of a count.
+        Type of the stored values: "int8" for words, "int64" for counts, "float64" otherwise.
     how : str
-        Definition of its values besides name and axes, for the specification of the study.
+        Definition of the values, such as the digest of a function, for the specification of the study.
     """
 
     name: str
@@ -90,16 +90,16 @@ class StudyRecord:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of a value."""
+        """Shape of the value of one run."""
         return tuple(map(len, self.axes.values()))
 
     @property
     def none(self) -> float:
-        """Value of a run that has none."""
+        """Fill value of a run without a value: nan, or -1 for counts and words."""
         return np.nan if self.dtype == "float64" else -1
 
     def of(self, result: RunResult) -> Any:
-        """Return the value of a run: numbers of this shape, or the number of a word.
+        """Return the value of a run: numbers of shape :attr:`shape`, or the index of a word in ``words``.
 
         Raises
         ------
@@ -122,7 +122,7 @@ class Recorder(ABC):
 
     @abstractmethod
     def record(self, first: RunResult) -> StudyRecord:
-        """Return the record.
+        """Return the record, with labels and units from the first run.
 
         Parameters
         ----------
@@ -132,7 +132,7 @@ class Recorder(ABC):
         Raises
         ------
         InvalidInput
-            If the run cannot have it.
+            If the runs of the study cannot have this record.
         """
 
 
@@ -151,7 +151,7 @@ _NUMBERS: Mapping[str, tuple[Callable[[RunResult], float], str, str, str]] = {
     "t_end": (attrgetter("solution.t_end"), "float64", "s", "time reached"),
     "energy_residual": (attrgetter("solution.energy.residual"), "float64", "1", "relative error of the energy account"),
 }
-"""Numbers that every run has: how they are found, type, unit, description."""
+"""Numbers that every run has: function of the result, type, unit, description."""
 _STATES = {"q_end": ("coordinate", "coordinates at the end"), "u_end": ("velocity", "velocities at the end")}
 _NUMBER = (int, float, np.number, np.bool_)
 
@@ -166,7 +166,7 @@ def _of_function(function: Function) -> StudyRecord:
 
 
 def _named(name: str, first: RunResult) -> StudyRecord:
-    """Return the record of a name that every run has, or that the summary of the first one has."""
+    """Return the record of a name: a number or state that every run has, or an entry of the scenario's summary."""
     if name in _NUMBERS:
         find, dtype, unit, text = _NUMBERS[name]
         return StudyRecord(name, find, described(text, unit), dtype=dtype)
@@ -209,7 +209,7 @@ def records(requested: Sequence[Requested], first: RunResult) -> tuple[StudyReco
     Raises
     ------
     InvalidInput
-        If they are not a list, or a name is unknown, comes twice, or belongs to something that is no number.
+        If `requested` is a string, a name is unknown or occurs twice, or a value is not a number or a listed word.
     """
     if isinstance(requested, str):
         raise InvalidInput("record", "must be a list", requested, f'For example record=["{requested}"].')

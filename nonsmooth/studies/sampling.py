@@ -16,9 +16,9 @@ from nonsmooth.types import Array
 
 Value: TypeAlias = float | str
 Range: TypeAlias = tuple[float, float]
-"""Lower end, which belongs to the range, and upper end."""
+"""Lower end, which is included, and upper end, which is not."""
 _STORED = {"i": "int64", "u": "uint64", "f": "float64", "U": "U"}
-"""Type in which values are stored, by their kind."""
+"""Type in which values are stored, by the kind of their numpy type."""
 
 
 @final
@@ -31,7 +31,7 @@ class Sampling:
     columns : mapping
         Values of each varied parameter, finite numbers or words, shape [n].
     description : mapping
-        How they were made, as JSON.
+        Kind and arguments of the sampling, as JSON types.
     dims : mapping
         Length of each axis of a grid, in C order; empty for other samplings.
     """
@@ -57,7 +57,7 @@ class Sampling:
 
 
 def grid(**axes: ArrayLike) -> Sampling:
-    """Return all combinations of values, the last parameter fastest.
+    """Return all combinations of values, the last parameter varies fastest.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def grid(**axes: ArrayLike) -> Sampling:
     Raises
     ------
     InvalidInput
-        If there is no parameter, or one has no value, the same one twice, or one that is not finite.
+        If no parameter is given, or its values are empty, repeated or not finite.
     """
     if not axes:
         raise InvalidInput("grid", "must vary a parameter at least", axes, "For example grid(restitution=[0.5, 0.9]).")
@@ -94,7 +94,7 @@ def listed(rows: Iterable[Mapping[str, Value]]) -> Sampling:
     Raises
     ------
     InvalidInput
-        If there is no row, one lacks a name, or a value is not finite.
+        If there is no row, rows have different names, or a value is not finite.
     """
     all_rows = [dict(row) for row in rows]
     names = list(all_rows[0]) if all_rows else []
@@ -111,7 +111,7 @@ def columns(table: Any) -> Sampling:
     Parameters
     ----------
     table : mapping, or DataFrame
-        Columns of one length, by the names of parameters.
+        Columns of equal length, by the names of the parameters.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def random(n: int, seed: int = 0, /, **ranges: Range) -> Sampling:
     Raises
     ------
     InvalidInput
-        If there is no range, or one is empty or not finite.
+        If no range is given, or a range is empty or not finite.
     """
 
     def unit(d: int) -> Array:

@@ -1,4 +1,4 @@
-"""Records of states: at some times, and the last ones, one a period, by which attractors are distinguished."""
+"""Records of states: at given times, or once a period at the end of a run, which distinguish attractors."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from nonsmooth.studies.records import Recorder, RunResult, StudyRecord
 from nonsmooth.types import Array
 
 NAME = "stroboscopic"
-"""The name of the record."""
+"""Name of the record of a :class:`Stroboscope`."""
 _AXES = {"q": "coordinate", "u": "velocity"}
 _REMEDY = "If a parameter that varies changes the frequency, make a study of its own for each of its values."
 _ROUND = 1e-9
-"""Part of a period by which round-off may place the last section after the end."""
+"""Part of a period by which the last section may be after the end of the run, because of round-off."""
 
 
 @final
@@ -60,14 +60,14 @@ class Trajectory(Recorder):
         return StudyRecord(self.name, self, text, {"time": list(map(float, self.times)), axis: first.labels(axis)})
 
     def __call__(self, result: RunResult) -> Any:
-        """Return the states of a run, shape [n, n_q] or [n, n_u]."""
+        """Return the coordinates or velocities of a run at the times, shape [n, n_q] or [n, n_u]."""
         return result.solution.history(self.name, times=list(self.times))[self.name]
 
 
 @final
 @dataclass(frozen=True)
 class Stroboscope(Recorder):
-    """Some coordinates and velocities at the last sections of the stroboscopic map.
+    """Coordinates and velocities once a period of the drive, in the last periods of the run.
 
     Parameters
     ----------
@@ -76,12 +76,12 @@ class Stroboscope(Recorder):
     within : tuple of str
         Names of the coordinates and velocities that determine the motion, "z" or "ball.vz"; no coordinate that drifts.
     keep : int
-        Number of sections, the last ones of the run.
+        Number of recorded sections, at the end of the run.
     at : float
         Time of the section in each period [s], at which no velocity jumps.
     phase : str, optional
-        Parameter of the scenario that is the phase of the drive at t = 0 [rad], if it is varied: ``at`` then counts
-        from phase 0, else from t = 0.
+        Parameter of the scenario that is the phase of the drive at t = 0 [rad], if the study varies it.  Then ``at``
+        counts from phase 0; by default it counts from t = 0.
 
     Raises
     ------
@@ -111,7 +111,7 @@ class Stroboscope(Recorder):
         Raises
         ------
         UnknownName
-            If a coordinate or the phase has no such name.
+            If no coordinate, velocity or parameter has the given name.
         InvalidInput
             If the runs are too short.
         """
@@ -130,7 +130,7 @@ class Stroboscope(Recorder):
         return StudyRecord(NAME, self, text, axes, how=repr(self))
 
     def __call__(self, result: RunResult) -> Any:
-        """Return the states of a run, shape [keep, n_within].
+        """Return the coordinates and velocities of a run at its last sections, shape [keep, n_within].
 
         Raises
         ------
@@ -150,7 +150,7 @@ class Stroboscope(Recorder):
         return float(result.scenario.values[self.phase]) / (2.0 * math.pi)
 
     def _times(self, t_end: float, start: float) -> Array:
-        """Return the last times of a run that ends at ``t_end`` [s], shape [keep]."""
+        """Return the times of the last sections of a run that ends at ``t_end`` [s], shape [keep]."""
         before = start - self.at / self.period
         last = math.floor(t_end / self.period + before + _ROUND)
         times = (np.arange(last - self.keep + 1, last + 1) - before) * self.period

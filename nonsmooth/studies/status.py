@@ -1,4 +1,4 @@
-"""Status and reason of the runs of a study, as codes of a store and in words."""
+"""Status and reason of the runs of a study, as stored codes and in words."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ if TYPE_CHECKING:
     import xarray
 
 ALWAYS = ("status", "reason")
-"""Records of every study."""
+"""Names of the records that every study has."""
 
 
 class CaseStatus(StrEnum):
-    """How a run of a study ended; a store keeps its ``code``."""
+    """How a run of a study ended; the folder of the study stores its ``code``."""
 
     NOT_RUN = "not_run"
-    """The run has no result in the store yet."""
+    """The run has no stored result yet."""
     DONE = "done"
-    """It reached its end."""
+    """The run reached its end."""
     FAILED = "failed"
-    """It could not be built, or failed."""
+    """The system could not be built, the run failed, or a record failed."""
     BUDGET = "budget"
-    """Its steps were used up."""
+    """The run reached its largest number of steps before its end."""
     CRASHED = "crashed"
-    """Its process died."""
+    """The process of the run died."""
     SUSPECT = "suspect"
-    """It reached its end, but its own checks found something."""
+    """The run reached its end, but a check of the run failed."""
 
     @property
     def code(self) -> int:
-        """Place among the statuses."""
+        """Stored number of the status: its place in this list."""
         return list(CaseStatus).index(self)
 
 
@@ -47,7 +47,7 @@ WORKER_DIED, RAISED, UNKNOWN = -2, -1, 0
 
 
 def reason_of(message: str) -> int:
-    """Return the engine's code of the sentence that says why a run ended."""
+    """Return the engine's code of the reason in a message; ``RAISED`` if the message has no reason of the engine."""
     return next((code for code, sentence in modes.REASONS.items() if sentence in message), RAISED)
 
 

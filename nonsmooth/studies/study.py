@@ -34,14 +34,14 @@ if TYPE_CHECKING:
 
 EXECUTORS: Mapping[str, Callable[[], Executor]] = {"serial": Serial, "threads": Threads, "dask": Dask}
 _CHUNKS, _LARGEST = 40, 1000
-"""Default number of chunks, and most runs in one of them."""
+"""Default number of chunks, and largest default number of runs in a chunk."""
 _FIRST_SAMPLES = 2
-"""Samples of the first run, from which the records are made."""
+"""Length of the first run, from which the records are made, in sample intervals."""
 
 
 @final
 class Study:
-    """Many runs over parameters.
+    """Many runs of a system over its parameters, stored while they are computed.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class Study:
         Parameters of the runs: :func:`grid`, :func:`random`, :func:`sobol`, :func:`latin_hypercube`, :func:`listed`,
         :func:`columns`.
     record : sequence
-        Records of each run, besides ``status`` and ``reason``: q_end, u_end, t_end, impacts, events, steps,
+        Records of each run, in addition to ``status`` and ``reason``: q_end, u_end, t_end, impacts, events, steps,
         energy_residual, a name of the scenario's summary, a function ``f(scenario, solution) -> number``, or a
         :class:`Trajectory`.
     t_end : float, optional
@@ -60,7 +60,7 @@ class Study:
     engine : Engine, optional
         Engine of all runs, with its options.
     budget : int, optional
-        Steps of the flow after which a run is given up.
+        Largest number of steps of a run; a run that needs more ends with the status "budget" and has no records.
 
     Raises
     ------
@@ -102,24 +102,24 @@ class Study:
 
     @property
     def records(self) -> tuple[str, ...]:
-        """Names of the records of each run, besides ``status`` and ``reason``."""
+        """Names of the records of each run, in addition to ``status`` and ``reason``."""
         return tuple(one.name for one in self._work.records)
 
     def _first(self) -> RunResult:
-        """Return the first samples of the first run that can be built; a run that cannot fails later."""
+        """Return a short first run, of the first parameters that succeed; a run that fails here fails again later."""
         last: Exception = InvalidInput("study", "must have a run", None, "Add one.")
         for run in range(min(len(self), 10)):
             try:
                 case = self._cases.case(self._sampling.at(run))
                 t_end = min(case.t_end, _FIRST_SAMPLES * (case.sample_interval or case.t_end))
                 return self._work.result(case, t_end)
-            except Exception as error:  # of a function of the user, too
+            except Exception as error:  # a function of the user may raise anything
                 last = error
         raise last
 
     @property
     def spec(self) -> str:
-        """Definition of the study as JSON; studies with the same definition have the same bits."""
+        """Definition of the study as JSON; studies with the same definition give the same bits."""
         known = {
             "runs": dict(self._cases.described()),
             "sampling": dict(self._sampling.description),
@@ -142,20 +142,20 @@ class Study:
         display: Display | None = None,
         request: Mapping[str, Any] | None = None,
     ) -> xarray.Dataset:
-        """Run everything that is not stored yet, and return all records.
+        """Compute all runs that are not stored yet, and return all records.
 
         Parameters
         ----------
         path : Path or str
-            Folder of the study: a new one, or one that this study has begun, which continues.
+            Folder of the study: a new or empty folder, or the folder of this study, which then continues.
         executor : str or Executor
             Computes the runs: serial, threads or dask; all give the same bits.
         chunk : int, optional
-            Runs that are stored together; fixed when a study begins.
+            Number of runs that are stored together; fixed when a study begins.
         display : Display, optional
             Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
         request : mapping, optional
-            The request of the command line.
+            Request of the command line, which is stored with the study.
 
         Returns
         -------
@@ -169,7 +169,7 @@ class Study:
         MissingPackagesError
             If the extra `studies` is not installed.
         FileError
-            If it cannot be written; complete chunks stay.
+            If the folder cannot be written to; complete chunks are kept.
         """
         require("a study", "xarray")
         check_chunk(chunk)
@@ -214,12 +214,12 @@ class Study:
         StudyFolder.create(path, self._work.records, self._sampling, self._cases, size, attributes)
 
     def _check_same(self, store: StudyFolder, chunk: int | None) -> None:
-        """Refuse the store of another study; add versions and processor to its provenance.
+        """Raise InvalidInput if the folder belongs to another study; add versions and processor to its provenance.
 
         Warns
         -----
         OtherVersions
-            If it continues with other versions.
+            If the study continues with other versions or on another processor.
         """
         known = store.attributes
         if known["sha256"] != hashlib.sha256(self.spec.encode()).hexdigest():
@@ -244,12 +244,12 @@ def check_chunk(chunk: int | None) -> None:
 
 
 def executor_of(executor: str | Executor) -> Executor:
-    """Return an executor by its name, or as it is.
+    """Return the executor of a name; an executor is returned unchanged.
 
     Raises
     ------
     UnknownName
-        If there is none of that name.
+        If no executor has this name.
     """
     if isinstance(executor, Executor):
         return executor

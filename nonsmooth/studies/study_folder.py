@@ -1,9 +1,8 @@
 """StudyFolder: a study on disk, and the dataset of a stored study.
 
-The folder has an array for each record over the runs; the status commits a chunk of runs.
-
-One process writes.  Of a chunk of runs the records and the messages of runs without records come first, the status
-last, as :mod:`nonsmooth.storage.array_folder` says: a chunk with a status is complete, any other is written anew.
+The folder has an array over the runs for each record.  Runs are stored in chunks, by one process at a time.  The
+records of a chunk and the messages of its runs without records are written first, the status last.  A chunk with a
+status is complete; a chunk without it is computed again (:mod:`nonsmooth.storage.array_folder`).
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ if TYPE_CHECKING:
     import xarray
 
 _STATUS, _FAILURE = "status", "failure"
-"""Arrays of the status, and of the messages of runs without records."""
+"""Names of the arrays of the status, and of the messages of runs without records."""
 
 
 @final
@@ -51,7 +50,7 @@ class StudyFolder:
     Raises
     ------
     InvalidInput
-        If it holds no study, another version wrote it, or it is damaged.
+        If the folder holds no study, another version wrote it, or it is damaged.
     """
 
     def __init__(self, path: Path) -> None:
@@ -75,9 +74,9 @@ class StudyFolder:
         chunk: int,
         attributes: Mapping[str, Any],
     ) -> None:
-        """Make the folder of a study that begins; it is one when its metadata are there, which come last.
+        """Make the folder of a new study; its metadata are written last and mark it as a study.
 
-        A study that another process has made meanwhile stays as it is.
+        If another process has made the study in the meantime, nothing changes.
 
         Parameters
         ----------
@@ -97,7 +96,7 @@ class StudyFolder:
         InvalidInput
             If the folder has other files.
         FileError
-            If it cannot be written.
+            If the folder cannot be written to.
         """
         if path.exists() and (not path.is_dir() or (any(path.iterdir()) and not (path / LOCK).exists())):
             raise InvalidInput(str(path), "must be a new or empty folder", "something else", "Choose another name.")
@@ -150,19 +149,19 @@ class StudyFolder:
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[None]:
-        """Hold the lock.
+        """Hold the lock of the folder, so that no other process writes.
 
         Raises
         ------
         InvalidInput
-            If another process writes there, or it holds a link.
+            If another process writes there, or the folder has a symbolic link.
         """
         check_no_links(self.path)
         with _locked(self.path):
             yield
 
     def note(self, attributes: Mapping[str, Any]) -> None:
-        """Add attributes.
+        """Add attributes to the study, and write them.
 
         Raises
         ------
@@ -173,17 +172,17 @@ class StudyFolder:
         self._arrays.commit(safely=True)
 
     def committed(self) -> list[int]:
-        """Numbers of the chunks that are done."""
+        """Return the numbers of the complete chunks."""
         names = (file.name.removeprefix("c.") for file in (self.path / _STATUS).glob("c.*"))
         return sorted(int(name) for name in names if name.isdigit())
 
     def write(self, block: ChunkResult) -> None:
-        """Commit a chunk.
+        """Write the result of a chunk, and commit it.
 
         Raises
         ------
         FileError
-            If it cannot be written; it is not committed then.
+            If the chunk cannot be written; it is not committed then.
         """
         first, n = block.chunk.first, len(block.chunk.parameters)
         for name, values in block.arrays.items():
@@ -195,7 +194,7 @@ class StudyFolder:
         self._arrays.flush(safely=True, counts=True)
 
     def read(self, name: str) -> NDArray[Any]:
-        """An array; the runs that are not done have its fill value.
+        """Return an array by its name; runs without a result have its fill value.
 
         Raises
         ------
@@ -212,11 +211,11 @@ class StudyFolder:
         return np.concatenate(chunks)[: self.n_runs]
 
     def texts(self) -> dict[int, str]:
-        """Why runs have no records, by the number of the run."""
+        """Return the messages of runs without records, by the number of the run."""
         return {run: str(text) for run, text in enumerate(self.read(_FAILURE)) if text}
 
     def damage(self) -> list[str]:
-        """Read all chunks that are committed; a message for each that is not whole."""
+        """Read all complete chunks, and return a message for each damaged array of a chunk."""
         found = []
         for number in self.committed():
             for name in (*self.variables, _FAILURE):
@@ -238,18 +237,18 @@ def open_study(path: Path | str) -> xarray.Dataset:
     Parameters
     ----------
     path : Path or str
-        Its folder.
+        Folder of the study.
 
     Returns
     -------
     xarray.Dataset
-        The records: of a grid over its axes, else over ``run`` with the parameters as coordinates.  Runs that have
-        not come to their end have NaN, or -1 in place of a count or a word; ``status`` and ``reason`` tell why.
+        The records, over the axes of a grid, otherwise over ``run`` with the parameters as coordinates.  Runs without
+        records have NaN, or -1 in place of a count or a word; ``status`` and ``reason`` give the cause.
 
     Raises
     ------
     InvalidInput
-        If there is none, another version wrote it, or it is damaged.
+        If the folder holds no study, another version wrote it, or it is damaged.
     """
     import xarray
 
@@ -282,7 +281,7 @@ def _on_grid(flat: xarray.Dataset, dims: dict[str, int]) -> xarray.Dataset:
 
 
 def _classes(words: Sequence[str]) -> dict[str, Any]:
-    """Values and names of classes, as the CF conventions have them."""
+    """Return the numbers and names of words, as attributes of the CF conventions."""
     return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(word.replace(" ", "_") for word in words)}
 
 
@@ -322,7 +321,7 @@ def _locked(path: Path) -> Iterator[None]:
 
 
 def _clear(path: Path) -> None:
-    """Remove what there is of a study that was cut off before it was one, but for the lock."""
+    """Remove all files of a study that was interrupted before its metadata were written, except the lock."""
     with writing(path):
         for entry in path.iterdir():
             if entry.name != WRITER:

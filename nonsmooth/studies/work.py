@@ -36,7 +36,7 @@ class Chunk:
     parameters: tuple[dict[str, Value], ...]
 
     def runs(self) -> list[Chunk]:
-        """Return its runs, each as a chunk of one."""
+        """Return the runs, each as a chunk of one run."""
         return [Chunk(self.first + i, (one,)) for i, one in enumerate(self.parameters)]
 
 
@@ -50,9 +50,9 @@ class ChunkResult:
     chunk : Chunk
         The chunk.
     arrays : mapping
-        Values of all runs, for each record, status and reason.
+        Values of all runs, for each record, the status and the reason.
     texts : mapping
-        Reason in words, for each run without records.
+        Reason in words of each run without records, by the number of the run.
     """
 
     chunk: Chunk
@@ -68,7 +68,7 @@ class ChunkResult:
 
 
 class RunRow(NamedTuple):
-    """Status and reason of a run, the reason in words if it has no records, values by record."""
+    """Result of a run: status, reason, the reason in words if it has no records, and values by record."""
 
     status: CaseStatus
     reason: int
@@ -79,7 +79,7 @@ class RunRow(NamedTuple):
 @final
 @dataclass(frozen=True)
 class Work:
-    """How each run is built, integrated and recorded.
+    """Builds, integrates and records the runs of a study.
 
     Attributes
     ----------
@@ -88,9 +88,9 @@ class Work:
     engine : Engine
         Integrates them.
     budget : int or None
-        Steps after which a run is given up.
+        Largest number of steps of a run.
     records : tuple of StudyRecord
-        What is kept of each run.
+        The records of each run.
     """
 
     cases: CaseFactory
@@ -99,7 +99,7 @@ class Work:
     records: tuple[StudyRecord, ...] = field(default=())
 
     def chunk(self, chunk: Chunk, before_each: Callable[[], object] = lambda: None) -> ChunkResult:
-        """Return the result of a chunk; an exception of ``before_each`` ends it."""
+        """Return the result of a chunk; an exception that ``before_each`` raises ends the work."""
         rows = []
         for parameters in chunk.parameters:
             before_each()
@@ -129,7 +129,7 @@ class Work:
         if solution.status == "interrupted":
             raise KeyboardInterrupt
         reason = reason_of(solution.message)
-        # a run of a study has no other condition
+        # only the largest number of steps is a condition that ends a run of a study
         if solution.message == REASONS[Status.CONDITION_MET]:
             text = f"At t = {solution.t_end:.9g} s its {self.budget} steps were used up."
             return RunRow(CaseStatus.BUDGET, reason, text)

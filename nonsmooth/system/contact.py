@@ -25,19 +25,19 @@ class Contact:
     Attributes
     ----------
     name : str
-        Its name, once among the contacts of the system.
+        Name of the contact, unique among the contacts of the system.
     first, second : Body
         The bodies; the normal points from the first to the second.
     frames : tuple of int
-        Number of the frame on either body.
+        Number of the frame of each body.
     shapes : tuple of Shape
-        The shape on either.
+        Shape of each body.
     kinematics : ContactKinematics
         Geometry of the pair of shapes.
     extents : tuple of float
-        Radius about its frame's origin that holds either shape [m].
+        Radius of the sphere about the frame's origin that holds each shape [m].
     levers : tuple of float
-        Arm about its frame's origin with which a turn moves either surface along its normal [m].
+        Largest speed of each surface along its normal in a turn about its frame's origin, per angular velocity [m].
     normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw or None
@@ -67,14 +67,14 @@ class Contact:
         frames: tuple[int, int] = (0, 0),
         name: str = "",
     ) -> Contact:
-        """Contact of two shapes; extents and levers are those of the shapes.
+        """Contact of two shapes, with the extents and levers of the shapes.
 
         Parameters
         ----------
         bodies, shapes, kinematics, laws, frames
-            The attributes of these names.
+            Attributes of the contact; ``laws`` has the normal, the friction and the impact law.
         name : str, optional
-            Its name; if it is empty, :meth:`System.add_contact` makes it from those of the bodies.
+            Name of the contact; if empty, :meth:`System.add_contact` makes it from the names of the bodies.
         """
         (one, two), (first, second) = bodies, shapes
         extents, levers = (first.extent, second.extent), (first.lever, second.lever)
@@ -85,7 +85,7 @@ class Contact:
         return f"contact {self.name!r}"
 
     def __repr__(self) -> str:
-        """Its name, geometry and laws, in words."""
+        """Name, kinematics and laws of the contact."""
         laws = ", ".join(type(law).__name__ for law in (self.normal, self.friction, self.impact) if law is not None)
         return f"Contact({self.name!r}: {type(self.kinematics).__name__}; {laws})"
 
@@ -104,11 +104,11 @@ class ContactDeclaration:
     first, second : Body
         The bodies.
     shapes : tuple
-        For either body numbers of its shapes, or None for all.
+        For each body the numbers of its shapes, or None for all shapes.
     laws : ContactLaws
-        The laws.
+        Laws of the contacts.
     name : str
-        The name chosen for the contacts, empty where theirs were made.
+        Name that the user chose for the contacts; empty if their names were made from those of the bodies.
     """
 
     first: Body
@@ -125,9 +125,9 @@ class Watched:
     Attributes
     ----------
     name : str
-        Its name, once among the guards of the system.
+        Name of the guard, unique among the guards of the system.
     chosen : bool
-        Whether the user chose it.
+        Whether the user chose the name.
     guard : Guard
         The guard.
     """
@@ -148,17 +148,17 @@ class Tie:
     Attributes
     ----------
     name : str
-        Its name, once among the joints or loads of the system.
+        Name of the joint or load, unique among the joints or loads of the system.
     chosen : bool
-        Whether the user chose it.
+        Whether the user chose the name.
     kind : str
         "joint" or "load".
     first, second : Body
         The bodies.
     frames : tuple of int
-        Number of the frame on either body.
+        Number of the frame of each body.
     component : Joint or Load
-        What ties them.
+        The joint or load itself.
     """
 
     name: str

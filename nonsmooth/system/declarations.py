@@ -18,7 +18,7 @@ from nonsmooth.system.pairing import ContactGeometries, Side, select
 
 _Facing: TypeAlias = tuple[Side, Side, ContactKinematics]
 _WITHOUT_SHAPE = -1
-"""Number of a shape in the pairs of contacts that were given with their kinematics: no body has to carry it."""
+"""Number of a shape, in ``paired``, of a contact with given kinematics, because its bodies need not carry the shape."""
 
 
 @final
@@ -33,11 +33,11 @@ class ContactDeclarations:
     contacts : list of Contact
         All contacts.
     declared : list of ContactDeclaration
-        An entry for every two bodies or choice of their shapes.
+        One entry for each call of ``System.contact``, and for each pair of bodies of ``System.contact_all``.
     given : list of Contact
         The contacts of ``System.add_contact``.
     paired : set
-        Pairs that have contacts, each of two bodies and shapes by their numbers.
+        Pairs of shapes that have contacts. A shape is given by the number of its body and its own number.
     excluded, left_out : list of pairs of Body
         Pairs of ``System.exclude``, and of ``exclude`` in ``System.contact_all``.
     """
@@ -52,7 +52,7 @@ class ContactDeclarations:
     _geometries: ContactGeometries = field(default_factory=ContactGeometries, init=False)
 
     def copied(self, members: Members) -> ContactDeclarations:
-        """The same declarations among members that are the same bodies, to be changed apart from these."""
+        """Independent copy of the declarations for ``members``, a copy of the bodies' numbers and names."""
         lists = [*self.contacts], [*self.declared], [*self.given]
         return ContactDeclarations(members, *lists, {*self.paired}, [*self.excluded], [*self.left_out])
 
@@ -64,7 +64,7 @@ class ContactDeclarations:
         shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
         name: str = "",
     ) -> tuple[Contact, ...]:
-        """Contacts of two bodies, as of ``System.contact``."""
+        """Add the contacts of two bodies; arguments and errors as for ``System.contact``."""
         where = "System.contact"
         names = self._checked(where, first, second, laws.impact)
         sides = select(where, (first, second), shapes, self._geometries.shapes)
@@ -88,7 +88,7 @@ class ContactDeclarations:
         return tuple(added)
 
     def add_given(self, contact: Contact) -> Contact:
-        """A contact with given kinematics, as of ``System.add_contact``."""
+        """Add a contact with given kinematics; errors as for ``System.add_contact``."""
         where = "System.add_contact"
         check_kind(where, contact, Contact, "Make it by nonsmooth.system.contact.Contact.of_shapes(...).")
         kinematics, first, second = contact.kinematics, contact.first, contact.second
@@ -111,7 +111,7 @@ class ContactDeclarations:
         exclude: Iterable[tuple[Body, Body]],
         joined: Iterable[tuple[Body, Body]],
     ) -> tuple[Contact, ...]:
-        """Contacts of all bodies, as of ``System.contact_all``; ``joined`` are the pairs tied by a joint."""
+        """Add contacts between all bodies, as ``System.contact_all`` does; ``joined`` are the pairs tied by a joint."""
         where, members = "System.contact_all", self.members
         materials = Materials(default=laws) if isinstance(laws, ContactLaws) else laws
         remedy = "Write nonsmooth.ContactLaws(normal, friction, impact), or nonsmooth.Materials({...})."
@@ -136,12 +136,12 @@ class ContactDeclarations:
         return tuple(self.contacts[n_before:])
 
     def _checked(self, where: str, first: Body, second: Body, impact: ImpactLaw | None) -> tuple[str, str]:
-        """Names of two bodies that may have a contact with an impact law.
+        """Names of two bodies, after a check that they may have a contact with this impact law.
 
         Raises
         ------
         InvalidInput
-            If a body is not of the system, they are the same, or another contact has an impact law of another kind.
+            If a body is not of the system, both are the same, or another contact has an impact law of another kind.
         """
         names = self.members.names(where, first, second)
         present = next((contact.impact for contact in self.contacts if contact.impact is not None), impact)
@@ -186,7 +186,7 @@ def _contact(name: str, facing: _Facing, laws: ContactLaws) -> Contact:
 
 
 def _is_same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:
-    """True if one impact can have both laws: they are processes, or of the same class."""
+    """True if one impact can use both laws: both are impact processes, or both are of the same class."""
     if isinstance(one, ImpactProcess):
         return isinstance(other, ImpactProcess)
     return type(one) is type(other)

@@ -1,4 +1,4 @@
-"""Checks of what a user gives: gravity, bodies, and their starts."""
+"""Checks of the inputs of a system: gravity, bodies, and their starts."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def gravity_of(value: float | Sequence[float]) -> tuple[float, float, float]:
     Raises
     ------
     InvalidInput
-        If it is neither, is not finite or larger than 1e4 m/s^2, or is a number below 0.
+        If a vector has not 3 components, a component is not finite or above 1e4 m/s^2, or a number is negative.
     """
     if np.shape(value) != ():
         x, y, z = vector(_GRAVITY, cast("Sequence[float]", value), 3, _GRAVITY_UNIT)
@@ -40,11 +40,11 @@ def gravity_of(value: float | Sequence[float]) -> tuple[float, float, float]:
 
 
 _UNIT = 1e-9
-"""Allowed error of the length of a quaternion. After a division by its norm the error is round-off."""
+"""Allowed deviation of a quaternion's length from 1, above the round-off that a division by its norm leaves."""
 
 
 def check_bodies(bodies: Sequence[Body]) -> None:
-    """Raise InvalidInput if these are not bodies for a system: at least one, each once."""
+    """Raise InvalidInput if there is no body, an entry is not a Body, or a body is listed twice."""
     check_kind("System.bodies", bodies, Collection, "Write System([ball, plate]).")
     for body in bodies:
         several = "Unpack a list of bodies by a star: System([plate, *balls])."
@@ -73,7 +73,7 @@ def _instead(given: Any) -> str:
     if isinstance(given, type):
         return f"Make an object of the class: {given.__name__}(...)."
     if isinstance(given, Shape):
-        # a body of one shape has the name of the shape
+        # a body that consists of one shape is installed under the name of the shape
         name = registry.name_of(type(given)) or ""
         known = [registry.load("bodies", name).__name__] if name in registry.names("bodies") else []
         return f"That is a shape; take a body that has it: {' or '.join([*known, 'one of `nonsmooth list bodies`'])}."
@@ -86,7 +86,7 @@ def start_of(body: Body, name: str, q: Vector, u: Vector) -> tuple[Vector, Vecto
     Raises
     ------
     InvalidInput
-        If their number is not that of the body, one is not finite, or a quaternion has another length than 1.
+        If a vector has the wrong number of entries, an entry is not finite, or the length of a quaternion is not 1.
     """
     given = []
     for letter, value, size in (("q", q, body.n_q), ("u", u, body.n_u)):
@@ -100,7 +100,7 @@ def start_of(body: Body, name: str, q: Vector, u: Vector) -> tuple[Vector, Vecto
 
 
 def check_quaternion(thing: str, body: Body, q: Vector) -> None:
-    """Raise InvalidInput if the quaternion of a body has another length than 1. Bodies without one pass."""
+    """Raise InvalidInput if the length of a body's quaternion is not 1. Bodies without a quaternion pass."""
     if body.quaternion < 0:
         return
     length = float(np.linalg.norm(q[body.quaternion : body.quaternion + 4]))

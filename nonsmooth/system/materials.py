@@ -38,7 +38,7 @@ class ContactLaws:
     normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw, optional
-        The law of impacts, which a compliant contact does without.
+        The law of impacts; None if the normal law is compliant.
 
     Raises
     ------
@@ -64,7 +64,7 @@ class Materials:
     pairs : mapping
         (one material, the other) -> ContactLaws, in either order; a material with itself is a pair like any other.
     default : ContactLaws, optional
-        For pairs that are not in the table, and for bodies without a material; without it these are errors.
+        Laws of pairs that are not in the table, and of bodies without a material. Without a default these are errors.
 
     Raises
     ------
@@ -98,14 +98,14 @@ class Materials:
             raise UnknownName("material", name, self.names)
 
     def laws(self, one: str | None, other: str | None) -> ContactLaws:
-        """Laws of two materials; None stands for a body without one.
+        """Laws of a contact between two materials; None stands for a body without a material.
 
         Raises
         ------
         UnknownName
             If the table does not have a material.
         InvalidInput
-            If neither the pair nor a default is given.
+            If the table has no laws for the pair, and no default.
         """
         for name in (one, other):
             if name is not None:
@@ -128,7 +128,7 @@ class Materials:
 
 
 def check_laws(where: str, normal: NormalLaw, friction: TangentialLaw, impact: ImpactLaw | None) -> None:
-    """Raise InvalidInput, naming ``where``, unless the laws are of their kinds and go with one another."""
+    """Raise InvalidInput, naming ``where``, if a law is of the wrong kind or does not go with the other laws."""
     _check_role(where, "normal", normal)
     _check_role(where, "friction", friction)
     if isinstance(normal, CompliantNormalLaw):
@@ -174,13 +174,14 @@ def _check_bundle(where: str, laws: ContactLaws) -> None:
 
 
 _MOST = 2
-"""Of so many contacts the share is followed through all changes of their loads; of more it is not, yet."""
+"""Largest number of contacts whose distribution of static friction is followed through all changes of their loads."""
 
 
 def check_sharing(where: str, laws: ContactLaws, n: int) -> None:
-    """Raise InvalidInput, naming ``where``, if ``n`` compliant contacts of two bodies hold by static friction.
+    """Raise InvalidInput, naming ``where``, if more than two of ``n`` compliant contacts have static friction.
 
-    That friction is rigid, and not unique, while each contact has a bound of its own that vibrates with its load.
+    All ``n`` contacts are between the same two bodies. Static friction is rigid, so its distribution over the contacts
+    is not unique. The friction bound of each contact vibrates with the load of the contact.
     """
     if n <= _MOST or not isinstance(laws.normal, CompliantNormalLaw):
         return

@@ -15,7 +15,7 @@ from nonsmooth.system.names import Naming
 
 @final
 class Members:
-    """The bodies of a system. They are told apart as objects, however equal they are.
+    """The bodies of a system. Bodies are distinguished as objects, even if their values are equal.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class Members:
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.bodies: tuple[Body, ...] = state["bodies"]
         self.naming: Naming = state["naming"]
-        # copies of bodies have identities of their own
+        # computed for each copy of the system, because the copy of a body has another identity
         self._numbers = {id(body): number for number, body in enumerate(self.bodies)}
 
     def number(self, where: str, body: Body) -> int:
@@ -63,12 +63,12 @@ class Members:
         return found
 
     def check_frames(self, where: str, first: Body, second: Body, frames: tuple[int, int]) -> None:
-        """Check two bodies, as :meth:`names` does, and that each has the frame of a number.
+        """Check that two different bodies of the system have the frames with these numbers.
 
         Raises
         ------
         InvalidInput
-            If a frame is unknown, and as :meth:`names`.
+            If a body is not of this system, both are the same, or a body has no frame with the number.
         """
         names = self.names(where, first, second)
         check_pair(f"{where}: frames", frames)

@@ -1,6 +1,6 @@
-"""Names of bodies and of what is declared between them: chosen by the user, else made from what they are.
+"""Names of the bodies, contacts, joints, loads and guards of a system: chosen by the user, or made from their kinds.
 
-Made names count from 1, where several of a kind have none chosen: "ball 1", "ball 2", "plate", "plate - ball 2",
+Made names are numbered from 1 if several parts have the same one: "ball 1", "ball 2", "plate", "plate - ball 2",
 "plate - ball 2 (1)", "hinge base - arm".
 """
 
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
 _BETWEEN = " - "
 _RESERVED = (_BETWEEN, "(", ")")
-"""Parts that join made names. Chosen names have none of them, so that no two names are equal."""
+"""Texts that join the parts of made names. Chosen names must not contain them, so that they differ from made names."""
 _HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 @final
 @dataclass(frozen=True)
 class Names:
-    """The names of all parts of a system, each once among its kind, in the order of the system.
+    """The names of all parts of a system, unique within each kind, in the order declared.
 
     Attributes
     ----------
@@ -51,11 +51,11 @@ def kind_word(component: object) -> str:
 
 
 def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ...]:
-    """Names of bodies: the chosen ones, and made ones in place of those that are empty."""
+    """Names of bodies: the chosen name of each body, or a made name if the chosen name is empty."""
     words = {kind: kind_word(body) for kind, body in {type(body): body for body in bodies}.items()}
     kinds = ["" if name else words[type(body)] for body, name in zip(bodies, chosen, strict=True)]
     totals, taken = Counter(kinds), {*chosen}
-    # a kind of which there is one has its bare word, unless somebody chose that
+    # a single body of a kind has the name of the kind without a number, unless this name is chosen for another body
     free = {
         kind: (word for word in itertools.chain([kind] * (total == 1), _numbered(kind)) if word not in taken)
         for kind, total in totals.items()
@@ -68,7 +68,7 @@ def _numbered(kind: str) -> Iterator[str]:
 
 
 def between(first: str, second: str, what: str = "") -> str:
-    """Name of what is between two bodies of these names; ``what`` says what it is, a contact if empty."""
+    """Name of a contact, joint or load between two named bodies; ``what`` is its kind, empty for a contact."""
     return f"{what} {first}{_BETWEEN}{second}".strip()
 
 
@@ -103,7 +103,7 @@ class Naming:
         Raises
         ------
         InvalidInput
-            If the name has another form or is taken, or something has a name already that may tell of the body's.
+            If the name is malformed or taken, or contacts, joints, loads or guards have been named already.
         """
         check_name(where, name, [*self._chosen[:number], *self._chosen[number + 1 :]])
         if any(self._given.values()):
@@ -114,17 +114,17 @@ class Naming:
     @property
     def bodies(self) -> tuple[str, ...]:
         """The names of the bodies."""
-        # kinds are looked up among what is installed, which takes a while: when a name is wanted first
+        # made at the first use, because the search for kinds among the installed components takes a while
         self._made = self._made or body_names(self._bodies, self._chosen)
         return self._made
 
     def give(self, kind: str, chosen: str, made: Sequence[str]) -> list[str]:
-        """Names for new parts of a kind: the chosen one, if that is empty those made, numbered where alike.
+        """Names for new parts of a kind: ``chosen``, or ``made`` if it is empty. Equal names are numbered.
 
         Raises
         ------
         InvalidInput
-            If the chosen name has another form or is taken.
+            If the chosen name is malformed or taken.
         """
         given = self._given.setdefault(kind, Counter())
         if chosen:
@@ -147,7 +147,7 @@ def check_name(where: str, name: object, taken: Collection[str] = ()) -> None:
     Raises
     ------
     InvalidInput
-        If it is no text that can be told from made names, or taken.
+        If the name is not a text of words with single blanks, contains a text that joins made names, or is taken.
     """
     if not isinstance(name, str) or not name or name != " ".join(name.split()) or not name.isprintable():
         raise InvalidInput(where, "must be a text of words with single blanks", name, 'For example "left hammer".')
@@ -167,7 +167,7 @@ class Labels:
     Attributes
     ----------
     coordinates, velocities : tuple of tuple of str
-        Body, name with the body's, unit.
+        Name of the body, label such as "ball 2 x", and unit.
     """
 
     coordinates: tuple[tuple[str, str, str], ...]

@@ -22,9 +22,9 @@ class Side:
     Attributes
     ----------
     body : Body
-        Who carries it.
+        Body that carries the shape.
     frame : int
-        Number of the frame that carries it.
+        Number of the frame that carries the shape.
     number : int
         Number of the shape, counted through all frames of the body.
     shape : Shape
@@ -40,12 +40,12 @@ class Side:
 def select(
     where: str, bodies: tuple[Body, Body], shapes: Any, carried: Callable[[Body], Frames]
 ) -> tuple[list[Side], list[Side]]:
-    """Shapes chosen of either body, in the order of its frames; ``carried`` gives those of each frame.
+    """Chosen shapes of each body, in the order of its frames; ``carried`` gives the shapes of a body by frame.
 
     Raises
     ------
     InvalidInput
-        If a body carries no shapes, or the choice is not, for either body, None or numbers of its shapes, each once.
+        If a body carries no shapes, the choice is not a pair, or a number of a shape is unknown or given twice.
     """
     sides = tuple(_carried(where, body, carried(body)) for body in bodies)
     if not isinstance(shapes, (tuple, list)) or len(shapes) != 2:
@@ -130,14 +130,14 @@ class ContactGeometries:
         if key not in self._made:
             made = kinematics.between(one, two)
             if any(geometry.candidates is not None for geometry in made):
-                # features are searched for between two bodies
+                # a search for features belongs to two bodies, so its geometry is not shared
                 return made, in_order
             self._made[key] = tuple(made)
         return self._made[key], in_order
 
 
 def _kinematics_of(first: Shape, second: Shape) -> Found:
-    """Installed kinematics of two shapes, and whether they are in its order.
+    """Installed kinematics of two shapes, and True if it takes them in this order.
 
     Raises
     ------
@@ -158,12 +158,12 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
 
 
 def installed_pair(first: Shape, second: Shape) -> Found | None:
-    """Installed kinematics of two shapes, and whether they are in its order; None if there is none."""
+    """Installed kinematics of two shapes, and True if it takes them in this order; None if none is installed."""
     return nearest_pair(registry.load_all("kinematics", _named_after(first, second)).values(), first, second)
 
 
 def _named_after(first: Shape, second: Shape) -> list[str]:
-    """Names of the installed kinematics that may know two shapes, so that no others are imported.
+    """Names of the installed kinematics that may fit two shapes, so that no others are imported.
 
     The name "ground-triangle_mesh" belongs to the classes Ground and TriangleMesh. A name without a hyphen may belong
     to any classes.
@@ -182,10 +182,10 @@ _UPPER = re.compile(r"(?<!^)(?=[A-Z])")
 
 
 def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:
-    """Kinematics of two shapes among those ``known``, and whether they are in its order; None if there is none.
+    """Kinematics in ``known`` that fits two shapes, and True if it takes them in this order; None if none fits.
 
-    A pair of base classes knows all shapes that derive from them. Of several that fit, the result has the classes that
-    are nearest to those of the shapes.
+    Kinematics of base classes also fit shapes of derived classes. If several fit, the one whose classes are nearest to
+    those of the shapes in the class hierarchy is taken.
     """
     best: Found | None = None
     least = math.inf

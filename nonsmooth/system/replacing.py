@@ -1,4 +1,4 @@
-"""The same system with other laws."""
+"""Replacement of the contact laws of a system."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def with_laws(
     Parameters
     ----------
     system : System
-        Stays as it is.
+        System with the former laws; it is not changed.
     normal, friction, impact : NormalLaw, TangentialLaw, ImpactLaw, optional
-        The laws to put in; a law that is left out stays, but a compliant normal law takes the place of an impact law.
+        The new laws. A law that is left out is kept, except that a compliant normal law replaces the impact law.
 
     Raises
     ------

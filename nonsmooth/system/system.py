@@ -29,7 +29,7 @@ from nonsmooth.system.names import Names, between, kind_word
 
 
 class System:
-    """Bodies, contacts with their laws, and where everything starts.
+    """A mechanical system: bodies, contacts with laws, joints, loads, guards and starts.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class System:
     Raises
     ------
     InvalidInput
-        If there is no body, one is listed twice or is not a Body, or gravity is not finite or a number below 0.
+        If no body is given, a body is listed twice or is not a Body, or gravity is not finite or a negative number.
     """
 
     def __init__(self, bodies: Sequence[Body], gravity: float | Sequence[float] = 9.81) -> None:
@@ -60,7 +60,7 @@ class System:
         return f"System({', '.join(f'{name} {len(parts)}' for name, parts in counts.items() if parts)})"
 
     def __getstate__(self) -> dict[str, Any]:
-        """State of a copy, with lists of its own: to change the copy leaves this system as it is."""
+        """State for a copy, with copies of the lists, so that a change of the copy does not change this system."""
         members = copy.copy(self._members)
         lists = {name: [*value] for name, value in vars(self).items() if isinstance(value, list)}
         return {**vars(self), **lists, "_members": members, "_declared": self._declared.copied(members)}
@@ -71,20 +71,21 @@ class System:
         return self._members.bodies
 
     def name(self, body: Body, name: str) -> None:
-        """Choose the name of a body: words with single blanks, before anything is declared between bodies.
+        """Choose the name of a body, words with single blanks, before contacts, joints, loads or guards are declared.
 
-        Those without are called after their kind, with numbers from 1 where they are several: "ball 2".
+        A body without a chosen name is named after its kind, with a number from 1 if there are several: "ball 2".
 
         Raises
         ------
         InvalidInput
-            If the body is not of this system, the name has another form or is taken, or it comes too late.
+            If the body is not of this system, the name is malformed or taken, or a contact, joint, load or guard is
+            declared already.
         """
         self._members.naming.choose("System.name", self._members.number("System.name", body), name)
 
     @property
     def names(self) -> Names:
-        """The names of all bodies, contacts, joints, loads and guards, in their orders."""
+        """The names of all bodies, contacts, joints, loads and guards, in the order declared."""
         declared = self.contacts, self._joints, self._loads, self._watched
         return Names(self._members.naming.bodies, *(tuple(one.name for one in parts) for parts in declared))
 
@@ -104,7 +105,7 @@ class System:
 
     @property
     def declarations(self) -> tuple[ContactDeclaration, ...]:
-        """Declarations of contacts, an entry for every two bodies or choice of their shapes, in the order declared."""
+        """Declarations of contacts, in order: one for each call of `contact`, and for each pair of `contact_all`."""
         return tuple(self._declared.declared)
 
     @property
@@ -114,12 +115,12 @@ class System:
 
     @property
     def excluded(self) -> tuple[tuple[Body, Body], ...]:
-        """The pairs of bodies of :meth:`exclude`, and of ``exclude`` in :meth:`contact_all`."""
+        """The pairs of bodies that :meth:`exclude`, or ``exclude`` of :meth:`contact_all`, has excluded."""
         return (*self._declared.excluded, *self._declared.left_out)
 
     @property
     def guards(self) -> tuple[Guard, ...]:
-        """The guards of the scenario's own, in the order declared."""
+        """The guards that the user added, in the order declared."""
         return tuple(one.guard for one in self._watched)
 
     @property
@@ -128,13 +129,13 @@ class System:
         return tuple(self._watched)
 
     def about(self, body: Body) -> System:
-        """The same system with no contacts but those of a body, in the order declared."""
+        """Copy of the system with only the contacts of one body, in the order declared."""
         made = copy.copy(self)
         made._declared.contacts = [one for one in self.contacts if one.first is body or one.second is body]
         return made
 
     def without_contacts(self) -> System:
-        """The same system with no contacts, of which others may then be declared."""
+        """Copy of the system without contacts, so that other contacts can be declared."""
         made = copy.copy(self)
         excluded, left_out = made._declared.excluded, made._declared.left_out
         made._declared = ContactDeclarations(made._members, excluded=excluded, left_out=left_out)
@@ -142,12 +143,12 @@ class System:
         return made
 
     def guard(self, guard: Guard, *, name: str = "") -> None:
-        """Watch a condition of the scenario's own; its events carry its number, in the order declared.
+        """Add a guard, a condition of the user that causes events. Its events carry its number, in the order declared.
 
         Raises
         ------
         InvalidInput
-            If it is not a Guard, or the name is taken.
+            If the object is not a Guard, or the name is taken.
         """
         if not isinstance(guard, Guard):
             raise InvalidInput("System.guard", "needs a Guard", guard, "Subclass nonsmooth.interfaces.Guard.")
@@ -167,13 +168,13 @@ class System:
     def joint(
         self, joint: Joint, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0), name: str = ""
     ) -> None:
-        """Tie two bodies by a joint; ``frames`` are the numbers of their frames.
+        """Tie two bodies by a joint; ``frames`` are the numbers of the tied frames of the first and the second body.
 
         Raises
         ------
         InvalidInput
-            If it is not a Joint, a body is not of this system, they are the same or both driven, a frame is unknown or
-            the name taken.
+            If the object is not a Joint, a body is not of this system, both bodies are the same or driven, a frame is
+            unknown, or the name is taken.
         """
         if not isinstance(joint, Joint):
             raise InvalidInput("System.joint", "needs a Joint", joint, "See `nonsmooth list joints`.")
@@ -183,12 +184,13 @@ class System:
         self._joints.append(self._tie("joint", joint, first, second, frames, name))
 
     def load(self, load: Load, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0), name: str = "") -> None:
-        """Add a load on the second body, with its opposite on the first; ``frames`` are the numbers of their frames.
+        """Add a load on the second body, and its opposite on the first; ``frames`` are the numbers of their frames.
 
         Raises
         ------
         InvalidInput
-            If it is not a Load, a body is not of this system, they are the same, a frame is unknown or the name taken.
+            If the object is not a Load, a body is not of this system, both are the same, a frame is unknown, or the
+            name is taken.
         """
         if not isinstance(load, Load):
             raise InvalidInput("System.load", "needs a Load", load, "See `nonsmooth list loads`.")
@@ -211,18 +213,18 @@ class System:
         return np.concatenate([q for q, _ in self._starts]), np.concatenate([u for _, u in self._starts])
 
     def place(self, body: Body, **start: Any) -> None:
-        """Place a body at t = 0; the arguments are those of its ``state``."""
+        """Set position and velocities of a body at t = 0; the keywords are those of the body's method ``state``."""
         number = self._members.number("System.place", body)
         self._starts[number] = body.state(**start)
 
     def set_start(self, body: Body, q: Vector, u: Vector) -> None:
-        """Place a body at t = 0 by its coordinates and velocities, shapes [n_q] and [n_u].
+        """Set coordinates q and velocities u of a body at t = 0, shapes [n_q] and [n_u].
 
         Raises
         ------
         InvalidInput
-            If the body is not of this system, or a shape is wrong, or a number is not finite, or a quaternion is not
-            unit.
+            If the body is not of this system, a shape is wrong, a number is not finite, or the length of a quaternion
+            is not 1.
         """
         number = self._members.number("System.set_start", body)
         self._starts[number] = start_of(body, self.name_of(body), q, u)
@@ -247,13 +249,13 @@ class System:
         normal, friction : NormalLaw, TangentialLaw
             The laws of sustained contact.
         impact : ImpactLaw, optional
-            The law of impacts; a compliant normal law does without one, a rigid one needs it.
+            The law of impacts.  A rigid normal law needs an impact law; a compliant normal law takes none.
         shapes : tuple of two sequences of int, optional
-            Which shapes of either body may touch, None for all.  The shapes of a body are numbered from 0 through all
-            of its frames, in the order of ``Body.frames``.  Shapes of the same two bodies may so get laws of their own
-            by further calls.
+            Numbers of the shapes of each body that may touch, or None for all shapes.  The shapes of a body are
+            numbered from 0 through all of its frames, in the order of ``Body.frames``.  Further calls can give other
+            laws to other shapes of the same two bodies.
         name : str, optional
-            What the contacts are called, with numbers from 1 if they are several; by default after the bodies.
+            Name of the contacts, with numbers from 1 if there are several; by default made from the bodies' names.
 
         Returns
         -------
@@ -263,9 +265,9 @@ class System:
         Raises
         ------
         InvalidInput
-            If a body is not of this system, a law is missing or of the wrong kind, no kinematics is known
-            for a pair of shapes, a body carries none or not the one named, two shapes have their contacts already,
-            the impact law is of another kind than that of the other contacts, or the name is taken.
+            If a body is not of this system, a law is missing or of the wrong kind, no kinematics is installed for a
+            pair of shapes, a body carries no shape or not the chosen one, two shapes have contacts already, other
+            contacts have an impact law of another kind, or the name is taken.
         """
         check_laws("System.contact", normal, friction, impact)
         return self._declared.add(first, second, ContactLaws(normal, friction, impact), shapes, name)
@@ -273,8 +275,8 @@ class System:
     def add_contact(self, contact: Contact) -> Contact:
         """Add a contact with given kinematics.
 
-        :meth:`contact` finds the kinematics of two shapes among those that are installed. This method takes any, such
-        as kinematics that are being written, of shapes that no body has to carry. A scenario file cannot hold such a
+        :meth:`contact` finds the kinematics of two shapes among the installed ones. This method takes any kinematics,
+        such as those under development, and shapes that no body has to carry. A scenario file cannot hold such a
         contact.
 
         Parameters
@@ -285,14 +287,14 @@ class System:
         Returns
         -------
         Contact
-            The contact with its name, which is made from those of the bodies if it has none.
+            The contact with its name; if it had none, the name is made from the names of the bodies.
 
         Raises
         ------
         InvalidInput
-            If it is not a Contact, a body is not of this system, the bodies are the same, a frame is unknown, the
-            kinematics are no ContactKinematics, a law is of the wrong kind or does not go with the others, or the name
-            is taken.
+            If the object is not a Contact, a body is not of this system, the bodies are the same, a frame is unknown,
+            the kinematics are not ContactKinematics, a law is of the wrong kind or does not go with the others, or the
+            name is taken.
         """
         return self._declared.add_given(contact)
 
@@ -304,32 +306,32 @@ class System:
         bodies: Sequence[Body] | None = None,
         exclude: Iterable[tuple[Body, Body]] = (),
     ) -> tuple[Contact, ...]:
-        """Declare contacts between all bodies, with the same laws, or with the laws of the materials of every two.
+        """Declare contacts between all bodies, with the same laws for all, or with laws by pair of materials.
 
-        Left out are pairs of driven bodies, pairs tied by a joint so far (a joint usually makes its bodies overlap)
-        and the pairs of ``exclude``.  Pairs that have contacts already, be it of some of their shapes, keep them and
-        get no more: declare a pair with laws of its own, or one tied by a joint, by :meth:`contact` first.
+        The method omits pairs of driven bodies, pairs that a joint ties already (a joint usually makes its bodies
+        overlap), pairs of ``exclude``, and pairs with a contact, even if it concerns only some of their shapes.  For a
+        pair with other laws, or tied by a joint, call :meth:`contact` before.
 
         Parameters
         ----------
         laws : ContactLaws or Materials
             The laws of all pairs, or laws by pair of materials.
         of : mapping, optional
-            Material -> bodies made of it.  Bodies are told apart as objects, however equal they are.
+            Material -> bodies made of it.  Bodies are distinguished as objects, even if their values are equal.
         bodies : sequence of Body, optional
-            Which bodies touch each other; by default all of the system that carry shapes.
+            Bodies that may touch each other; by default all bodies of the system that carry shapes.
         exclude : iterable of pairs of Body
-            Pairs that do not touch, beside those of :meth:`exclude`.
+            Pairs that do not touch, in addition to those of :meth:`exclude`.
 
         Returns
         -------
         tuple of Contact
-            The contacts added; none if anything is wrong.
+            The contacts added.  If an error is raised, the system is unchanged.
 
         Raises
         ------
         InvalidInput
-            If a body is not of this system or has two materials, a pair has no laws, or :meth:`contact` refuses one.
+            If a body is not of this system or has two materials, a pair has no laws, or :meth:`contact` rejects a pair.
         UnknownName
             If a material is not in the table.
         """
@@ -342,12 +344,12 @@ class System:
             raise
 
     def exclude(self, first: Body, second: Body) -> None:
-        """Exclude contacts of two bodies: :meth:`contact_all` leaves them out, and no warning names their overlap.
+        """Exclude contacts of two bodies: :meth:`contact_all` omits the pair, and no warning names its overlap.
 
         Raises
         ------
         InvalidInput
-            If a body is not of this system, or they are the same.
+            If a body is not of this system, or both are the same.
         """
         self._members.names("System.exclude", first, second)
         self._declared.excluded.append((first, second))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4", "i2": "<i2", "u1": "|u1"}
-"""Types of numbers by their names in the player."""
+"""Types of numpy, by the names of the types in the player."""
 _KNOTS = Rule("most times that are drawn, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _MOST_KINDS = 4
 """Largest number of kinds of bodies in a title."""
@@ -48,7 +48,7 @@ _PAGE = """<!DOCTYPE html>
 
 
 def page(solution: Solution, title: str, most_knots: int) -> str:
-    """Page of a run as HTML."""
+    """Page of a run as HTML, with at most ``most_knots`` times besides the instants of events."""
     check_number("to_html: most_knots", most_knots, _KNOTS)
     told, arrays = record(solution, title or _named(solution.system.names.bodies), int(most_knots))
     told["directory"], text = pack(arrays)
@@ -72,7 +72,7 @@ def _named(bodies: Sequence[str]) -> str:
 
 
 def pack(arrays: Mapping[str, tuple[str, NDArray[Any]]]) -> tuple[list[dict[str, Any]], str]:
-    """Directory of arrays and the text with their numbers; the arrays have names and types.
+    """Directory of named arrays, each with its type, and the text that holds their numbers.
 
     An array of n numbers of b bytes is stored as b rows of n bytes.  The rows of high bytes change little, so that gzip
     packs them well.  Equal arrays give equal text.

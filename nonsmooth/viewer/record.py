@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 _MOST_LETTERS = 12
 """Largest number of contacts with a mode word; modes of more contacts are listed by contact."""
 _MOST_NUMBERS = 6
-"""Largest number of contacts that are listed by their numbers."""
+"""Largest number of contacts that are listed by their numbers; further contacts are counted."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2
 """Codes of Eq. (29) of a sticking and a sliding contact, and the bit of a contact that takes part in an impact."""
 
 
 def event_words(events: Events) -> tuple[list[str], NDArray[np.int64]]:
-    """Words for modes, and the index of the word before, during and after each event, shape [n, 3].
+    """Distinct mode words, and the index of the word before, during and after each event, shape [n, 3].
 
     With many contacts, a word lists the closed contacts only.
     """
@@ -55,7 +55,7 @@ def _spoken(contacts: NDArray[np.int64], bits: NDArray[np.int64]) -> str:
 
 
 def _counted(group: NDArray[np.int64]) -> str:
-    """Numbers of contacts, from 1; the first ones if there are many."""
+    """Text with the numbers of contacts, counted from 1; only the first six if there are more."""
     said = " ".join(str(i + 1) for i in sorted(group.tolist())[:_MOST_NUMBERS])
     return said if len(group) <= _MOST_NUMBERS else f"{said} and {len(group) - _MOST_NUMBERS} more"
 
@@ -89,11 +89,11 @@ FORMAT = "nonsmooth-view/1"
 _WHOLE = 32767
 """Integer that represents the component 1 of a quaternion."""
 _ROOM = 250_000
-"""Largest number of poses; more bodies have fewer knots between events."""
+"""Largest number of poses, one for each frame and knot, so that more bodies have fewer knots between events."""
 
 
 def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, Any], Arrays]:
-    """Words and arrays of a run."""
+    """Record of a run: names, words and small tables as a dictionary for JSON, and the arrays by name."""
     system, scene = solution.system, Scene.of(solution.system)
     times = knots(solution, max(2, min(most_knots, _ROOM // max(1, scene.n_frames))))
     states = solution.at(times)
@@ -138,7 +138,7 @@ def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, A
 
 
 def _turns(axes: Floats) -> Floats:
-    """Unit quaternions, scalar last, shape [n, n_frames, 4]."""
+    """Unit quaternions of the axes of frames, scalar last, shape [n, n_frames, 4]."""
     from scipy.spatial.transform import Rotation
 
     n, n_frames = axes.shape[:2]
@@ -146,7 +146,7 @@ def _turns(axes: Floats) -> Floats:
 
 
 def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str, Any]]]:
-    """Arrays of all looks, and the ranges of each part in them; ``sheets`` are outlines."""
+    """Vertices, triangles and lines of all parts, and the ranges of each part in them; ``sheets`` are outlines."""
     looks = [part.look for part in scene.parts]
     firsts = np.cumsum([0, *(len(look.vertices) for look in looks)])
     parts = list[dict[str, Any]]()
@@ -169,7 +169,7 @@ def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str
 
 
 def _energies(solution: Solution, times: Floats) -> Arrays:
-    """Energy account at the knots, and before the events of each instant."""
+    """Energy account [J] at the knots, and before the events of each instant."""
     losses, works = ("restitution_loss", "friction_loss", "closing_loss"), ("driven_work", "load_work")
     found = solution.history("kinetic_energy", "potential_energy", *losses, *works, times=times)
     kinetic, potential, restitution, friction, closing, driven, loads = found.values()

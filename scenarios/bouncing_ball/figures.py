@@ -30,7 +30,7 @@ RUNS = 400
 _SHOWN = 8.0
 """Table periods of a motion that are drawn."""
 _DISTURBANCE = 1e-3
-"""Relative change of the speed at the start: without it a run stays on an unstable orbit."""
+"""Relative change of the speed at the start; without it a run would remain on an unstable orbit."""
 
 
 def motion(scenario: BouncingBall, solution: Solution) -> Figure:
@@ -91,7 +91,7 @@ def _paths(ax: Axes, scenario: BouncingBall, solution: Solution) -> None:
 
 
 def _motion(scenario: BouncingBall, solution: Solution, begin: float) -> tuple[Floats, Floats]:
-    """Return times [s] and heights of the ball's lowest point [m] from a time on, at samples, events and the end."""
+    """Return times from ``begin`` on, at samples, events and end [s], and heights of the ball's lowest point [m]."""
     events = solution.events
     times = np.concatenate([events.time, solution.t, [solution.t_end]])
     heights = np.concatenate([events.q[:, 2], solution.q[:, 2], solution.q_end[2:3]]) - scenario.radius
@@ -101,7 +101,7 @@ def _motion(scenario: BouncingBall, solution: Solution, begin: float) -> tuple[F
 
 
 def bifurcation(scenario: BouncingBall, run: Run) -> Figure:
-    """Draw phases of the impacts and flights between them over Gamma, with the bounds of the orbit."""
+    """Draw impact phases and flight times over Gamma, with the bounds of existence and stability of the orbit."""
     e, n = scenario.restitution, scenario.orbit
     low, high = orbits.existence(e, n), orbits.stability(e, n)
     gamma, phase, flight = sweep(scenario, np.linspace(1.001 * low, 2.0, RUNS), settle=250, keep=150, run=run)
@@ -128,10 +128,10 @@ def bifurcation(scenario: BouncingBall, run: Run) -> Figure:
 def sweep(
     scenario: BouncingBall, gammas: Iterable[float], *, settle: int, keep: int, run: Run
 ) -> tuple[Floats, Floats, Floats]:
-    """Run a scenario over values of Gamma, each run from where the one before ended.
+    """Run a scenario for several values of Gamma, each run from the last impact of the run before.
 
-    Every run lasts ``settle`` + ``keep`` table periods and begins at the phase and with the take-off speed of the last
-    impact of the one before, so that it stays on the attractor that it follows as long as that exists.
+    Every run lasts ``settle`` + ``keep`` table periods.  It starts with the phase and the take-off speed of that
+    impact, so that the runs follow one attractor as long as it exists.
 
     Returns
     -------

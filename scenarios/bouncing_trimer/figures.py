@@ -28,7 +28,7 @@ Ran: TypeAlias = "tuple[BouncingTrimer, Solution]"
 _SHOWN = 10.0
 """Plate periods of a motion that are drawn."""
 _LINEAR = 1e-2
-"""Value below which the logarithmic axes are linear, in the units of the axes."""
+"""Value below which the logarithmic axes are linear, in the unit of the axis: a trimer at rest gives zeros."""
 
 
 def survey(
@@ -36,7 +36,7 @@ def survey(
 ) -> list[Ran]:
     """Run a scenario over ``periods`` plate periods at every pair of frequency [Hz] and Gamma.
 
-    A run that stops early gives the solution up to there.
+    A run that fails gives the solution up to its failure.
     """
     shaken = [dataclasses.replace(scenario, frequency=f, t_end=periods / f) for f in frequencies]
     cases = [dataclasses.replace(one, gamma=gamma) for one in shaken for gamma in gammas]
@@ -44,7 +44,7 @@ def survey(
 
 
 def _finished(scenario: BouncingTrimer, run: Run) -> Solution:
-    """Return the solution of a run as far as it came; one failure does not stop the survey."""
+    """Return the solution of a run, up to its failure if it fails, so that one failure does not stop the survey."""
     try:
         return run(scenario)
     except RunFailed as error:
@@ -52,7 +52,7 @@ def _finished(scenario: BouncingTrimer, run: Run) -> Solution:
 
 
 def regimes(runs: list[Ran]) -> Figure:
-    """Draw gap, speed and turning rate over Gamma, a marker for each run, in a circle if the trimer tumbles."""
+    """Draw gap, speed and turning rate over Gamma: a marker for each run, with a circle if the trimer tumbles."""
     title = "It rests, bounces level, wanders and turns, and at last tumbles, as Γ grows"
     figure, axes = charts.panels(3, 1, title, (7.2, 7.2), sharex=True)
     circle: dict[str, Any] = {"marker": "o", "markersize": 9, "fillstyle": "none", "linestyle": "none", "color": "0.4"}
@@ -79,7 +79,10 @@ def regimes(runs: list[Ran]) -> Figure:
 
 
 def _scaled(scenario: BouncingTrimer, solution: Solution) -> tuple[float, float, float]:
-    """Return largest gap [mm at 50 Hz], speed and turning rate, scaled so that the frequency does not matter."""
+    """Return the largest gap [mm at 50 Hz], speed / (g / f) and turning rate * spacing / (g / f).
+
+    Scaled in this way, results at different frequencies f can be compared.
+    """
     numbers, frequency = scenario.summarise(solution), scenario.frequency
     speed, gap = GRAVITY / frequency, 1e3 * numbers["largest_gap"] * (frequency / 50.0) ** 2
     return gap, numbers["wandering"] / speed, numbers["turning"] * scenario.spacing / speed

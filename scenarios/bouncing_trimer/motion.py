@@ -14,15 +14,15 @@ Floats = NDArray[np.float64]
 GRAVITY = 9.81
 """Acceleration of gravity [m/s^2]."""
 _LONGEST = 12
-"""Longest repetition that is searched for [plate periods]."""
+"""Longest period that is searched for [plate periods]."""
 _CLOSED = 1e-9
 """Largest gap of a trimer at rest on the plate [m]."""
 _REPEATS = 1e-3
-"""Largest difference of equal gaps, over the largest gap."""
+"""Largest difference of gaps that count as equal, relative to the largest gap."""
 _REST, _TUMBLING, _IRREGULAR = "rest", "tumbling", "irregular"
 _PERIODS = tuple(f"period_{k}" for k in range(1, _LONGEST + 1))
 NAMES = (_REST, *_PERIODS, _TUMBLING, _IRREGULAR)
-"""All attractors."""
+"""Names of all attractors."""
 
 
 @dataclass(frozen=True)
@@ -73,9 +73,11 @@ def repetition(motion: TrimerMotion) -> int | None:
 def summary(motion: TrimerMotion) -> Mapping[str, Any]:
     """Return attractor and numbers of the second half of a run.
 
-    ``attractor`` is "rest", "period_k" (k plate periods), "tumbling" if it turns over, or "irregular"; ``drift``
-    [m/s] is the distance between start and end over the time, ``wandering`` [m/s] the mean speed along the path seen
-    once a plate period, ``rotation`` and ``turning`` [rad/s] the mean of the vertical angular velocity and of its size.
+    - ``attractor``: "rest", "period_k" (k plate periods), "tumbling" if the trimer turns over, or "irregular";
+    - ``drift``: distance between first and last place / time [m/s];
+    - ``wandering``: mean speed along the path, with one point in a plate period [m/s];
+    - ``rotation``, ``turning``: mean of the vertical angular velocity, and of its absolute value [rad/s];
+    - ``largest_gap``, ``largest_tilt``: [m], [rad].
     """
     late = motion.half
     t, place, turning = motion.t[late], motion.place[late], motion.turning[late]

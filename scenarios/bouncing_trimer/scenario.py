@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 _SAMPLES_PER_PERIOD = 20
 _SAMPLES = 40000
-"""Samples of a run above which fewer than 20 a period are taken, so that long runs fit into memory."""
+"""Largest number of samples of a run, so that it fits into memory; long runs take fewer than 20 a period."""
 
 
 @final
@@ -96,7 +96,7 @@ class BouncingTrimer(Scenario):
 
     @property
     def sample_interval(self) -> float:
-        """Time between samples [s], the plate period over an integer: over 20, over 1 in long runs."""
+        """Time between samples [s]: the plate period divided by an integer, 20 in short runs, 1 in very long ones."""
         fraction = max(1, min(_SAMPLES_PER_PERIOD, int(_SAMPLES / max(1.0, self.t_end * self.frequency))))
         return 1.0 / (self.frequency * fraction)
 
@@ -165,7 +165,7 @@ class BouncingTrimer(Scenario):
         return {**summary(self.motion(solution)), "impacts": solution.counters.impacts}
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the gap at the first impact, and the largest ratio of impulses, which friction bounds."""
+        """Return criteria: the gap at the first impact, and the largest ratio of tangential to normal impulse."""
         events = solution.events
         impacts = np.flatnonzero(events.cause == Cause.IMPACT)
         gap, ratio = math.nan, 0.0
@@ -188,7 +188,7 @@ class BouncingTrimer(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return regimes and speeds over Gamma and frequency, and path and gaps of one run."""
+        """Return gaps and speeds over Gamma at three frequencies, and path and gaps of one run."""
         gammas = np.round(np.arange(0.9, 6.01, 0.3), 6).tolist()
         one = cls(gamma=3.0)
         regimes = draw.regimes(draw.survey(cls(), gammas, (25.0, 50.0, 100.0), 150, run))

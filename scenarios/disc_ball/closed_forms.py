@@ -1,4 +1,4 @@
-"""The strike in closed form, and as collisions of two bodies one after the other."""
+"""Two closed forms of the strike: the symmetric one, and collisions of two bodies one after the other."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 _COLLISIONS = 1000
-"""Bound of the collisions; elastic equal bodies need a few."""
+"""Largest number of collisions; elastic equal bodies need only a few."""
 
 
 def half_angle(radius_ratio: float) -> float:
@@ -19,7 +19,7 @@ def half_angle(radius_ratio: float) -> float:
 
 
 def symmetric(mass_ratio: float, radius_ratio: float, restitution: float) -> tuple[float, float]:
-    """Return the velocity of the disc along the axis and the speed of either ball, over the disc's speed before.
+    """Return the velocity of the disc along the axis and the speed of either ball, relative to the disc's speed before.
 
     By symmetry the impulse P is the same at both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.
     """
@@ -31,12 +31,14 @@ def symmetric(mass_ratio: float, radius_ratio: float, restitution: float) -> tup
 def one_after_the_other(
     mass_ratio: float, radius_ratio: float, restitution: float, direction: Floats, first: int
 ) -> Floats:
-    """Return the velocities of disc, left and right ball, shape [3, 2], after collisions in pairs at fixed places.
+    """Return the velocities of disc, left and right ball after collisions in pairs, shape [3, 2].
+
+    Bodies do not move between the collisions.  Velocities are relative to the disc's speed before.
 
     Parameters
     ----------
     mass_ratio, radius_ratio, restitution : float
-        Masses and radii of the disc over those of a ball, and e.
+        Mass and radius of the disc, relative to those of a ball, and coefficient of restitution e.
     direction : array
         Unit vector of the disc's velocity before, shape [2]; y is the axis of symmetry.
     first : int

@@ -1,4 +1,4 @@
-"""The strike, and its outcome over the ratio of stiffnesses and over the offset."""
+"""Figures of the strike, and of velocities after it over the ratio of stiffnesses and over the offset."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _LONG = 2.0
-"""End of the runs over ratios and offsets [s]: after a strike aside the disc may be slow to reach the other ball."""
+"""End of runs with other ratios and offsets [s]: after an oblique strike the disc may reach the second ball late."""
 
 
 def strike(scenario: DiscBall, solution: Solution) -> Figure:
@@ -49,7 +49,7 @@ def strike(scenario: DiscBall, solution: Solution) -> Figure:
 
 
 def _body(ax: Axes, place: Floats, radius: float, velocity: Floats, color: str, linestyle: str) -> None:
-    """Draw a circle, and an arrow from its centre two radii long for the speed of the disc."""
+    """Draw a body as a circle, and its velocity as an arrow, two radii long for the disc's speed before."""
     from matplotlib.patches import Circle
 
     x, y = place.tolist()
@@ -62,7 +62,7 @@ def _body(ax: Axes, place: Floats, radius: float, velocity: Floats, color: str, 
 
 
 def over_stiffness(scenario: DiscBall, run: Run) -> Figure:
-    """Draw the outcome over the ratio of stiffnesses, between the limits of collisions one after the other."""
+    """Draw velocities after the strike over the ratio of stiffnesses, with the limits by successive collisions."""
     ratios = np.logspace(-4.0, 4.0, 49)
     after = _after([dataclasses.replace(scenario, t_end=_LONG, stiffness_ratio=x) for x in ratios.tolist()], run)
     title = "The ball at the stiffer contact gets more; at either end one is struck after the other"
@@ -78,10 +78,10 @@ def over_stiffness(scenario: DiscBall, run: Run) -> Figure:
 
 
 def over_offset(scenario: DiscBall, run: Run) -> Figure:
-    """Draw the outcome over the offset, and the closed form of the symmetric strike."""
-    offsets = np.linspace(-1.95, 1.95, 118)  # an even number leaves out zero
+    """Draw velocities after the strike over the offset, and the closed form of the symmetric strike."""
+    offsets = np.linspace(-1.95, 1.95, 118)  # an even number of offsets leaves out zero
     cases = [dataclasses.replace(scenario, t_end=_LONG, offset=x * scenario.radius) for x in offsets.tolist()]
-    middle = len(offsets) // 2  # not a number: no line from one side to the other
+    middle = len(offsets) // 2  # nan in the middle interrupts the line between both sides
     places, after = np.insert(offsets, middle, np.nan), np.insert(_after(cases, run), middle, np.nan, axis=0)
     title = "Hitting both balls at once is no limit of hitting one a little earlier"
     figure, axes = _outcome(places, after, title, "offset of the disc's path over the radius of a ball")
@@ -91,12 +91,12 @@ def over_offset(scenario: DiscBall, run: Run) -> Figure:
 
 
 def _after(scenarios: list[DiscBall], run: Run) -> Floats:
-    """Return the velocities at the end over the speed of the disc, shape [n, 3, 2]."""
+    """Return the velocities at the end of each run, relative to the disc's speed before, shape [n, 3, 2]."""
     return np.array([scenario.velocities(run(scenario)) for scenario in scenarios])
 
 
 def _symmetric(scenario: DiscBall) -> Floats:
-    """Return the velocities after a symmetric strike as far as they are drawn: sizes of the balls', along x."""
+    """Return the velocities after a symmetric strike for :func:`_mark`, which draws only the speeds of the balls."""
     disc, ball = symmetric(scenario.mass_ratio, scenario.radius_ratio, scenario.restitution)
     return np.array([[0.0, disc], [ball, 0.0], [ball, 0.0]])
 

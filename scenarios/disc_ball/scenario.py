@@ -31,9 +31,9 @@ _NAMES = ("disc", "left", "right")
 class DiscBall(Scenario):
     """Bernoulli's problem: a frictionless disc flies into two equal balls at rest that touch each other, no gravity.
 
-    All centres stay in the plane of x and y; y is the axis of symmetry, and the disc comes from below.  With
-    ``offset`` 0 it reaches both balls at once, whatever its direction.  No body turns, so that a sphere moves as the
-    disc does.
+    All centres remain in the plane of x and y; y is the axis of symmetry, and the disc comes from below.  With
+    ``offset`` 0 it reaches both balls at once, from any direction.  No body turns, so that a sphere can represent the
+    disc.
 
     References
     ----------
@@ -115,7 +115,7 @@ class DiscBall(Scenario):
         return solution.q.reshape(len(solution.t), 3, 7)[:, :, :2]
 
     def velocities(self, solution: Solution) -> Floats:
-        """Return the velocities of disc, left and right ball at the end over the disc's at the start, shape [3, 2]."""
+        """Return velocities of disc, left and right ball at the end / speed of the disc at the start, shape [3, 2]."""
         return np.asarray(solution.u_end.reshape(3, 6)[:, :2] / self.speed)
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
@@ -129,7 +129,7 @@ class DiscBall(Scenario):
         return {"q": q.ravel().tolist(), "u": u.ravel().tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the velocities (x, y) over the speed of the disc, the fraction of energy kept, and the impacts."""
+        """Return velocities (x, y) / speed of the disc, kinetic energy at the end / at the start, number of impacts."""
         account = solution.energy
         return {
             **dict(zip(_NAMES, self.velocities(solution).tolist(), strict=True)),

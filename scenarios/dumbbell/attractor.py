@@ -23,26 +23,26 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 NAMES = ("drift", "jump", "flutter", "rest", "other")
-"""Attractors that are distinguished."""
+"""Names of the attractors."""
 _LONGEST_TAIL, _SHORTEST_TAIL = 40, 4
-"""Most plate periods of the settled part, which is the last half of a run; least that have a period."""
+"""Largest number of plate periods in the settled part of a run; smallest number in which a period is searched."""
 _LONGEST_PERIOD = 8
-"""Longest period that is sought [plate periods]."""
+"""Longest period that is searched for [plate periods]."""
 _PERIOD_TOLERANCE = 0.02
-"""Largest deviation from the motion a period before, relative to the ball's or the plate's largest motion."""
+"""Largest deviation from the motion a period before, relative to the largest motion of the ball or the plate."""
 _SECTIONS = 0.9
-"""Fraction of the phases that must agree; a few are so close to an impact that its exact time decides."""
+"""Fraction of the samples that must repeat; a few are so close to an impact that its exact time decides."""
 _LEVEL = 0.25
 """Largest difference of the gaps of a level motion, relative to the largest gap."""
 _SYMMETRIC = 0.1
-"""Largest mean of the extreme tilts of a symmetric motion, relative to their range."""
+"""Largest sum of the least and the largest tilt of a symmetric motion, relative to their difference."""
 _STANDING = 0.2
-"""Least fraction of time on the plate of a ball that stands on it."""
+"""Least fraction of the time in contact with the plate, for a ball that counts as standing on it."""
 
 
 @dataclass(frozen=True)
 class Settled:
-    """The settled part of a run.
+    """The settled part of a run: its last half, but at most 40 plate periods.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class Settled:
 
     @functools.cached_property
     def scales(self) -> tuple[float, float]:
-        """Amplitude [m] and peak speed [m/s] of the plate, or small ones if the plate hardly moves."""
+        """Amplitude [m] and peak speed [m/s] of the plate; at least those of an amplitude of 1e-3 ball radii."""
         scenario = self.motion.scenario
         length = max(scenario.amplitude, 1e-3 * scenario.radius)
         return length, 2.0 * math.pi * scenario.frequency * length
@@ -98,10 +98,10 @@ class Settled:
 
     @functools.cached_property
     def period(self) -> int | None:
-        """Period in plate periods, None without one.
+        """Period of the motion in plate periods; None if it does not repeat.
 
-        Gaps and gap rates, hence the tilt and its rate, are compared with those p plate periods before, at all phases
-        sampled; the horizontal position and the angles theta and gamma do not count.
+        Gaps and gap rates at all samples are compared with their values p plate periods before.  They determine tilt
+        and tilt rate.  The horizontal position and the angles theta and gamma do not count.
         """
         if self.cycles < _SHORTEST_TAIL:
             return None
@@ -121,7 +121,7 @@ class Settled:
         return None
 
     def _attractor(self, period: int | None) -> str:
-        """Return the name of the attractor with this period."""
+        """Return the name of the attractor; ``period`` is the period in plate periods."""
         if not len(self._strikes[0]) and self.motion.gap.max() <= 1e-6 * self.scales[0]:
             return "rest"
         tests = {"jump": self._jumps, "flutter": self._flutters, "drift": self._drifts}
@@ -153,7 +153,7 @@ class Settled:
 
     @functools.cached_property
     def _strikes(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Impacts: True for balls that strike, and for balls that touch the plate in them, shapes [n, 2]."""
+        """For every impact: True for balls that strike, and for balls that touch the plate during it, shapes [n, 2]."""
         events = self.events
         inside = (events.time > self.motion.t[0]) & (events.time <= self.motion.t[-1])
         during = events.during[inside & (events.cause == Cause.IMPACT)]
@@ -169,7 +169,7 @@ class Settled:
         return standing
 
     def _largest_gaps(self) -> list[float]:
-        """Return the largest gap of each ball [m], between the samples too (constant acceleration there)."""
+        """Return the largest gap of each ball [m], also between samples, where the acceleration counts as constant."""
         rate = self.motion.gap_rate
         v0, v1 = rate[:-1], rate[1:]
         turns = (v0 > 0.0) & (v1 < 0.0)

@@ -37,9 +37,9 @@ _RUNS: Mapping[str, dict[str, Any]] = {
     "flutter 3D": {"mode": "flutter", "t_end": 8.0} | _ACROSS,
 }
 _PERIODS: Mapping[str, float] = {"drift": 3.0, "jump": 3.0, "flutter": 4.0, "free": 6.0}
-"""Plate periods of motion that are drawn."""
+"""Plate periods that are drawn in figures over time, by mode."""
 _SPANS: Mapping[str, float] = {"drift": 600.0, "jump": 8.0, "flutter": 8.0}
-"""Plate periods of path that are drawn."""
+"""Plate periods that are drawn in figures of the path, by mode."""
 _ANGLES = ("theta", "beta", "gamma")
 
 
@@ -57,7 +57,7 @@ def of_paper(kind: type[DumbbellScenario], run: Run) -> dict[str, Figure]:
 
 
 def of_run(scenario: DumbbellScenario, solution: Solution) -> dict[str, Figure]:
-    """Return the figures of one run by file name; none without samples, none of quantities that are constant."""
+    """Return the figures of one run by file name, without figures of constant quantities; empty without samples."""
     if len(solution.t) < 2:
         return {}
     mode = scenario.mode
@@ -82,7 +82,7 @@ def _over_time(name: str, scenario: DumbbellScenario, solution: Solution) -> dic
     figures = {}
     for run, stem, draw, claim in _OVER_TIME:
         if run == name:
-            # a title must not promise a motion that other parameters do not bring about
+            # with other parameters the run may not show the motion that the title names
             title = claim if attractor == scenario.mode else f"{_NEUTRAL[draw]} (attractor: {attractor})"
             figures[stem] = draw(trace, title)
             charts.legend(figures[stem], note=note(scenario))
@@ -90,7 +90,7 @@ def _over_time(name: str, scenario: DumbbellScenario, solution: Solution) -> dic
 
 
 def heights(trace: Trace, title: str) -> Figure:
-    """Draw the lowest points of balls and plate; ball 1 touches the plate where its circles lie on it."""
+    """Draw the heights of the plate and of both balls' lowest points; ball 1, as circles, may lie on the plate."""
     clock, (ball_1, ball_2) = trace.clock, 1e3 * trace.motion.heights.T
     plate = 1e3 * trace.scenario.plate_height(trace.motion.t)
     figure, ax = _panel(trace, "ball 2", ball_2, title, "height of the lowest point [mm]")
@@ -166,7 +166,7 @@ def paths(runs: Mapping[str, tuple[DumbbellScenario, Solution]], spans: Mapping[
         motion = scenario.motion(solution, solution.t_end - spans[mode] / scenario.frequency - 1e-9)
         t, path = motion.t, motion.centre
         times, velocities = _means(settled, t, path)
-        if mode == "flutter":  # its turns are too small to see on a path to scale
+        if mode == "flutter":  # the turns of its path are too small to be seen to scale
             turn = 1e3 * _turn(path)
             path, velocities = (path - path[0]) @ turn, velocities @ turn
             ax.set(xlabel="along the mean path [mm]", ylabel="across it [mm], magnified")
@@ -195,7 +195,7 @@ def _wanders(settled: Settled) -> bool:
 
 
 def _means(settled: Settled, t: Floats, path: Floats) -> tuple[Floats, Floats]:
-    """Return mean velocities over one period of the motion after the other, and the times in their middles."""
+    """Return the middle times of successive periods of the motion [s], and the mean velocities in them [m/s]."""
     span = float(settled.summary()["period"] or 1) / settled.motion.scenario.frequency
     edges = t[-1] - span * np.arange(int((t[-1] - t[0]) / span + 1e-9), -1.0, -1.0)
     places = np.column_stack([np.interp(edges, t, column) for column in path.T])
@@ -211,13 +211,13 @@ def _show_square(ax: Axes, path: Floats) -> None:
 
 
 def _turn(path: Floats) -> Floats:
-    """Return the matrix that turns rows so that the path ends on the first axis."""
+    """Return the rotation matrix, for rows times matrix, that turns the end of the path onto the first axis."""
     c, s = (path[-1] - path[0]) / max(float(np.hypot(*(path[-1] - path[0]))), 1e-300)
     return np.array([[c, -s], [s, c]])
 
 
 def _arrows(ax: Axes, t: Floats, path: Floats, times: Floats, velocities: Floats) -> None:
-    """Draw six of the mean velocities where the mass centre is in the middle of each."""
+    """Draw six of the mean velocities as arrows, each at the place of the mass centre at its time."""
     if len(times) == 0:
         return
     at = np.unique(((np.arange(6) + 0.5) / 6 * len(times)).astype(int))

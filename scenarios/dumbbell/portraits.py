@@ -23,9 +23,9 @@ _STATEMENTS: Mapping[str, str] = {
     "beta": "the tilt: closed, as the normal motion is periodic; jump, not shown, stays level",
     "gamma": "the roll: open in all three modes, the dumbbell rolls along",
 }
-"""Statements of the figures of all three modes."""
+"""What the figures with all three modes show, for their titles."""
 _TURN = 1e-9
-"""Angle [rad] and rate [rad/s] below which nothing turns."""
+"""Range of an angle [rad] and of its rate [rad/s] below which the angle counts as constant."""
 
 IMPACT: dict[str, Any] = {"color": "tab:red", "linestyle": "none", "marker": "o", "fillstyle": "none", "markersize": 6}
 _DIAMOND = IMPACT | {"marker": "D"}
@@ -104,16 +104,16 @@ _MODES = {"drift": _draw_drift, "jump": _draw_jump, "flutter": _draw_flutter}
 
 
 def _struck(trace: Trace) -> tuple[Flags, Flags]:
-    """Return which steps are double impacts, and which are impacts at all."""
+    """Return which steps are double impacts, and which are single or double impacts."""
     return np.asarray(trace.struck.all(axis=1)), np.asarray(trace.struck.any(axis=1))
 
 
 def _steps(ax: Axes, x: Floats, y: Floats, chosen: Flags, label: str, style: dict[str, Any]) -> None:
-    """Draw the lines from the chosen points to their next ones."""
+    """Draw the lines from each chosen point to the next point."""
     index = np.flatnonzero(chosen[:-1])
     if len(index):
         pieces = np.split(index, np.flatnonzero(np.diff(index) > 1) + 1)
-        # a piece ends at the point after its last one, and nan separates it from the next
+        # a piece ends at the point after its last chosen one; -1 becomes nan, which interrupts the line
         points = np.concatenate([np.append(piece, [piece[-1] + 1, -1]) for piece in pieces])
         ax.plot(*(np.where(points < 0, np.nan, values[points]) for values in (x, y)), label=label, **style)
 

@@ -28,7 +28,7 @@ from . import attractor, coordinates, figures
 Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
-"""[m/s^2]"""
+"""Acceleration of gravity [m/s^2]."""
 
 _COEFFICIENT: Mapping[str, Any] = {"minimum": 0.0, "usual": (0.01, 2.0), "assumed": True, "law": "friction"}
 _DEFAULTS = {"aspect_ratio": 3.9, "restitution": 0.65, "phase": 0.0, "vertical_velocity": 0.0, "pitch_rate": 0.0}
@@ -174,7 +174,7 @@ class DumbbellScenario(Scenario):
         self._impact_law()
 
     def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters, those that were left out as the mode and the others give them."""
+        """Return all parameters; values that were not given follow from the mode and from the other parameters."""
         return self._used
 
     @functools.cached_property
@@ -186,7 +186,7 @@ class DumbbellScenario(Scenario):
         return {name: left_out[name] if value is None else value for name, value in super().resolved().items()}
 
     def _hertz_time(self, aspect_ratio: float) -> float:
-        """Return how long the slightest impact of a ball lasts under gravity [s], the dumbbell being level."""
+        """Return the duration of the slightest impact of a ball of the level dumbbell, by Hertz and gravity [s]."""
         body, material = self._dumbbell(aspect_ratio), (self.young_modulus, self.poisson_ratio)
         return closing_time(body.level_mass, self.radius, effective_modulus(material, material), GRAVITY)
 
@@ -240,7 +240,7 @@ class DumbbellScenario(Scenario):
 
     @_quiet()
     def _impact_law(self) -> ImpactLaw:
-        """Return the installed law of the name given, with those of the scenario's parameters that it has."""
+        """Return the impact law that ``impact`` names, with the scenario's values of the parameters that it has."""
         owner, used = find("impact law", "laws", ImpactLaw, self.impact), self._used
         if self.restitution is not None and "restitution" not in rules(owner):
             rule = f"must not be given with impact={self.impact}, which does not have it"
@@ -250,7 +250,7 @@ class DumbbellScenario(Scenario):
         return law
 
     def motion(self, solution: Solution, since: float = 0.0) -> coordinates.DumbbellMotion:
-        """Return the motion at the samples from a time on [s], and at the end, in the paper's coordinates."""
+        """Return the motion in the paper's coordinates, at samples from the time ``since`` [s] on and at the end."""
         t, q, u = solution.t, solution.q, solution.u
         if len(t) == 0 or solution.t_end > t[-1] + 1e-9 / self.frequency:
             t = np.append(t, solution.t_end)
@@ -273,7 +273,7 @@ class DumbbellScenario(Scenario):
         return attractor.Settled.of(self, solution).summary()
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return, of a settled run of a mode with its own parameters, the period and a number of that mode."""
+        """Return criteria for a run with the mode's own parameters: its period, and a number typical of the mode."""
         if self.mode not in _PERIODS or not self._is_nominal():
             return ()
         paper, summary = "the paper, section 5", self.summarise(solution)
@@ -296,7 +296,7 @@ class DumbbellScenario(Scenario):
         return tuple(found)
 
     def _is_nominal(self) -> bool:
-        """Return True if all parameters are those of the mode, but for the length of the run and a push aside."""
+        """Return True if no parameter was changed but the mode, the end time and the transverse velocity."""
         declared = rules(type(self)).items()
         changed = {name for name, (field, _) in declared if getattr(self, name) != field.default}
         return changed <= {"mode", "t_end", "transverse_velocity"}
@@ -305,7 +305,7 @@ class DumbbellScenario(Scenario):
         """Return the largest gap [m] of a ball that flies one plate period from impact to impact."""
         e, f = self._used["restitution"], self.frequency
         phase = math.acos(min(1.0, math.pi * (1.0 - e) / ((1.0 + e) * self.gamma))) if self.gamma > 0.0 else 0.0
-        # the largest of 20 001 gaps is that of the orbit to 1e-9 of it
+        # the largest of 20 001 gaps is the largest gap of the orbit, with a relative error of 1e-9
         t = np.linspace(0.0, 1.0 / f, 20001)
         plate = self.amplitude * (np.sin(phase + 2.0 * math.pi * f * t) - math.sin(phase))
         return float(np.max(GRAVITY / (2.0 * f) * t - 0.5 * GRAVITY * t**2 - plate))

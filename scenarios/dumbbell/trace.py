@@ -1,4 +1,4 @@
-"""The end of a run with its jumps, for figures, and the note of the parameters below them."""
+"""Data of figures: the last part of a run with its jumps, and a note of the parameters."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ class Trace:
     Attributes
     ----------
     motion : DumbbellMotion
-        The motion; times are repeated at events.
+        The motion in n points; an event is two points at one time.
     touching : array
-        True for balls that are on the plate from this point to the next, shape [n, 2].
+        True for balls that are on the plate from a point to the next, shape [n, 2].
     struck : array
-        True for balls that take part in the impact that leads from this point to the next, shape [n, 2].
+        True for balls that take part in the impact between a point and the next, shape [n, 2].
     """
 
     motion: DumbbellMotion
@@ -88,7 +88,7 @@ class Trace:
 
 
 def note(*scenarios: DumbbellScenario, impact: str = "") -> str:
-    """Return the parameters of the runs and which of them are assumed; ``impact`` names other laws than theirs."""
+    """Return a note of the runs' parameters, given and assumed ones; ``impact`` replaces the names of their laws."""
     rows = [scenario.resolved() for scenario in scenarios]
 
     def values(name: str, factor: float = 1.0) -> str:

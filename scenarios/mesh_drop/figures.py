@@ -1,4 +1,4 @@
-"""The part in its fall, and its heights and energy over time."""
+"""Figures of the falling part: its poses, and its heights and energy over time."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _AZIMUTH, _ELEVATION = math.radians(30.0), math.radians(25.0)
-"""Direction of the eye."""
+"""Direction from which the part is drawn [rad]."""
 _LIGHT = np.array([-0.48, 0.6, 0.64])
-"""Direction of the light as seen: right, up, towards the eye."""
+"""Direction towards the light, a unit vector: right, up, towards the eye."""
 _STILL = 1e-9
-"""Kinetic energy over that of the fall below which the part lies still."""
+"""Kinetic energy, relative to the energy of the fall, below which the part lies still."""
 _SHARP = math.radians(20.0)
 """Edges at which the surface turns by more are drawn [rad]."""
 
@@ -79,7 +79,7 @@ def _part(ax: Axes, scenario: MeshDrop, seen: Floats) -> None:
 
 
 def history(scenario: MeshDrop, solution: Solution) -> Figure:
-    """Draw heights of mass centre and lowest point, and kinetic energy over that of the fall."""
+    """Draw heights of mass centre and lowest point, and kinetic energy / energy of the fall, over time."""
     t, weight = solution.t, scenario.body.total_mass * 9.81
     heights = {"mass centre": (t, 1e3 * solution.q[:, 2]), "lowest point": (t, 1e3 * scenario.lowest(solution))}
     share = scenario.kinetic_energy(solution.u) / (weight * scenario.height)

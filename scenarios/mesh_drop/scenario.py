@@ -29,9 +29,9 @@ _BUILT_IN = "bracket"
 _OUTLINE = ((0.0, 0.0), (0.06, 0.0), (0.06, 0.01), (0.012, 0.01), (0.012, 0.04), (0.0, 0.04))
 """Outline of the bracket, an L [m], counter-clockwise."""
 _CAPS = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5))
-"""Triangles of the outline."""
+"""Triangles that fill the outline, by indices of its corners."""
 _DEPTH, _TAPER = 0.03, 0.25
-"""Depth of the bracket along z [m], and by which part its far end is smaller, so that no two faces are alike."""
+"""Depth of the bracket along z [m]; fraction by which its far end is smaller, so that no two faces are alike."""
 
 
 @final
@@ -141,7 +141,7 @@ class MeshDrop(Scenario):
         return {**position, "lowest": self.lowest(solution), "kinetic_energy": self.kinetic_energy(solution.u)}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return numbers of the part, kinetic energy at the end over that of the fall, impacts, and losses [J]."""
+        """Return sizes of the part, kinetic energy at the end / energy of the fall, number of impacts, losses [J]."""
         mesh = self.body.mesh
         kinetic = float(self.kinetic_energy(solution.u_end[None])[0])
         return {
@@ -161,7 +161,7 @@ class MeshDrop(Scenario):
         return float(times[0]) if len(times) else None
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the first impact, the deepest point below ground, and losses over the energy that was given."""
+        """Return criteria: deepest point below ground, time of the first impact, and balance of energy."""
         system = self.build()
         q, u = system.start(system.bodies[1])
         kinetic = self.kinetic_energy(np.stack([u, solution.u_end]))
@@ -184,7 +184,7 @@ class MeshDrop(Scenario):
 
 
 def _bracket() -> Triangles:
-    """Return a closed surface of 12 vertices and 20 triangles, an angle with a foot, 60 mm long, not convex."""
+    """Return the surface of an L-shaped bracket, 60 mm long, not convex: 12 vertices and 20 triangles."""
     n = len(_OUTLINE)
     near = [(x, y, 0.0) for x, y in _OUTLINE]
     far = [((1.0 - _TAPER) * x, (1.0 - _TAPER) * y, _DEPTH) for x, y in _OUTLINE]

@@ -1,4 +1,4 @@
-"""The rattleback (scenario.py), and the equations of its rolling, by which it is judged (rolling.py)."""
+"""The rattleback (scenario.py), and equations of rolling, with which its runs are compared (rolling.py)."""
 
 from .scenario import Rattleback
 

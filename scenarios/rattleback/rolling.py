@@ -1,4 +1,4 @@
-"""An ellipsoid that rolls on a plane without slipping: equations of its normal and angular velocity, by scipy."""
+"""An ellipsoid that rolls on a plane without slipping: equations of motion, integrated by scipy for comparison."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 def contact_point(semi: Floats, offset: float, n: Floats) -> tuple[Floats, Floats]:
-    """Return the contact point [m] and its derivative by the upward normal n [m], in body axes from the mass centre.
+    """Return the contact point from the mass centre [m] and its derivative by the upward normal n [m], in body axes.
 
     With S the squares of the semi-axes the point is r = offset e_z - S n / h, h = sqrt(n . S n) the support function.
 
@@ -44,9 +44,10 @@ def roll(
     spin: Floats,
     times: Floats,
 ) -> tuple[Floats, Floats]:
-    """Return normals and angular velocities in body axes at the times, shapes [n, 3].
+    """Return upward normals and angular velocities [rad/s], in body axes, at given times, shapes [n, 3].
 
-    From J w' + w x J w = r x m (a + g n) with the mass centre's velocity -w x r and n' = -w x n.
+    They follow from J w' + w x J w = r x m (a + g n) and n' = -w x n.  The acceleration a of the mass centre is the
+    rate of its velocity -w x r.
 
     Parameters
     ----------
@@ -61,7 +62,7 @@ def roll(
     spin : ndarray
         Angular velocity at the start, in body axes [rad/s], shape [3].
     times : ndarray
-        Times [s], ascending; the first is that of the start.
+        Times [s], ascending, from the start on.
     """
 
     def rates(_: float, y: Floats) -> Floats:
@@ -70,7 +71,7 @@ def roll(
         # numpy's cross product takes ten times as long
         across_w, across_r = _across(w), _across(r)
         turning = -across_w @ n
-        # acceleration for w' = 0
+        # a + g n for w' = 0
         bias = gravity * n - across_w @ (by_normal @ turning + across_w @ r)
         matrix = tensor - mass * across_r @ across_r
         return np.concatenate([turning, np.linalg.solve(matrix, mass * across_r @ bias - across_w @ tensor @ w)])

@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
 _REVERSED = 10.0
-"""Time after which the published body spins the other way [s]."""
+"""Time after which the published body spins in the opposite sense [s]."""
 _SIZE: Mapping[str, Any] = {"unit": "m", "above": 0.0, "usual": (1e-3, 1.0)}
 _MOMENT: Mapping[str, Any] = {"unit": "kg m^2", "above": 0.0}
 
@@ -37,8 +37,8 @@ _MOMENT: Mapping[str, Any] = {"unit": "kg m^2", "above": 0.0}
 class Rattleback(Scenario):
     """An ellipsoid on a plane whose principal axes of inertia are turned against those of its surface.
 
-    Spun against its sense it begins to rattle, stops and spins back.  The body is that of Kane and Levinson.  They let
-    it roll; here it has Coulomb friction, so that it can slip.
+    Spun in one sense it spins for long; spun in the other one it begins to rattle, stops and spins back.  Kane and
+    Levinson let the same body roll; here it has Coulomb friction, so that it can slip.
 
     References
     ----------
@@ -95,7 +95,7 @@ class Rattleback(Scenario):
         )
 
     def build(self) -> System:
-        """Return plane and ellipsoid at their start, in which the ellipsoid rolls."""
+        """Return plane and ellipsoid at their start; the contact point has no velocity, as in rolling."""
         surface = Ellipsoid(self.semi_x, self.semi_y, self.semi_z, z=self.offset)
         body = RigidBody(self.mass, self.tensor.tolist(), (surface,))
         plane = Plate(Rest())
@@ -197,7 +197,7 @@ class Rattleback(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the history of the published body, and its spin in either sense and with less friction."""
+        """Return the history of the published body, and its spin for starts in either sense and for less friction."""
         published = cls()
         senses = {f"{spin:+g} rad/s": cls(spin=spin, t_end=60.0) for spin in (-5.0, 5.0)}
         frictions = {f"mu = {mu:g}": cls(friction=mu) for mu in (1.0, 0.5, 0.3, 0.2)}
@@ -221,7 +221,7 @@ def _history(scenario: Rattleback, solution: Solution) -> Figure:
     figure = charts.histories({label: {"": (solution.t, x)} for label, x in values.items()}, title)
     figure.axes[0].axhline(0.0, color="0.6", linewidth=0.8)
     for ax in figure.axes[1:]:
-        ax.lines[0].set_linewidth(0.7)  # a hundred oscillations are apart only in thin lines
+        ax.lines[0].set_linewidth(0.7)  # a hundred oscillations can only be distinguished in thin lines
     return figure
 
 

@@ -78,7 +78,7 @@ def rocking(scenario: RockingBlock, solution: Solution) -> Figure:
 
 
 def _broken(begins: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """Return the ends of segments in turn, with nan between one segment and the next."""
+    """Return begin and end of each segment in turn, followed by nan, which interrupts a drawn line."""
     return np.column_stack([begins, ends, np.full(len(begins), np.nan)]).ravel()
 
 

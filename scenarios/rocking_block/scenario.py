@@ -24,11 +24,11 @@ from .housner import frictionless_fall
 Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
-"""[m/s^2]"""
+"""Acceleration of gravity [m/s^2]."""
 
 
 def laws_of(block: Any) -> dict[str, Any]:
-    """Return normal, friction and impact law of a block's contact, the same in two and three dimensions."""
+    """Return normal, friction and impact law of a block's contacts, by keyword; planar and spatial blocks use it."""
     return {
         "normal": Unilateral(),
         "friction": Coulomb(block.friction) if block.friction > 0.0 else Frictionless(),

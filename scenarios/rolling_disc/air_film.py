@@ -1,4 +1,4 @@
-"""Load of the air between a disc and the table: a moment against the turning."""
+"""Load of the air between a disc and the table: a moment against the relative angular velocity."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
 _NORMAL = ROTATION + 2
-"""Place of the x component of a body's third axis; y and z follow in steps of 3."""
+"""Index of the x component of a body's third axis in its block; y and z follow in steps of 3."""
 
 
 def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, radius: float) -> None:
@@ -31,10 +31,11 @@ def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, rad
 @final
 @dataclass(frozen=True)
 class AirFilm(Load):
-    """The moment -c omega with c = (pi / 4) viscosity (radius / sin alpha)^3, alpha between the disc and the table.
+    """The moment -c omega on a disc, with c = (pi / 4) viscosity (radius / sin alpha)^3 [N m s] and its tilt alpha.
 
-    In steady rolling it dissipates the power that Moffatt found for the air layer, pi viscosity g a^2 / alpha^2 for
-    small alpha.  It does not describe other motions, and it is singular for a disc that lies flat.
+    omega is the angular velocity of the disc relative to the table.  In steady rolling with small alpha the moment
+    dissipates the power that Moffatt found for the air layer, pi viscosity g a^2 / alpha^2, with the radius a.  It does
+    not describe other motions, and it is singular for a disc that lies flat.
 
     References
     ----------

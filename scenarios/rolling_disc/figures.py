@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _MOST_TURNS = 8.0
-"""Turns of the lowest point up to which all of its path is drawn; more of them would fill a grey disc."""
+"""Turns of the lowest point up to which its whole path is drawn; more turns would fill the figure with grey."""
 _TURNS, _POINTS = 3.0, 1500
-"""Last turns that are drawn of a longer path, and their points."""
+"""Number of last turns that are drawn of a longer path, and number of points in them."""
 _THEORY: dict[str, Any] = charts.line(2) | {"linestyle": ":"}
 
 
@@ -62,7 +62,10 @@ def paths(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Figur
 
 
 def _lowest(disc: RollingDisc, run: Solution) -> tuple[Floats, str]:
-    """Return the path of the lowest point [m], shape [n, 2], or its last turns and words that say so."""
+    """Return the path of the lowest point [m], shape [n, 2], and the end of its label.
+
+    Of a path with many turns only the last ones are returned, and the label says so.
+    """
     rates = disc.precession(run)
     turns = float(np.sum(np.diff(run.t) * (rates[1:] + rates[:-1]))) / (4.0 * np.pi)
     if turns <= _MOST_TURNS or rates[-1] <= 0.0:

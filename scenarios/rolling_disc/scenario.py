@@ -33,8 +33,8 @@ _GRAVITY = 9.81
 class RollingDisc(Scenario):
     """A thin disc on its rim, its centre at rest at the start.
 
-    Friction of contact acts on slip only, and rolling has none: without air the disc rolls on for ever.  Here it
-    settles by the moment of :class:`AirFilm`.  Real discs lose energy by rolling friction and vibration, too.
+    Contact friction acts on slip only: without air the disc would roll for ever.  Here the moment of :class:`AirFilm`
+    lets it settle.  Real discs also lose energy by rolling friction and vibration.
 
     References
     ----------
@@ -112,7 +112,7 @@ class RollingDisc(Scenario):
         return _tilt_and_precession(solution.q, solution.u)[1]
 
     def contact_points(self, q: Floats, u: Floats) -> Floats:
-        """Return the lowest point of the rim [m], shape [n, 2]."""
+        """Return x and y of the lowest point of the rim [m], shape [n, 2]."""
         axis, _ = self.axis(q, u)
         flat = axis[:, :2] / np.hypot(axis[:, 0], axis[:, 1])[:, None]
         return q[:, :2] + self.radius * axis[:, 2, None] * flat

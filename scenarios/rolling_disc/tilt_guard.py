@@ -21,7 +21,7 @@ def _value(t: float, q: Floats, u: Floats, tilt: float) -> float:
 @final
 @dataclass(frozen=True)
 class TiltGuard(Guard):
-    """Ends the run when the tilt of the only free body of a system falls to ``tilt``."""
+    """A guard that ends the run when the tilt of the only free body of a system falls to ``tilt``."""
 
     tilt: float = parameter(doc="tilt that ends the run", unit="rad", above=0.0, maximum=math.pi / 2)
 

@@ -20,7 +20,7 @@ def mass(
     rod_inertia: float,
     slider_inertia: float,
 ) -> None:
-    """Write the mass matrix M."""
+    """Write the mass matrix M, row by row."""
     carried = rod_mass + slider_mass
     out[0] = crank_inertia + crank_length**2 * (0.25 * crank_mass + carried)
     out[1] = out[3] = crank_length * rod_length * (0.5 * rod_mass + slider_mass) * math.cos(q[0] - q[1])
@@ -73,7 +73,7 @@ def slider(q: Floats, out: Floats, crank_length: float, rod_length: float) -> No
 
 
 def slider_jacobian(q: Floats, out: Floats, crank_length: float, rod_length: float) -> None:
-    """Write the slider's Jacobian; an angle from x to z turns about -y."""
+    """Write the Jacobian of the slider's velocity and angular velocity; an angle from x to z turns about -y."""
     out[0], out[1] = -crank_length * math.sin(q[0]), -rod_length * math.sin(q[1])
     out[6], out[7] = crank_length * math.cos(q[0]), rod_length * math.cos(q[1])
     out[14] = -1.0

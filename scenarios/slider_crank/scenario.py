@@ -116,7 +116,7 @@ class SliderCrank(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the number of corners that the first impact hits and, with Newton's law, the rates after it."""
+        """Return criteria: number of corners in the first impact; with Newton's law, velocities after it."""
         events = solution.events
         first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
         hit, ratio, turning = (math.nan,) * 3
@@ -149,7 +149,7 @@ class SliderCrank(Scenario):
 
 
 def _heights(runs: Mapping[str, tuple[SliderCrank, Solution]], title: str) -> Figure:
-    """Draw the slider's height over the turns of the crank, a panel for each impact law; the guide is grey."""
+    """Draw the slider's height over the turns of the crank, in a panel for each impact law; the guide is grey."""
     figure, axes = charts.panels(len(runs), 1, title, (7.2, 1.2 + 2.1 * len(runs)), sharex=True)
     for ax, (law, (scenario, solution)) in zip(axes, runs.items(), strict=True):
         c = 1e3 * scenario.clearance

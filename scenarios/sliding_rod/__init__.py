@@ -1,4 +1,4 @@
-"""Painleve's rod (scenario.py), the closed forms of its contact (paradox.py) and its figures (figures.py)."""
+"""Painleve's rod (scenario.py), closed forms of its contact (paradox.py) and its figures (figures.py)."""
 
 from .scenario import SlidingRod
 

@@ -1,4 +1,4 @@
-"""The region of the paradox, and the motion of the rod there."""
+"""Figures of Painleve's rod: the region of the paradox, and angle, slip and gap of runs over time."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _ANGLES, _COEFFICIENTS = 17, 11
-"""Numbers of angles and friction coefficients at which the paradox is sought."""
+"""Numbers of angles and friction coefficients at which runs are tested for the paradox."""
 _MARKED: dict[int, str] = {
     Cause.PAINLEVE: "impact without collision",
     Cause.JAM: "jamming of the slip",
@@ -51,7 +51,7 @@ def histories(runs: Mapping[str, tuple[SlidingRod, Solution]], title: str) -> Fi
 
 
 def _history(axes: Sequence[Axes], rod: SlidingRod, solution: Solution) -> None:
-    """Draw the quantities of one run, with both values where an event makes them jump."""
+    """Draw the quantities of one run, with the values before and after each event."""
     events = solution.events
     apart = ~np.isin(solution.t, events.time)
     t = np.concatenate([solution.t[apart], np.repeat(events.time, 2)])
@@ -69,7 +69,7 @@ def _history(axes: Sequence[Axes], rod: SlidingRod, solution: Solution) -> None:
 
 
 def _quantities(rod: SlidingRod, q: Floats, u: Floats) -> dict[str, Floats]:
-    """Return the quantities that are drawn by their labels, shape [n]."""
+    """Return angle, slip velocity and gap by the labels of their axes, shape [n] each."""
     tilt = rod.tilts(q)
     gap = q[:, 2] - rod.half_length * np.sin(tilt) - rod.end_radius
     slip = rod.slips(q, u)
@@ -77,7 +77,7 @@ def _quantities(rod: SlidingRod, q: Floats, u: Floats) -> dict[str, Floats]:
 
 
 def paradox(base: SlidingRod, run: Run) -> Figure:
-    """Draw the starts over angle and friction at which a run finds no force, and the closed form of their bound."""
+    """Draw at which angles and friction coefficients a start has no contact force, and the bound in closed form."""
     angles = np.linspace(math.radians(25.0), math.radians(85.0), _ANGLES)
     starts = itertools.product(angles.tolist(), np.linspace(1.0, 2.0, _COEFFICIENTS).tolist())
     rods = [dataclasses.replace(base, tilt=tilt, friction=friction) for tilt, friction in starts]

@@ -10,9 +10,10 @@ from typing import final
 @final
 @dataclass(frozen=True)
 class RodContact:
-    """Contact of a uniform thin rod, whose lower end touches the ground ahead of its mass centre in the middle.
+    """Contact of a uniform thin rod, whose lower end touches the ground ahead of its mass centre.
 
-    While that end slides forwards, its gap accelerates as g'' = A lambda_N + b.  No force exists where A < 0 and b < 0.
+    While that end slides forwards, its gap accelerates by g'' = A lambda_N + b, with the normal force lambda_N.  If
+    A < 0 and b < 0, no normal force exists (Painleve's paradox).
 
     Attributes
     ----------
@@ -34,7 +35,7 @@ class RodContact:
         return self.mass * self.half_length**2 / 3.0
 
     def arm(self, tilt: float) -> tuple[float, float]:
-        """Return the distances of the contact point ahead of the middle and below it [m]."""
+        """Return how far the contact point is ahead of the middle of the rod, and how far below it [m]."""
         return self.half_length * math.cos(tilt), self.half_length * math.sin(tilt) + self.end_radius
 
     def reduced_coefficient(self, tilt: float, friction: float) -> float:
@@ -43,7 +44,7 @@ class RodContact:
         return 1.0 / self.mass + ahead * (ahead - friction * below) / self.inertia
 
     def free_acceleration(self, tilt: float, rate: float, gravity: float) -> float:
-        """Return b of g'' = A lambda_N + b [m/s^2]; the end lifts off if it is positive."""
+        """Return b of g'' = A lambda_N + b [m/s^2]; if b is positive and A too, the end lifts off."""
         return self.half_length * math.sin(tilt) * rate**2 - gravity
 
     def critical_friction(self, tilt: float) -> float:

@@ -30,10 +30,10 @@ GRAVITY = 9.81
 @final
 @dataclass(frozen=True)
 class SlidingRod(Scenario):
-    """A uniform rod in the plane of x and z, its lower end ahead: it slides towards +x at ``speed``.
+    """A uniform rod in the plane of x and z that slides on its lower end towards +x at ``speed``, that end ahead.
 
-    The ends are spheres of a radius far below the length.  In the limit of sharp ends the paradox begins at the
-    friction coefficient 4/3, at tan(angle) = 2.  The moment of inertia is that of a thin rod, m (2 s)^2 / 12.
+    The ends are spheres, much smaller than the length.  For sharp ends the least friction coefficient of the paradox is
+    4/3, at tan(angle) = 2.  The moment of inertia is m (2 s)^2 / 12, as for a thin rod of half-length s.
 
     References
     ----------
@@ -102,12 +102,12 @@ class SlidingRod(Scenario):
         return system
 
     def tilts(self, q: Floats) -> Floats:
-        """Return phi [rad], shape [n], at coordinates of shape [n, n_q]."""
+        """Return the angle phi of the rod from the ground [rad], shape [n], at coordinates of shape [n, n_q]."""
         angle: Floats = 2.0 * np.arctan2(q[:, 5], q[:, 3])
         return angle
 
     def slips(self, q: Floats, u: Floats) -> Floats:
-        """Return the slip velocity of the lower end [m/s], shape [n], in states of the system."""
+        """Return the slip velocity of the lower end [m/s], shape [n], at q and u with one state per row."""
         velocity: Floats = u[:, 0] - u[:, 4] * (self.half_length * np.sin(self.tilts(q)) + self.end_radius)
         return velocity
 
@@ -139,7 +139,7 @@ class SlidingRod(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return whether the start is in the paradox and, for e = 0, rate and slip after the impact there."""
+        """Return criteria: whether the start is in the paradox; for e = 0, rate and slip after the impact there."""
         if self.speed <= 0.0 or self.rod.free_acceleration(self.tilt, self.rate, GRAVITY) >= 0.0:
             return ()
         events, rod = solution.events, self.rod

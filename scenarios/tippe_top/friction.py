@@ -1,4 +1,4 @@
-"""Coulomb friction of a small contact disc that spins: the friction force is below mu N, and nothing sticks."""
+"""Coulomb friction of a small contact disc that spins: the force is below mu N and vanishes at zero slip."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ def _coefficient(speed: float, friction: float, drilling_speed: float) -> float:
 class SpinningCoulomb(FrictionLaw):
     """Friction coefficient mu v / (v + v_d) of a contact disc that spins.
 
-    For a Hertzian disc of radius R that spins at omega, v_d = 8 R omega / (3 pi).  At every point of the disc friction
-    acts against the velocity of that point.  The resultant against the slip v of the disc is proportional to v if v is
-    small, so that there is no static friction.  The coefficient is exact in slope at v = 0 and in its limit mu; omega
-    is a constant here.  The moment against the spin is left out.
+    For a Hertzian disc of radius R that spins at omega, v_d = 8 R omega / (3 pi).  At every point of the disc, friction
+    acts against the velocity of that point.  For a small slip speed v the resultant is proportional to v, so that there
+    is no static friction.  The formula has the exact slope at v = 0 and the exact limit mu for fast slip.  Here omega
+    is a constant, and the moment against the spin is neglected.
 
     References
     ----------
@@ -36,7 +36,7 @@ class SpinningCoulomb(FrictionLaw):
 
     @property
     def coefficient(self) -> Callable[..., float]:
-        """0 at rest, mu for fast slip."""
+        """The friction coefficient as a function of the slip speed: 0 at rest, mu for fast slip."""
         return _coefficient
 
     def is_fulfilled(
@@ -46,6 +46,6 @@ class SpinningCoulomb(FrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """Return True if the force is that of this slip."""
+        """Return True if the tangential force is the one of this slip velocity, within the tolerance [N]."""
         per_speed = self.friction * normal_force / (math.hypot(*slip) + self.drilling_speed)
         return all(abs(t + per_speed * v) <= tolerance for t, v in zip(tangential_force, slip, strict=True))

@@ -29,18 +29,19 @@ Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
 _INVERTED = 8.0
-"""Time after which the source's top stands on its stem [s]."""
+"""Time after which the top of the source stands on its stem [s]."""
 _SHORT = 5.0
-"""End of the gallery's runs with other friction or spin [s]."""
+"""End time of the gallery's runs with other friction or spin [s]."""
 
 
 @final
 @dataclass(frozen=True)
 class TippeTop(Scenario):
-    """A body of revolution on a plane: body (large sphere) below, stem (small sphere) above, mass centre lowest.
+    """A top of two spheres on a plane: body (large sphere) below, stem (small sphere) above.
 
-    Friction is that of a small contact disc that spins, :class:`SpinningCoulomb`, or Coulomb's at a point if its radius
-    is zero.  The source has the disc's friction against drilling, too; this model does not.
+    The mass centre is below the centre of the large sphere.  Friction acts in a small contact disc that spins
+    (:class:`SpinningCoulomb`), or by Coulomb's law at a point if the disc's radius is zero.  The source also has the
+    disc's friction moment against drilling; this model has none.
 
     References
     ----------
@@ -104,7 +105,7 @@ class TippeTop(Scenario):
             )
 
     def friction_law(self) -> FrictionLaw:
-        """Return friction at a point, or of a contact disc with the spin of the top at the start."""
+        """Return the friction law: at a point, or of a contact disc that spins as the top does at the start."""
         if self.friction == 0.0:
             return Frictionless()
         if self.contact_radius == 0.0 or self.spin == 0.0:
@@ -196,8 +197,8 @@ class TippeTop(Scenario):
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return whether and when [s] the top inverted, its last tilt [rad] and spins [rad/s], and the energy lost [J].
 
-        ``stem_down`` is the first time at which the stem touches, ``body_up`` the last at which the large sphere does;
-        ``inverted`` says that the axis points down within 0.1 rad at the end.
+        ``inverted`` is True if the axis points down within 0.1 rad at the end.  ``stem_down`` is the time at which the
+        stem first touches, ``body_up`` the time at which the large sphere leaves for good.
         """
         events = solution.events
         touching = events.after & 1
@@ -216,7 +217,7 @@ class TippeTop(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the change of Jellett's quantity before the stem touches and, of the source's top, its last tilt."""
+        """Return criteria: change of Jellett's quantity before the stem touches; last tilt of the top of the source."""
         summary = self.summarise(solution)
         before = solution.t < (math.inf if summary["stem_down"] is None else summary["stem_down"])
         jellett = self.jellett(solution.q[before], solution.u[before])
@@ -234,7 +235,7 @@ class TippeTop(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the history of the source's top, and the tilt with other contact discs and spins."""
+        """Return the history of the top of the source, and the tilt with other contact discs and spins."""
         top = cls()
         discs = {"friction at a point": cls(contact_radius=0.0, t_end=_SHORT)}
         discs |= {f"R = {1e3 * r:g} mm": cls(contact_radius=r, t_end=_SHORT) for r in (0.05e-3, 0.1e-3, 0.5e-3, 2e-3)}

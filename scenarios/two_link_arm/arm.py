@@ -8,7 +8,7 @@ from nonsmooth.types import Floats
 
 
 def mass(q: Floats, out: Floats, link_mass: float, link_length: float) -> None:
-    """Write the mass matrix M; the angles q of the links are measured from the vertical."""
+    """Write the mass matrix M, row by row; q are the angles of the links from the vertical [rad]."""
     unit = link_mass * link_length**2
     out[0] = 4.0 / 3.0 * unit
     out[1] = out[2] = 0.5 * unit * math.cos(q[0] - q[1])
@@ -49,7 +49,7 @@ def power(t: float, q: Floats, u: Floats, damping: float) -> float:
 
 
 def tip(q: Floats, out: Floats, link_length: float, height: float) -> None:
-    """Write the position of the tip [m]; the pivot is at the height over the origin, the links hang down from it."""
+    """Write the position of the tip [m]; the links hang from a pivot at the height ``height`` over the origin [m]."""
     out[0] = link_length * (math.sin(q[0]) + math.sin(q[1]))
     out[2] = height - link_length * (math.cos(q[0]) + math.cos(q[1]))
 

@@ -29,9 +29,9 @@ def mobility(theta_1: float, height_ratio: float, link_mass: float, link_length:
 def reduced_coefficient(
     theta_1: float, friction: float, height_ratio: float, link_mass: float, link_length: float
 ) -> float:
-    """Return A = G_nn - mu G_nt [1/kg]: the tip's acceleration from the belt per normal force while it slides along x.
+    """Return A = G_nn - mu G_nt [1/kg], the normal acceleration of the tip per normal force while it slides along x.
 
-    If it is negative, a normal force pulls the tip into the belt: no force fulfils the laws of contact.
+    If A is negative, a normal force pulls the tip into the belt: no force fulfils the laws of contact.
     """
     g = mobility(theta_1, height_ratio, link_mass, link_length)
     return float(g[0, 0] - friction * g[0, 1])

@@ -1,4 +1,4 @@
-"""A two-link arm whose tip slides on a moving belt, and is thrown off it by an impact without collision."""
+"""A two-link arm whose tip slides on a moving belt until an impact without collision throws it off."""
 
 from __future__ import annotations
 
@@ -199,7 +199,7 @@ def _critical_friction(scenario: TwoLinkArm) -> Figure:
 
 
 def _gaps(runs: list[tuple[TwoLinkArm, Solution]], title: str) -> Figure:
-    """Draw the gap of the tip over time, a panel for each damper; crosses mark impacts without collision."""
+    """Draw the gap of the tip over time, in a panel for each damper; crosses mark impacts without collision."""
     dampers = sorted({one.damping for one, _ in runs})
     size = (7.2, 1.2 + 2.2 * len(dampers))
     figure, axes = charts.panels(len(dampers), 1, title, size, sharex=True, sharey=True)

@@ -33,17 +33,18 @@ _LENGTH: Mapping[str, Any] = {"unit": "m", "above": 0.0}
 _BEAK = 0
 """Index of the beak's contact."""
 _SETTLED = 2.0
-"""Time after which the cycles are close to their limit [s]."""
+"""Time after which the cycles are close to the limit cycle [s]."""
 _SHOWN = 3
-"""Number of cycles in a figure."""
+"""Number of cycles that a figure shows."""
 
 
 @final
 @dataclass(frozen=True)
 class Woodpecker(Scenario):
-    """Glocker's model of the toy, started with its sleeve jammed and the bird swinging away.
+    """Glocker's model of the toy: it starts with the sleeve jammed and the bird swinging away from the pole.
 
-    In the published start the sleeve is 0.9 micrometres inside the pole, by rounding; here it just touches.
+    In the published start the sleeve overlaps the pole by 0.9 micrometres, because numbers were rounded; here it just
+    touches.
 
     References
     ----------
@@ -116,9 +117,9 @@ class Woodpecker(Scenario):
         return events.time[hits], events.q[hits, 0]
 
     def cycle(self, solution: Solution) -> tuple[float, float]:
-        """Return duration [s] and descent [m] of a cycle, the mean of the last two; nan before the third peck.
+        """Return the mean duration [s] and descent [m] of the last two cycles; nan before the third peck.
 
-        Near the limit cycle the pecks are early and late by turns; the mean of two cycles is not.
+        Near the limit cycle pecks are early and late by turns, which cancels in the mean of two cycles.
         """
         times, heights = self.pecks(solution)
         if len(times) < 3:
@@ -130,7 +131,7 @@ class Woodpecker(Scenario):
         return dict(zip(self.coordinate_units, solution.q.T, strict=True))
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the numbers of pecks and impacts, and duration [s] and descent [m] of the last cycle."""
+        """Return the numbers of pecks and impacts, and mean duration [s] and descent [m] of the last two cycles."""
         duration, descent = self.cycle(solution)
         return {
             "pecks": len(self.pecks(solution)[0]),
@@ -196,7 +197,7 @@ def _limit_cycles(runs: Mapping[str, tuple[Woodpecker, Solution]]) -> Figure:
 
 
 def _last_cycles(scenario: Woodpecker, solution: Solution) -> NDArray[np.bool_]:
-    """Return True for samples in the last cycles, for all samples of a shorter run; shape [n_samples]."""
+    """Return True for samples in the last cycles, or for all if the run has too few cycles, shape [n_samples]."""
     times, _ = scenario.pecks(solution)
     start, stop = (times[-_SHOWN - 1], times[-1]) if len(times) > _SHOWN else (0.0, solution.t_end)
     return np.asarray((solution.t >= start) & (solution.t <= stop))

@@ -1,8 +1,8 @@
 """Equations of the woodpecker toy, for small angles: sleeve M and bird S, joined by a torsional spring.
 
-Coordinates are the height y of the sleeve and the angles phi_M, phi_S of sleeve and bird.  The model has gaps and slips
-along the pole but no outlines.  Here the gap of the beak is along x, the gaps of the sleeve's edges are along y, and
-each point has a contact with its own face of the pole only.
+Coordinates are the height y of the sleeve and the angles phi_M, phi_S of sleeve and bird.  The published model defines
+gaps and slips but no outlines.  Here the gap of the beak is along x, and the gaps of the sleeve's edges are along y.
+Each contact point touches its own face of the pole only.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def mass(
     sleeve_arm: float,
     bird_arm: float,
 ) -> None:
-    """Write the mass matrix M."""
+    """Write the mass matrix M, row by row."""
     out[0] = bird_mass + sleeve_mass
     out[1] = out[3] = bird_mass * sleeve_arm
     out[2] = out[6] = bird_mass * bird_arm
@@ -85,7 +85,7 @@ def beak_jacobian(
 
 
 def lower_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
-    """Write gap, along y, and height [m] of the sleeve's edges that touch if it tilts to negative angles."""
+    """Write the gap, along y, and the height [m] of the sleeve's edges that touch if its angle is negative."""
     out[1] = sleeve_radius - pole_radius + sleeve_height * q[1]
     out[2] = q[0] + sleeve_radius * q[1]
 
@@ -97,7 +97,7 @@ def lower_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_hei
 
 
 def upper_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float, sleeve_height: float) -> None:
-    """Write gap, along y, and height [m] of the sleeve's edges that touch if it tilts to positive angles."""
+    """Write the gap, along y, and the height [m] of the sleeve's edges that touch if its angle is positive."""
     out[1] = sleeve_radius - pole_radius - sleeve_height * q[1]
     out[2] = q[0] + sleeve_radius * q[1]
 
@@ -122,7 +122,7 @@ def outlines(
     beak_arm: float,
     beak_height: float,
 ) -> list[list[tuple[float, float, float]]]:
-    """Return the ends of lines for sleeve, spring and bird [m]; the beak touches the pole at x = 0."""
+    """Return the ends of the lines that draw sleeve, spring and bird [m]; the beak touches the pole at x = 0."""
 
     def place(x: float, z: float, angle: float, across: float, up: float) -> tuple[float, float, float]:
         return x + across - up * angle, 0.0, z + up + across * angle

@@ -13,7 +13,7 @@ from ...shapes.placement import turned
 
 @compiled
 def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return where a point of the body stands [m]."""
+    """Return the place of a point of the body in the world [m]."""
     return (
         frame[POSITION] + frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
         frame[POSITION + 1] + frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
@@ -49,13 +49,16 @@ turned_by = compiled(turned)
 def across(
     x: float, y: float, z: float, axis_x: float, axis_y: float, axis_z: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the part of (x, y, z) along the unit axis, the size of that across, and the unit vector there."""
+    """Return the component of (x, y, z) along a unit axis, the size of the rest, and a unit vector along the rest.
+
+    The unit vector is perpendicular to the axis even if the rest is zero.
+    """
     along = x * axis_x + y * axis_y + z * axis_z
     x, y, z = x - along * axis_x, y - along * axis_y, z - along * axis_z
     size = math.sqrt(x * x + y * y + z * z)
     if size > 0.0:
         x, y, z = x / size, y / size, z / size
-        # of a vector close to the axis the difference is rounding, which may point anywhere
+        # for a vector close to the axis the rest is round-off, which may have a component along the axis
         rest = x * axis_x + y * axis_y + z * axis_z
         x, y, z = x - rest * axis_x, y - rest * axis_y, z - rest * axis_z
         length = math.sqrt(x * x + y * y + z * z)
@@ -66,23 +69,23 @@ def across(
 
 
 _ROUND_OFF = 1e-16
-"""Square of what round-off may leave of a zero in a normal, of a face in other axes or of edges that lie in one."""
+"""Squared sine of the angle to (0, 0, -1) below which a normal differs from (0, 0, -1) by round-off only."""
 
 
 @compiled
 def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return a unit vector across the unit normal (x, y, z), continuous in it but for the normal (0, 0, -1).
+    """Return a unit tangent for the unit normal (x, y, z), continuous except at the normal (0, 0, -1).
 
-    No tangent field is continuous everywhere.  This one turns (1, 0, 0) with (0, 0, 1) to the normal on the shortest
-    way: J. R. Frisvad, "Building an orthonormal basis from a 3D unit vector without normalization", J. Graphics Tools
-    16 (2012) 151-159.
+    No tangent field is continuous everywhere.  This one applies to (1, 0, 0) the shortest rotation from (0, 0, 1) to
+    the normal: J. R. Frisvad, "Building an orthonormal basis from a 3D unit vector without normalization", J. Graphics
+    Tools 16 (2012) 151-159.
     """
     if z >= 0.0:
         return 1.0 - x * x / (1.0 + z), -x * y / (1.0 + z), -x
-    # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits where the normal points down
+    # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits if the normal points down
     square = x * x + y * y
     if square < _ROUND_OFF:
-        # faces that lie on each other with the normal (0, 0, -1) keep their tangent however the bodies turn
+        # the tangent must not follow round-off: faces that lie on each other keep it while the bodies turn
         length = math.sqrt(1.0 - x * x)
         return length, -x * y / length, -x * z / length
     grow = (1.0 - z) / square
@@ -91,7 +94,7 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
 
 @compiled
 def write_tangent(a: Floats, out: Floats) -> None:
-    """Write the first tangent for the normal that stands in ``out``, fixed to the first body but for the normal."""
+    """Write the first tangent for the normal in ``out``; it depends only on the normal in axes of the first body."""
     x, y, z = tangent_of(
         a[ROTATION] * out[NORMAL] + a[ROTATION + 3] * out[NORMAL + 1] + a[ROTATION + 6] * out[NORMAL + 2],
         a[ROTATION + 1] * out[NORMAL] + a[ROTATION + 4] * out[NORMAL + 1] + a[ROTATION + 7] * out[NORMAL + 2],

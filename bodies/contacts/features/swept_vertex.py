@@ -246,9 +246,9 @@ class SweptVertex(ContactKinematics):
 def write_swept(
     frame: Floats, out: Floats, side: int, number: int, n_faces: float, n_edges: float, edges: Floats, radius: float
 ) -> None:
-    """Write a flat face, the side of a cylinder about an edge, or a sphere about a vertex, by the feature's number.
+    """Write the matrices of a feature: flat face, side of a cylinder about an edge, or sphere about a vertex.
 
-    Normal and first tangent stand in ``out`` already.
+    ``number`` counts faces first, then edges, then vertices.  Normal and first tangent must be in ``out``.
     """
     edge = number - int(n_faces)
     if edge < 0:

@@ -146,15 +146,17 @@ def nearest_face(
 
 
 Nearest = tuple[int, float, float, float, float, float]
-"""Number of the feature (faces first, then edges, then vertices), distance, unit vector to the point, and how far the
-nearest point is from the nearer end of its edge; 0 at a vertex, infinite on a face."""
+"""Number of the feature (faces first, then edges, then vertices), distance [m], unit vector to the point, and margin.
+
+The margin is the distance of the nearest point from the nearer end of its edge [m]: 0 at a vertex, infinite on a face.
+"""
 _SAME = 1e-14
-"""Squares of distances that differ by this part are the same."""
+"""Relative difference up to which squared distances count as equal: round-off."""
 
 
 @compiled
 def _face(faces: Floats, n_faces: float, x: float, y: float, z: float) -> tuple[int, float]:
-    """Return the face that is nearest to a point and its height over it, or -1 where an edge or a vertex is."""
+    """Return the face nearest to a point and the point's height over it [m]; -1 if an edge or a vertex is nearest."""
     highest, best = -math.inf, -1
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
@@ -171,9 +173,10 @@ def _face(faces: Floats, n_faces: float, x: float, y: float, z: float) -> tuple[
 
 @compiled
 def _edge(edges: Floats, n_edges: float, x: float, y: float, z: float) -> tuple[int, float]:
-    """Return the edge that is nearest to a point, and where on it the nearest point is [m].
+    """Return the edge nearest to a point, and the distance of the nearest point from the start of the edge [m].
 
-    Next to a vertex the distances of its edges are the same to round-off: the one with the point inside is taken.
+    Near a vertex, the distances of several edges may be equal within round-off.  Then the edge is taken whose nearest
+    point is farthest from its ends.
     """
     least, best, place, inside = math.inf, 0, 0.0, 0.0
     for i in range(int(n_edges)):
@@ -192,9 +195,10 @@ def _edge(edges: Floats, n_edges: float, x: float, y: float, z: float) -> tuple[
 def nearest_feature(
     n_faces: float, faces: Floats, n_edges: float, edges: Floats, ends: Floats, x: float, y: float, z: float
 ) -> Nearest:
-    """Return what is nearest to the point (x, y, z) of the body frame; inside, the nearest face, the distance negative.
+    """Return the feature nearest to the point (x, y, z) of the body frame.
 
-    A point on an edge has no direction from it; one across it is taken.
+    For a point inside, this is the nearest face, with a negative distance.  The direction from an edge to a point on
+    it is undefined; a unit vector perpendicular to the edge is returned.
     """
     face, distance = _face(faces, n_faces, x, y, z)
     if face >= 0:

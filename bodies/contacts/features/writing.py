@@ -91,14 +91,14 @@ def write_principal(
 
 
 NO_CANDIDATE = (0.0, 0.0, 0.0, 0.0)
-"""What such a contact holds (:class:`nonsmooth.interfaces.CandidateSearch`)."""
+"""Candidate of a contact that has no features at present (:class:`nonsmooth.interfaces.CandidateSearch`)."""
 _APART = 1e3
-"""Its gap, in sizes of the larger body."""
+"""Gap written for bodies that are far apart, relative to the size of the larger body."""
 
 
 @compiled
 def write_apart(a: Floats, out: Floats, size: float) -> None:
-    """Write the geometry block of bodies that are far apart, in sizes of the larger one [m]."""
+    """Write the geometry block of bodies that are far apart; ``size`` is the size of the larger body [m]."""
     for i in range(PAIR):
         out[i] = 0.0
     out[GAP] = out[PAST_END] = _APART * size
@@ -112,9 +112,10 @@ def write_apart(a: Floats, out: Floats, size: float) -> None:
 
 @compiled
 def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: float, ny: float, nz: float) -> None:
-    """Write gap, axes and witness points; the nearest points of the two cores stand in place of the latter.
+    """Write gap, axes and witness points of two rounded bodies, from the nearest points of their cores.
 
-    Cores that meet have no normal: (nx, ny, nz) is taken, and must be across both.
+    On entry, the witness points in ``out`` are the nearest points of the cores.  If the cores touch, these points give
+    no normal, and (nx, ny, nz) is taken: it must be perpendicular to both cores.
     """
     square = 0.0
     for i in range(3):
@@ -141,9 +142,11 @@ def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance:
 
 @compiled
 def gap_at_distance(gap: float, past: float, radius: float) -> float:
-    """Return the gap at a distance from a core, by that of the core and the way past its end.
+    """Return the gap of the surface at the distance ``radius`` from a core [m].
 
-    Past the end a gap that is positive stays so: it is the root of the squares of the gap and of the way past the end.
+    ``gap`` is the gap of the core, ``past`` the distance past the end of its feature [m].  Past the end, ``gap`` is the
+    hypotenuse of ``past`` and the gap along the normal.  Only the latter shrinks by the radius, so that a positive gap
+    remains positive.
     """
     if past <= 0.0 or gap <= 0.0:
         return gap - radius
@@ -152,10 +155,10 @@ def gap_at_distance(gap: float, past: float, radius: float) -> float:
 
 
 UNSEEN = ("foot_height",)
-"""What a shape says of itself that its contacts with others than planes do not see."""
+"""Parameters of shapes that matter to contacts with planes only."""
 
 
 def by_side(first: Shape, second: Shape) -> dict[str, float]:
-    """Return the parameters of both shapes, with _a behind the names of the first's and _b behind the second's."""
+    """Return the parameters of both shapes; names of the first shape end in _a, names of the second in _b."""
     sides = ("a", first.numbers()), ("b", second.numbers())
     return {f"{name}_{side}": value for side, numbers in sides for name, value in numbers.items() if name not in UNSEEN}

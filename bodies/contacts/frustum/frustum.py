@@ -25,7 +25,7 @@ from ..surface.surface_tables import Numbers
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """The parts; the flank is the side."""
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
-"""What the names of features call them."""
+"""Names of the rims in the names of features."""
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
@@ -45,14 +45,14 @@ def part_number(frustum: Floats, part: int) -> float:
 
 @compiled
 def center_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
-    """Return where the centre stands [m]."""
+    """Return the centre of a frustum in the world [m]."""
     x, y, z = point_in_world(frame, frustum[CENTER], frustum[CENTER + 1], frustum[CENTER + 2])
     return x, y, z
 
 
 @compiled
 def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
-    """Return the unit axis."""
+    """Return the unit axis of a frustum in world axes."""
     x, y, z = vector_in_world(frame, frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6])
     return x, y, z
 
@@ -64,7 +64,7 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
     Parameters
     ----------
     frustum : Floats
-        Its numbers.
+        Numbers of the frustum.
     along, away : float
         Height of the point over the centre along the axis, and its distance from the axis [m].
     """
@@ -101,18 +101,18 @@ def least_height(frustum: Floats, height: float, cosine: float) -> float:
 
 @compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
-    """Write the matrices of a part; normal and first tangent stand in ``out`` already.
+    """Write the matrices of a part of a frustum; normal and first tangent must be in ``out``.
 
     Parameters
     ----------
     out, side : Floats, int
-        The geometry block, and where the matrices stand.
+        The geometry block, and the index at which the matrices begin.
     part : int
-        Which one.
+        Number of the part, such as ``FLANK``.
     axis, outward : Vector3
-        The unit axis, and the unit vector across it on whose side the point is.
+        The unit axis, and the unit vector from the axis towards the point, perpendicular to the axis.
     radial : float
-        Part of the outward normal along the latter.
+        Component of the outward normal along ``outward``.
     away : float
         Distance of the point from the axis [m].
     """
@@ -132,12 +132,13 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
 def tip_past_rim(
     b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
 ) -> float:
-    """Return how far the edges of a vertex come through the plane of a disc past its rim, negative within it.
+    """Return how far outside of a disc's rim the edges of a vertex cross the plane of the disc [m], plus ``depth``.
 
-    The vertex p, from the centre of the disc, is so deep behind it, against n.  Where it has just come through, so have
-    its edges next to it, wherever they lean; an edge that is nearer to the rim than the vertex is deep has come from
-    beside, and it is the rim that meets it.  An edge counts for the end of it that is nearer to the plane; without any
-    the number is large.
+    A negative result means a contact of the vertex, a positive one a contact of the rim with an edge.  The vertex p,
+    relative to the centre of the disc, lies at ``depth`` behind the plane, against n.  If the vertex came through the
+    disc itself, all its edges cross the plane well inside of the rim.  An edge that crosses nearer to the rim than
+    ``depth`` came in from the side.  Only an edge that crosses the plane in its half next to the vertex counts.
+    The result is infinite if no edge counts.
     """
     (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
@@ -155,13 +156,13 @@ def tip_past_rim(
 
 
 _WAYS = 12
-"""Lines round a cone, or across a cap, of which none may point far into the face that an apex or a foot touches."""
+"""Number of lines round an apex or a foot; in a contact, none of them may point far into the touched face."""
 
 
 def set_back(first: Frustum) -> Numbers:
-    """Return the numbers of the body within its rims as they are set back, out of which only the feet stand.
+    """Return the numbers of a frustum whose rims are set back by the height of the feet; only the feet protrude.
 
-    So a rim that rolls over the edge of a face goes on at the same height.
+    A rim that rolls over the edge of a face thereby keeps its height.
     """
     own = first.frustum
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
@@ -174,7 +175,7 @@ def set_back(first: Frustum) -> Numbers:
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield place, lines of the side and name of the apex of a cone."""
+    """Yield the apex of a cone: place [m], unit vectors down the side, name; another frustum has no apex."""
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:
@@ -182,13 +183,13 @@ def apex_of(first: Frustum) -> Iterator[Corner]:
 
 
 def feet_of(first: Frustum) -> Iterator[Corner]:
-    """Yield place, lines of the cap about it and name of the feet."""
+    """Yield all feet: place [m], unit vectors in the plane of the cap, name."""
     for i, foot in enumerate(first.feet):
         yield foot, _round(first, 1.0, 0.0), f"foot {i}"
 
 
 def _round(first: Frustum, away: float, along: float) -> Numbers:
-    """Return unit vectors round the axis, one after the other."""
+    """Return unit vectors evenly round the axis, with components ``away`` across and ``along`` it, flattened."""
     axes = np.array(first.frustum[AXIS - 2 : AXIS + 7]).reshape(3, 3)
     angles = [2.0 * math.pi * i / _WAYS for i in range(_WAYS)]
     ways = [axes @ np.array([away * math.cos(angle), away * math.sin(angle), along]) for angle in angles]

@@ -182,10 +182,10 @@ def on_rim(
     part: int,
     tilt: float,
 ) -> Answer:
-    """Return the stop of a rim, or of the apex; begin on the side of a direction across the axis.
+    """Return the stop of a rim, or of the apex; the search starts on the side ``direction`` of the axis.
 
-    Begin at the part ``tilt`` of the way from the normal of the side to that of the cap, if it is below 0 at the way
-    from the rim to the centre, if that is between these normals.
+    The first normal lies between the normal of the side and the normal of the cap, at the fraction |tilt| of the way.
+    A negative ``tilt`` starts instead with the direction from the rim to the core's centre, if it is between both.
     """
     sx, sy = direction
     x, y, z = place

@@ -1,4 +1,4 @@
-"""Contacts of a frustum with a frustum or an edge: both sides in the world, and the geometry block.
+"""Contacts of a frustum with a frustum or an edge: where features end, and the geometry block.
 
 An edge belongs to the second body: a sharp or rounded polyhedron, or a capsule.
 """
@@ -24,9 +24,9 @@ from .frustum import axis_in_world, center_in_world, nearest_part, write_part
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
-"""Sine of the angle by which the normal may leave the normals of a rim or an edge: what may soon close is followed."""
+"""Sine of the angle by which a normal may leave the normals of a rim or an edge, so that near contacts are followed."""
 _INSIDE = 4.0
-"""Where no point is found inside, an overlap counts only where it is, or crosses, so many depths away from its ends."""
+"""Least distance of an overlap from the ends of its features, relative to its depth, if no point lies in a body."""
 
 
 @compiled
@@ -108,9 +108,10 @@ def write_two(
 def write_side(
     out: Floats, second: float, frustum: Floats, part: int, axis: Vector3, place: Vector3, normal: Vector3, away: float
 ) -> None:
-    """Write the matrices of a part of the second body if ``second`` is 1, else of the first.
+    """Write the matrices of a part of a frustum, which is the second body if ``second`` is 1, else the first.
 
-    ``place`` is the vector from its axis to the point, of any length, ``normal`` its outward normal.
+    ``place`` is a vector from the axis of the frustum towards the contact point, of any length.  ``normal`` is the
+    outward normal there, ``away`` the distance of the point from the axis [m].
     """
     (ax, ay, az), (x, y, z), (nx, ny, nz) = axis, place, normal
     along = x * ax + y * ay + z * az
@@ -126,11 +127,11 @@ def write_side(
 
 
 PARALLEL = 0.01
-"""Sine of the angle between an edge and what it crosses below which it does not; then ends and vertices hold."""
+"""Least sine of the angle at which an edge crosses a rim or a side; if they are nearly parallel, their ends touch."""
 
 
 def size_of_both(first: Frustum, second: SweptPolytope) -> float:
-    """Return the size of the larger of the two [m]."""
+    """Return the size of the larger body [m]."""
     return max(second.core.size + 2.0 * second.sweep, 2.0 * first.extent)
 
 
@@ -138,7 +139,7 @@ def size_of_both(first: Frustum, second: SweptPolytope) -> float:
 def edge_in_frustum(
     b: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Return the first end from the frustum's centre and the direction of an edge, in the axes of the frustum."""
+    """Return the start of an edge from the frustum's centre [m], and its unit vector, in the axes of the frustum."""
     x, y, z = point_in_world(b, edge[START], edge[START + 1], edge[START + 2])
     x, y, z = back(axes, x - cx, y - cy, z - cz)
     dx, dy, dz = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
@@ -148,7 +149,10 @@ def edge_in_frustum(
 
 @compiled
 def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz: float) -> float:
-    """Return the sine of the angle by which a normal, in the axes of the frustum, leaves those against the edge."""
+    """Return the sine of the angle by which a normal leaves the range of normals against an edge; negative within.
+
+    The normal (nx, ny, nz) is in the axes of the frustum.
+    """
     ux, uy, uz = vector_in_world(b, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
     vx, vy, vz = vector_in_world(b, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     nx, ny, nz = forth(axes, nx, ny, nz)
@@ -157,10 +161,12 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
 
 @compiled
 def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
-    """Return how far a crossing is past its ends, by the way over them, the sine of the crossing and the normal.
+    """Return how far a crossing is past its ends [m], negative before them.
 
-    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.  Where a point of
-    either is inside of the other, by a negative ``overlap``, it holds up to its ends.
+    ``gap`` is the gap of the cores, ``over`` the distance past the ends of both features, ``sine`` the sine of the
+    angle between them, and ``astray`` the sine of the angle by which the normal leaves their normals.  Near its ends an
+    overlap of sharp features is as wide as deep, so that it does not count there.  If a point of one body is inside of
+    the other, by a negative ``overlap``, it counts up to the ends.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
     if gap < 0.0 and overlap >= -DEEP * size:
@@ -181,9 +187,10 @@ def overlap_at(
     q: Vector3,
     place: Vector3,
 ) -> float:
-    """Return how deep the points of a crossing are in the other bodies, negative, or 0 if they are past an end.
+    """Return how deep the points of a crossing are inside of the other body [m], negative; 0 if past an end.
 
-    p is the frustum's point, in the world, q the edge's in the axes of the frustum, whose centre is ``place``.
+    p is the point of the frustum, from its centre ``place``, in world axes.  q is the point of the edge, from the same
+    centre, in the axes of the frustum.
     """
     (px, py, pz), (qx, qy, qz), (x, y, z) = p, q, place
     if over > 0.0:
@@ -192,7 +199,7 @@ def overlap_at(
     outside -= radius + frustum[SWEEP]
     if n_faces > 0.0:
         outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
-    # rims are set back by the height of the feet over faces only
+    # rims are set back by the height of the feet, but over faces only
     return float(min(outside + 2.0 * frustum[FEET], 0.0))
 
 
@@ -213,15 +220,16 @@ def write_crossing(
     overlap: float,
     size: float,
 ) -> None:
-    """Write all but the matrices of the frustum, by the distance of the cores; p is the frustum's, in the world.
+    """Write the geometry block of a crossing, except the matrices of the frustum.
 
-    Past its ends a crossing runs faster than the bodies, by the sine of its angle: so much less counts of its way.
+    ``distance`` is the distance of the cores [m], p the point of the frustum in the world.  A crossing moves faster
+    than the bodies, by 1 / sine of its angle: its distance past the ends counts times the sine.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = frustum[SWEEP]
     gap = distance - radius - sweep
     if past > 0.0:
-        # what overlaps is no contact of this crossing, but a sign that another one was passed
+        # past its ends an overlap is no contact of this crossing, but shows that another contact was missed
         gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.hypot(gap, max(PARALLEL, sine) * past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)

@@ -34,7 +34,10 @@ _BENT = 1e-6
 
 @compiled
 def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: float) -> tuple[float, float, float]:
-    """Return height over the side of the point middle + g cos + h sin in the axes of the side, and two derivatives."""
+    """Return the height over the side of the point middle + g cos + h sin [m], and two derivatives by the angle.
+
+    All vectors are in the axes of the side.
+    """
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
     c, s = math.cos(angle), math.sin(angle)
     x, y = cx + c * gx + s * hx, cy + c * gy + s * hy

@@ -42,9 +42,10 @@ _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 def _slope(
     wide: float, radius: float, middle: Vector3, g: Vector3, h: Vector3, angle: float
 ) -> tuple[float, float, float]:
-    """Return the squared distance from middle + radius (g cos + h sin) to a circle about the third axis, and slopes.
+    """Return the squared distance of a point of one circle from another circle [m^2], and two derivatives.
 
-    They are half of its derivative by the angle, over the radius, and the derivative of that.
+    The point is middle + radius (g cos + h sin); the other circle has the radius ``wide`` about the third axis.  The
+    first derivative, by the angle, is divided by 2 radius; the second one is the derivative of that quotient.
     """
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
     c, s = math.cos(angle), math.sin(angle)

@@ -56,7 +56,7 @@ def write_apex(
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
     x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
     found = nearest_in_patch(surface, patch, x, y, z, reach)
-    # the patch of a surface that has one only does not end
+    # a single patch is the whole surface, which has no end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     nx, ny, nz = out_of_surface(b, surface, found, past, x, y, z)
     radius = first[SWEEP]
@@ -82,7 +82,9 @@ def write_apex(
 @final
 @dataclass(frozen=True)
 class ApexMesh(ContactKinematics):
-    """The round apex of a cone against the nearest face or edge of one patch; a corner has a contact of its own.
+    """The contact of the round apex of a cone with the nearest face or edge of one patch of a mesh.
+
+    Corners of the mesh have contacts of their own.
 
     Attributes
     ----------

@@ -34,12 +34,12 @@ write_flank = compiled(_evaluate)
 @final
 @dataclass(frozen=True)
 class FlankMesh(ContactKinematics):
-    """Where a convex edge of the second body crosses the side of the first.
+    """The contact of a convex edge of the second body across the side of the first.
 
     Attributes
     ----------
     crossing : FlankEdge
-        That of side and edge, seen alone.
+        The contact of side and edge alone, without the rest of both bodies.
     surface : SharedNumbers
         The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
     """
@@ -58,7 +58,7 @@ class FlankMesh(ContactKinematics):
 
     @classmethod
     def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[FlankMesh, ...]:
-        """Return the same; a disc has no side."""
+        """Return the contacts of all convex edges with a frustum, given by its numbers; a disc has no side."""
         if first[SIDE] == 0.0:
             return ()
         return tuple(

@@ -135,7 +135,9 @@ write_corner = compiled(_evaluate)
 @final
 @dataclass(frozen=True)
 class FrustumCorner(ContactKinematics):
-    """A corner of the second body over the nearest part of the first, cap or side, that none of its edges points into.
+    """The contact of a corner of the second body with the nearest part of the first, cap or side.
+
+    Parts into which an edge of the corner points are left out.
 
     Attributes
     ----------
@@ -150,7 +152,7 @@ class FrustumCorner(ContactKinematics):
     size : float
         Size of the larger body [m].
     corner : int
-        Its number.
+        Number of the corner.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
@@ -172,7 +174,7 @@ class FrustumCorner(ContactKinematics):
 
     @classmethod
     def of_corners(cls, first: Numbers, second: Features, size: float) -> tuple[FrustumCorner, ...]:
-        """Return the same."""
+        """Return the contacts of all corners with a frustum, given by its numbers."""
         surface = surface_numbers(second, patches_for_body(second, 0.0))
         places = second.vertices[list(second.corners)].tolist()
         return tuple(

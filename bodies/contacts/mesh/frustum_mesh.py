@@ -51,14 +51,15 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumMesh(ContactKinematics):
-    """The lowest point of a rim over a patch of a mesh.
+    """The contact of the lowest point of a rim with a patch of a mesh.
 
-    The others are feet and apex over the patches, corners of the mesh over caps and side, and its convex edges across
-    the side and the rims.  Which of them is a contact at present is told by what is next to the points alone, so that
-    the mesh need not be convex.  A rounded body touches where its core is the radius away: with the apex as a sphere,
-    and under the corners with its rims and its apex, too.
+    The same two bodies have further contacts: feet and apex over the patches, corners of the mesh over caps and side,
+    and convex edges of the mesh across the side and the rims.  Whether a contact exists at present depends only on the
+    surface next to its points, so that the mesh need not be convex.  A rounded body touches at the distance of its
+    radius from its core: its apex is a sphere, and corners of the mesh meet its rims and its apex, too.
 
-    Where all these are hundreds, :class:`bodies.contacts.mesh.frustum_pairs.FrustumPairs` are those near each other.
+    If these contacts are too many, :class:`bodies.contacts.mesh.frustum_pairs.FrustumPairs` takes their place: only
+    features near each other become contacts.
 
     Attributes
     ----------
@@ -67,7 +68,7 @@ class FrustumMesh(ContactKinematics):
     radius : float
         Radius of the rim [m].
     center : tuple of float
-        Its centre in the body frame [m].
+        Centre of the rim in the body frame [m].
     up : float
         1 for the upper rim, else -1.
     surface : SharedNumbers

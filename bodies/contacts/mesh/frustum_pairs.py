@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc against a surface of many features: those near each other are contacts."""
+"""A cylinder, a cone or a disc against a surface of many features: only features near each other are contacts."""
 
 from __future__ import annotations
 
@@ -55,16 +55,18 @@ from .rim_mesh import write_half_rim
 from .surface_rim import rim_in_surface, rim_over, write_rim
 
 RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
-"""A face and a rim over it, a patch and a point over it, a patch and the round apex, a corner of the surface, an edge
-of it across the side, and one across the first or the second half of a rim: the first of the three numbers of a
-candidate."""
+"""Kinds of candidates, the first of a candidate's three numbers.
+
+In this order: rim over a face, point over a patch, round apex over a patch, corner of the surface, edge of the surface
+across the side, edge across the first half of a rim, edge across the second half.
+"""
 POINT_ROW = 4
-"""Numbers of a point, a foot or the apex: place, number of lines about it; the unit vectors along these follow."""
+"""How many numbers of a point, a foot or the apex, precede its unit vectors: place [m] and count of these vectors."""
 
 
 @compiled
 def _add(kind: float, second: float, third: float, out: Floats, n: int, most: int) -> int:
-    """Write a candidate behind ``n``, if there is room; return their number."""
+    """Append a candidate to the ``n`` in ``out``, unless they are more than ``most``; return the new number."""
     if n > most:
         return n
     out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, second, third
@@ -73,7 +75,7 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 
 @compiled
 def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Write the candidate of a face and a rim, unless another triangle of the face has done so."""
+    """Append a face and a rim to the ``n`` candidates, once for all triangles of the face; return the new number."""
     for i in range(n):
         if out[1 + 3 * i] == RIM and out[2 + 3 * i] == face and out[3 + 3 * i] == upper:
             return n
@@ -82,7 +84,7 @@ def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
 
 @compiled
 def _add_halves(edge: float, rim: int, out: Floats, n: int, most: int) -> int:
-    """Write the candidates of an edge and both halves of a rim."""
+    """Append an edge across either half of a rim to the ``n`` candidates; return the new number."""
     n = _add(ACROSS_BACK, edge, float(rim), out, n, most)
     return int(_add(ACROSS_FRONT, edge, float(rim), out, n, most))
 
@@ -100,7 +102,7 @@ def _member_near(
     n: int,
     most: int,
 ) -> int:
-    """Write what may touch of a face, an edge or a corner; return how many candidates there are."""
+    """Append the candidates of one triangle, edge or corner to the ``n`` in ``out``; return the new number."""
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
     if member < n_triangles:
         t = int(surface[TRIANGLES]) + TRIANGLE * member
@@ -139,10 +141,10 @@ def find_near_frustum(
     turning: float,
     narrow: float,
 ) -> None:
-    """Find rims, points and apex over faces, corners, and edges across side and rims.
+    """Find near features: faces under rims, patches under points and apex, corners, edges across side and rims.
 
-    A rim has a face for candidate, not a patch: patches of surfaces with triangles that are small beside the rim would
-    be so many as the faces next to it.  ``turning`` is as of two surfaces, ``narrow`` of
+    A candidate of a rim names a face, not a patch: if the triangles are small compared with the rim, patches would be
+    as many as faces.  ``turning`` is how far the bodies turn per margin [rad/m]; ``narrow`` is explained in
     :func:`bodies.contacts.surface.surface_near.room_ahead`.
     """
     reach, limit, n, node = out[0], room_ahead(out[0], narrow, int(most)), 0, 0
@@ -221,20 +223,20 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumPairs(ContactKinematics):
-    """A pair of features of a cylinder, a cone or a disc and of a surface that are near each other at present.
+    """The contact of a feature of a cylinder, cone or disc with a feature of a surface near it at present.
 
     Attributes
     ----------
     search : CandidateSearch
-        What finds them.
+        Search for pairs of features near each other.
     rims : tuple of float
         Radius and centre of each rim in the body frame [m].
     lengths : SharedNumbers
-        Lengths of the edges of the surface's corners, one corner after the other [m]; one number but for discs.
+        For a disc, lengths of the edges of the surface's corners, one corner after the other [m]; else a single 0.
     n_features : int
-        How many features the surface has.
+        Number of features of the surface.
     number : int
-        Which of the contacts of the two bodies it is.
+        Number of this contact among the contacts of both bodies.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
@@ -281,11 +283,11 @@ class FrustumPairs(ContactKinematics):
 
     @property
     def candidates(self) -> CandidateSearch:
-        """What finds the features."""
+        """Search for pairs of features near each other."""
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return both shapes, and no features."""
+        """Return the numbers of both shapes, and an empty candidate."""
         return {**self.search.values, "candidate": NO_CANDIDATE, "rims": self.rims, "lengths": self.lengths}
 
     @property

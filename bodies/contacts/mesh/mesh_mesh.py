@@ -43,7 +43,7 @@ class MeshEdges:
     size : float
         Size of the larger body [m].
     names : tuple of str
-        What the edges are called.
+        Names of the edges.
     """
 
     edges: tuple[Numbers, Numbers]

@@ -1,4 +1,4 @@
-"""A smooth body against a triangle mesh, convex or not; of many patches those near it are contacts."""
+"""A smooth body against a triangle mesh, convex or not; of many patches, only near ones are contacts."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def _evaluate_near(
 @final
 @dataclass(frozen=True)
 class MeshSmoothNear(PatchNear):
-    """The contact of a smooth body with one of the patches of a mesh that are near it."""
+    """The contact of a smooth body with a patch of a mesh near it at present."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SmoothShape)
 

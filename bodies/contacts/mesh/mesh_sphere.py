@@ -1,4 +1,4 @@
-"""A sphere against a triangle mesh, in closed form; of many patches those near it are contacts."""
+"""A sphere against a triangle mesh, in closed form; of many patches, only near ones are contacts."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _evaluate_near(
 @final
 @dataclass(frozen=True)
 class MeshSphereNear(PatchNear):
-    """The contact of a sphere with one of the patches of a mesh that are near it."""
+    """The contact of a sphere with a patch of a mesh near it at present."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
 
@@ -84,8 +84,8 @@ def _evaluate(
 class MeshSphere(ContactKinematics):
     """The contact of a sphere with the nearest face, convex edge or corner of one patch of a mesh.
 
-    The surface is divided into patches of which a sphere of this size touches one feature at a time
-    (:mod:`bodies.meshes.patches`): one of a convex mesh, two or more where it has inner corners.
+    The surface is divided into patches, so that a sphere of this size touches one feature of a patch at a time
+    (:mod:`bodies.meshes.patches`).  A convex mesh is one patch; a mesh with inner corners has two or more.
 
     Attributes
     ----------
@@ -96,15 +96,15 @@ class MeshSphere(ContactKinematics):
     center : tuple of float
         Centre of the sphere in its body frame [m].
     radius : float
-        Its radius [m].
+        Radius of the sphere [m].
     star : tuple of float
-        Unit vectors along the edges that leave its centre, if that is a vertex of a body with a radius about it.
+        Unit vectors along the edges that leave the centre, if it is a vertex of a rounded polyhedron.
     size : float
         Size of the larger body [m].
     counts : tuple of int
         Numbers of faces, convex edges and corners.
     name : str
-        What the sphere is called.
+        Name of the sphere.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)

@@ -44,12 +44,12 @@ write_half_rim = compiled(_evaluate)
 @final
 @dataclass(frozen=True)
 class RimMesh(ContactKinematics):
-    """Where a convex edge of the second body crosses one half of a rim of the first.
+    """The contact of a convex edge of the second body across one half of a rim of the first.
 
     Attributes
     ----------
     crossing : RimEdge
-        That of rim and edge, seen alone.
+        The contact of rim and edge alone, without the rest of both bodies.
     surface : SharedNumbers
         The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
     """

@@ -1,4 +1,4 @@
-"""A rounded polyhedron or a capsule against a surface of many features: those near each other are contacts."""
+"""A rounded polyhedron or a capsule against a surface of many features: only features near each other are contacts."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ from ..surface.surface_tables import (
 
 @compiled
 def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
-    """Return how far a vector in the axes of a surface points along the edge of a corner that is most along it."""
+    """Return the largest component of a vector along the edges of a corner, in the axes of the surface."""
     most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
     for _ in range(int(surface[corner + 5])):
         most = max(most, x * surface[star] + y * surface[star + 1] + z * surface[star + 2])
@@ -74,10 +74,10 @@ def corners_over(
     n: int,
     most: int,
 ) -> int:
-    """Write the corners of the surface in ``a`` near a core in ``b`` behind ``n``; return how many there are.
+    """Append the corners of the surface in ``a`` near a core in ``b`` to the ``n`` candidates; return their number.
 
-    Of a corner that touches what is nearest lies along none of its edges.  The way there changes by no more than the
-    corner moves, and by the turn of its edges.
+    If a corner touches, no edge of it leads towards the nearest point of the core.  The component of that direction
+    along an edge changes by no more than the corner moves and the edges turn.
 
     Parameters
     ----------
@@ -86,9 +86,9 @@ def corners_over(
     surface : Floats
         Numbers of the surface.
     n_faces, faces, n_edges, edges, ends, sweep : float and Floats
-        The core and the radius about it, as of :class:`bodies.contacts.features.swept_vertex.SweptVertex`.
+        The core and the radius about it, as in :class:`bodies.contacts.features.swept_vertex.SweptVertex`.
     reach, turn, kind, out, n, most : float, Floats and int
-        As of :func:`bodies.contacts.surface.surface_near.corners_near`.
+        As in :func:`bodies.contacts.surface.surface_near.corners_near`.
     """
     first, members, node = int(surface[N_TRIANGLES]) + int(surface[N_EDGES]), int(surface[MEMBERS]), 0
     while node < int(surface[N_NODES]) and n <= most:
@@ -198,20 +198,20 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class SweptPairs(ContactKinematics):
-    """A pair of features of a surface and of a swept core that are near each other at present.
+    """The contact of a feature of a surface with a feature of a rounded core near it at present.
 
     Attributes
     ----------
     search : CandidateSearch
-        What finds them.
+        Search for pairs of features near each other.
     surfaces : tuple of SharedNumbers
-        The surface, and that of the core (:mod:`bodies.contacts.surface.surface_tables`).
+        Surface of the mesh and surface of the core (:mod:`bodies.contacts.surface.surface_tables`).
     size : float
         Size of the larger body [m].
     n_features : int
-        How many features the surface or the core have, of that with more of them.
+        Number of features of the surface or of the core, whichever has more.
     number : int
-        Which of the contacts of the two bodies it is.
+        Number of this contact among the contacts of both bodies.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
@@ -257,11 +257,11 @@ class SweptPairs(ContactKinematics):
 
     @property
     def candidates(self) -> CandidateSearch:
-        """What finds the features."""
+        """Search for pairs of features near each other."""
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return both shapes, and no features."""
+        """Return the numbers of both shapes, and an empty candidate."""
         return {**self.search.values, "candidate": NO_CANDIDATE, "core": self.surfaces[1], "size": self.size}
 
     @property

@@ -34,10 +34,10 @@ _PATIENCE = 3
 def across_line(
     core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> Answer:
-    """Return the largest gap of a line through the origin and a boxy core, the core's point and the line's normal.
+    """Return the largest gap between a line through the origin and a boxy core [m], the core's point, and the normal.
 
-    All in the axes of the line's body; the gap is nan where none was found.  With a reach it is the gap of the cylinder
-    about the line, with a sine as well that of the cone whose normals lean so much along the line.
+    All vectors are in the axes of the line's body; the gap is nan if no largest one was found.  With a ``reach`` the
+    line is a cylinder about it; with a ``sine`` as well, a cone whose normals lean along the line.
 
     Parameters
     ----------
@@ -50,11 +50,11 @@ def across_line(
     e : Vector3
         Direction of the line, a unit vector.
     n : Vector3
-        A unit vector across it, in whose half the normal is sought.
+        A unit vector perpendicular to the line; the normal is searched in the half-space around it.
     cosine, sine : float
-        Part of the normal across the line, 1 but for a cone, and along it, 0 but for a cone.
+        Component of the normal across the line and along it; 1 and 0 unless the surface is a cone.
     reach : float
-        Height of the surface about the line over the origin along its normals [m], 0 of the line itself.
+        Distance of the surface about the line from the origin, along its normals [m]; 0 for the line itself.
     """
     x, y, z = place
     spread = math.pi / _LOOKS

@@ -37,7 +37,7 @@ _SADDLE = 0.3
 def climb(
     first: Floats, second: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3
 ) -> tuple[float, float, float, float]:
-    """Return the largest g and its n, in the axes of the first core; g is nan where none was found.
+    """Return the largest gap g(n) [m] and its direction n, in the axes of the first core; nan if none was found.
 
     Parameters
     ----------

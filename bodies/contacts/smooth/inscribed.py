@@ -75,10 +75,10 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
 
 @compiled
 def gauge(core: Floats, x: float, y: float, z: float) -> float:
-    """Return 1 for a point of the surface of a core, more outside, less inside; in the axes of the core.
+    """Return the gauge of a point: 1 on the surface of a core, more outside, less inside; in the axes of the core.
 
-    It is the gauge where that is known in closed form, and else tells the distance, in units of the size, where a
-    normal is found; not a number where none is.
+    A core given by a support function has no gauge in closed form.  There the result is 1 + signed distance / size, or
+    nan if no normal was found.
     """
     if core[3] != OF_FUNCTION:
         return float(gauge_of(core, x, y, z))

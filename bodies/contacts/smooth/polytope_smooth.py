@@ -30,20 +30,23 @@ from .smooth_newton import widest_from, write_surface
 Numbers = tuple[float, ...]
 
 COUNTS, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = 6, 9, 10, 11, 12, 13, 14
-"""Where the numbers of vertices, edges and faces stand, and the offsets of the parts."""
+"""Indices in the header: first of the numbers of vertices, edges and faces, then the offset of every part."""
 EDGE, FACE = 4, 6
-"""Numbers of an edge (both vertices, the faces on its left and right, -1 for none) and of a face (outward normal,
-distance of its plane from the origin, beginning and length of its loop)."""
+"""How many numbers an edge and a face have.
+
+An edge: both vertices, the face on its left, the face on its right (-1 for none).  A face: outward normal, distance of
+its plane from the origin [m], beginning and length of its loop.
+"""
 _HEADER = 15
 
 
 def polyhedron_numbers(polytope: Polytope, radius: float = 0.0) -> Numbers:
     """Numbers of a polyhedron, with a radius about it [m].
 
-    They begin like those of a core that is a point (:func:`bodies.shapes.smooth.core_numbers`), because a vertex counts
-    as a point: no semi-axes, two powers, the radius [m]. Then come the numbers of vertices, edges and faces, the
-    offsets of the parts, and the parts, all in the frame of the body: vertices, edges, faces, loops (a vertex and the
-    edge that leaves it), stars (of every vertex the begin and the length of its list of edges), lists.
+    They begin like the numbers of a point (:func:`bodies.shapes.smooth.core_numbers`), because a vertex counts as a
+    point: three semi-axes 0, two powers, the radius. Then come the numbers of vertices, edges and faces, and the
+    offsets of the parts. The parts are in the frame of the body: vertices, edges, faces, loops (vertices, each with the
+    edge that leaves it), stars (for every vertex, beginning and length of its list of edges), and these lists.
     """
     return _numbers(polytope.vertices, polytope.faces, polytope.planes, polytope.edges, radius)
 
@@ -381,7 +384,7 @@ def _feature(hull: Floats, kind: int, number: int) -> int:
 def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
     """Write the geometry block of a polytope (:mod:`bodies.contacts.smooth.polytope_smooth`) and a core.
 
-    The gap is nan where no feature can be proved to be the nearest.
+    The gap is nan if no feature can be proved to be the nearest.
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])

@@ -1,7 +1,7 @@
-"""Starts for the search of the shortest way out of two smooth bodies: directions with a large gap.
+"""Starts for the search of the largest gap of two smooth bodies over all directions: directions with a large gap.
 
-The gap along a direction is by the support functions alone.  It is looked at along the axes of both bodies and half-way
-between two or three of them, where flat and sharp places are.
+The gap along a direction follows from the support functions alone.  It is evaluated along the axes of both bodies and
+half-way between two or three axes, where the bodies have flat and sharp places.
 """
 
 from __future__ import annotations
@@ -124,16 +124,16 @@ def _is_near(one: Start, two: Start) -> bool:
 
 
 _CUTS, _WIDE = 400, 0.1
-"""Cuts round a top, and the angle that they begin with [rad]."""
+"""Most cuts of the ellipsoid method, and radius of its first ellipse, a circle [rad]."""
 _ELLIPSES = 8
-"""How often it begins anew where it ended, if that is far from where it began."""
+"""Most runs of the ellipsoid method; a run starts at the last answer, as long as answers move far."""
 _HIGHER = 1e-16
-"""By how much a gap may be larger than the answer, in units of the size."""
+"""The ellipsoid method ends if the gap can grow by less than this, relative to the size of the bodies."""
 
 
 @compiled
 def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
-    """Return the top in reach of one ellipse; as in :func:`settle`."""
+    """Return the largest gap in reach of one run of the ellipsoid method; arguments as in :func:`settle`."""
     best: Start = start
     _, nx, ny, nz = start
     tx, ty, tz = tangent_of(nx, ny, nz)
@@ -167,11 +167,11 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
 
 @compiled
 def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
-    """Return the top next to a direction, by the ellipsoid method: no ridge is too narrow for it.
+    """Return the largest gap near a direction and that direction, by the ellipsoid method, also on narrow ridges.
 
-    In the plane that touches the sphere of directions at the start, the part of an ellipse on which the gap may be
-    larger than in its middle is one half; the least ellipse round that is the next one.  A top far from the start
-    is gone to in turns.
+    Directions are points of the plane that touches the unit sphere at the start.  The gap can be larger than at the
+    middle of an ellipse in one half of it only; the smallest ellipse round that half is the next one.  If the answer is
+    far from the start, the method starts again from the answer.
 
     Parameters
     ----------

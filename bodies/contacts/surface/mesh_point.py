@@ -128,7 +128,7 @@ class _Vertex:
     surface : SharedNumbers
         The surface (:mod:`bodies.contacts.surface.surface_tables`).
     n_faces : int
-        Number of its faces.
+        Number of faces of the surface.
     patch : int
         Number of the patch.
     place : tuple of float
@@ -136,7 +136,7 @@ class _Vertex:
     star : tuple of float
         Unit vectors along its edges.
     name : str
-        What it is called.
+        Name of the vertex.
     """
 
     surface: SharedNumbers

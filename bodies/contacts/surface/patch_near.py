@@ -42,20 +42,20 @@ def are_many(patches: Patches) -> bool:
 
 @dataclass(frozen=True)
 class PatchNear(ContactKinematics, ABC):
-    """The contact of a round body with one of the patches of a surface that are near it.
+    """The contact of a round body with a patch of a surface near it at present.
 
     The evaluator takes the patch from the second number of the candidate.
 
     Attributes
     ----------
     search : CandidateSearch
-        What finds them.
+        Search for patches near the body.
     values : mapping
         The parameters of the evaluator but for the candidate.
     n_features : int
-        How many features the surface has.
+        Number of features of the surface.
     number : int
-        Which of the contacts of both bodies it is.
+        Number of this contact among the contacts of both bodies.
     """
 
     search: CandidateSearch
@@ -95,7 +95,7 @@ class PatchNear(ContactKinematics, ABC):
 
     @property
     def candidates(self) -> CandidateSearch:
-        """What finds the patches."""
+        """Search for patches near the body."""
         return self.search
 
     def parameters(self) -> dict[str, Value]:

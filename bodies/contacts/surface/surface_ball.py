@@ -1,4 +1,4 @@
-"""A feature of a surface: its matrices, and a ball against it."""
+"""Geometry block of a ball against a patch of a surface, and matrices of a face, an edge or a corner."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .surface_tables import EDGE, EDGES, FACE, FACES, N_EDGES, N_FACES, N_PATCHE
 def out_of_surface(
     frame: Floats, surface: Floats, found: Found, past: float, x: float, y: float, z: float
 ) -> tuple[float, float, float]:
-    """Return the unit vector of the world to the point (x, y, z) of the body frame from what is nearest to it."""
+    """Return the unit vector, in world axes, from the nearest point of a surface to (x, y, z) of the body frame."""
     distance, _, kind, number, px, py, pz = found
     if kind == ON_FACE and (past <= 0.0 or distance == 0.0):
         f = int(surface[FACES]) + FACE * number
@@ -33,7 +33,10 @@ def out_of_surface(
 
 @compiled
 def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: int, number: int) -> None:
-    """Write a face, an edge or a corner, and its number among all, faces first; normal and tangent stand there."""
+    """Write the matrices of a face, an edge or a corner, and its number (faces first, then edges, then corners).
+
+    Normal and first tangent must be in ``out``.
+    """
     out[FEATURE] = float(number)
     if kind == ON_FACE:
         write_flat(out, side)
@@ -68,7 +71,7 @@ def write_ball(
     x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
     found = nearest_in_patch(surface, patch, x, y, z, reach)
     distance, kind, number = found[0], found[2], found[3]
-    # the patch of a surface that has one only does not end
+    # a single patch is the whole surface, which has no end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     nx, ny, nz = out_of_surface(a, surface, found, past, x, y, z)
     if n_star > 0.0:

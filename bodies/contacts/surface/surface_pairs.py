@@ -61,20 +61,20 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class SurfacePairs(ContactKinematics):
-    """A pair of features of two surfaces, corner over face or edge across edge, that are near each other at present.
+    """The contact of a corner over a face, or of two edges, of two surfaces, that are near each other at present.
 
     Attributes
     ----------
     search : CandidateSearch
-        What finds them.
+        Search for pairs of features near each other.
     surfaces : tuple of SharedNumbers
         The surfaces (:mod:`bodies.contacts.surface.surface_tables`).
     size : float
         Size of the larger body [m].
     n_faces : int
-        Faces of the body with more of them.
+        Number of faces of the surface with more faces.
     number : int
-        Which of the contacts of the two surfaces it is.
+        Number of this contact among the contacts of both surfaces.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, TriangleMesh)
@@ -114,7 +114,7 @@ class SurfacePairs(ContactKinematics):
 
     @property
     def candidates(self) -> CandidateSearch:
-        """What finds the features."""
+        """Search for pairs of features near each other."""
         return self.search
 
     def parameters(self) -> dict[str, Value]:

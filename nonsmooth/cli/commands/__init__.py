@@ -1,6 +1,6 @@
 """The commands: name, module and summary of each.
 
-This table is all that ``nonsmooth --help`` imports; a module is imported as its command is used.
+``nonsmooth --help`` imports only this table. The module of a command is imported when the command is used.
 """
 
 from __future__ import annotations
@@ -25,4 +25,4 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "bifurcation": ("orbit", "sample a motion once a period for each value of a parameter"),
     "new": ("new", "write a package to start from"),
 }
-"""Module and summary of each command."""
+"""Module in this package, and summary for the help, of each command."""

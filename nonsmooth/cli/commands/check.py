@@ -1,4 +1,4 @@
-"""``nonsmooth check``: the conformance kit on an installed component."""
+"""``nonsmooth check``: runs the conformance kit on a component, installed or of a Python file."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ _NAME = Option("name", "a name or class of `nonsmooth list`, or FILE.py:CLASS", 
 
 
 def _execute(arguments: argparse.Namespace) -> bool:
-    """Check everything of a name; return whether all checked properties hold."""
-    with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in: standard output is for the result
+    """Check all components of a name and print the outcomes; return True if no property fails."""
+    with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print: standard output is for the result
         found = _checked(arguments.name, assignments(arguments.set))
     failed = any(row["outcome"] == _FAILS for part in found for row in part["properties"])
     if arguments.json:

@@ -1,4 +1,4 @@
-"""``nonsmooth view`` and ``export``, which show a run or write it to a file, and ``save``, which writes a scenario."""
+"""``nonsmooth view`` shows a run, ``export`` writes a run to a file, and ``save`` writes a scenario to a file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from nonsmooth.solution.solution import Solution
 
 
 def _options_of_formats() -> tuple[Option, ...]:
-    """Return the options of all formats; the help of each begins with the suffixes that have it."""
+    """Return the options of all file formats; the help of an option begins with the suffixes of its formats."""
     found = dict[str, tuple[list[str], Option]]()
     for suffix, form in FORMATS.items():
         owner = form.func if isinstance(form, partial) else form
@@ -29,7 +29,7 @@ def _options_of_formats() -> tuple[Option, ...]:
         for name in list(inspect.signature(owner).parameters)[given:]:
             suffixes, _ = found.setdefault(name, ([], Option.of(owner, name)))
             suffixes.append(suffix)
-    # an option that is left out is not given: it may be none of the format
+    # the default None marks an option that the user left out: it is not passed on, because the format may lack it
     return tuple(
         replace(one, text=f"of {', '.join(suffixes)}: {one.text}", default=None) for suffixes, one in found.values()
     )
@@ -51,7 +51,7 @@ def in_browser(title: str, solution: Solution) -> None:
 
 
 def _view(arguments: argparse.Namespace) -> bool:
-    """Write the page and open it; return whether the run reached its end."""
+    """Write the page of a run, and open it unless ``--html`` is given; return whether the run is complete."""
     if arguments.html is not None:
         outputs.prepare_file(arguments.html, arguments.overwrite)
     with contextlib.redirect_stdout(sys.stderr):
@@ -64,7 +64,7 @@ def _view(arguments: argparse.Namespace) -> bool:
 
 
 def _export(arguments: argparse.Namespace) -> bool:
-    """Write the file; return whether the run reached its end."""
+    """Write a run to a file of another format; return whether the run is complete."""
     given = {one.place: getattr(arguments, one.place) for one in _FORMATS}
     with contextlib.redirect_stdout(sys.stderr):
         write = exporter(arguments.file, **{name: value for name, value in given.items() if value is not None})

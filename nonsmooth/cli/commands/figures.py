@@ -35,7 +35,7 @@ def _execute(arguments: argparse.Namespace) -> bool:
 
 
 def _draw(owner: Any) -> Mapping[str, Any] | None:
-    """Return the figures by name, None after Ctrl-C: figures of half a run would be wrong ones."""
+    """Return the figures by name, or None after Ctrl-C, because figures of an incomplete run would be wrong."""
     with ProgressMeter(on_standard_error()) as meter, Interrupt() as interrupt:
         try:
             drawn: Mapping[str, Any] = owner.gallery(partial(run_scenario, progress=interrupt.progress(meter)))

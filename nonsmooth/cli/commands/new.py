@@ -28,7 +28,7 @@ _FILES = {
     "tests/test_friction.py": "test_friction.py.txt",
     "tests/test_scenario.py": "test_scenario.py.txt",
 }
-"""Where each text goes."""
+"""Template of each file of the new package, by the path of the file."""
 
 
 _PLUGIN = (
@@ -64,7 +64,7 @@ def _check_name(name: str) -> None:
 
 
 def _holder(name: str) -> str:
-    """Return the owner of a name that the package would hide or replace; "" if it is free."""
+    """Return the present owner of a name, such as "a module of Python"; "" if a new package may have the name."""
     if name in registry.names("laws"):
         return f"a law of {registry.source('laws', name)}"
     if name == "tests":
@@ -74,7 +74,7 @@ def _holder(name: str) -> str:
     with contextlib.suppress(metadata.PackageNotFoundError):
         return f"the installed package {name} {metadata.version(name)}"
     found = importlib.util.find_spec(name)
-    # a folder without __init__.py has a specification but no origin; any module hides it
+    # a folder without __init__.py has a specification but no origin; it is no conflict, as any module hides it
     return f"the module {found.origin}" if found is not None and found.origin is not None else ""
 
 

@@ -114,7 +114,7 @@ def _continue(arguments: argparse.Namespace) -> bool:
 
 
 def _found(arguments: argparse.Namespace, period_of: Callable[[Scenario], float | None]) -> orbits.Orbit:
-    """Return the orbit of a request; its period may follow from the values of the scenario."""
+    """Find the periodic orbit of a request; ``period_of`` gives its period [s], or None, for the scenario."""
     scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
     symmetries = (*([orbits.Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
     words = given(orbits.orbit, _ORBIT, arguments)
@@ -122,7 +122,7 @@ def _found(arguments: argparse.Namespace, period_of: Callable[[Scenario], float 
 
 
 def _table(branch: orbits.Branch) -> str:
-    """Return values, largest multipliers and stability of a branch as CSV."""
+    """Return a branch as CSV: parameter, largest magnitude of a multiplier, and 1 if stable, of each orbit."""
     rows = [f"{branch.name},largest_multiplier,stable"]
     for value, one in zip(branch.values.tolist(), branch.orbits, strict=True):
         rows.append(f"{value!r},{float(np.max(np.abs(one.multipliers)))!r},{int(one.stable)}")
@@ -130,7 +130,7 @@ def _table(branch: orbits.Branch) -> str:
 
 
 def _bifurcation(arguments: argparse.Namespace) -> bool:
-    """Run all values, print how many repeat after how many periods, save; return whether all succeeded."""
+    """Sample the motion at each value, print counts of motions by period, save; return whether all succeeded."""
     values.check_not_set([arguments.over], arguments.set)
     name, row = values.axis(arguments.over)
     saver = Saver.of_pictures(arguments.out, arguments.overwrite)
@@ -159,7 +159,7 @@ def _bifurcation(arguments: argparse.Namespace) -> bool:
 
 
 def _samples_table(name: str, coordinate: str, ways: dict[str, orbits.Diagram]) -> str:
-    """Return the samples as CSV, a row for each value."""
+    """Return the samples of a coordinate as CSV: a row for each value of the parameter, in each way (up, down)."""
     is_single = list(ways) == [""]
     keep = next(iter(ways.values())).points.shape[1]
     samples = ",".join(f"{coordinate}_{i + 1}" for i in range(keep))

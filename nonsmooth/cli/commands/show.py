@@ -18,7 +18,7 @@ from nonsmooth.plugins import file, registry
 
 GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws", "engines")
 _NEAR = ("gap [m]", "", "bodies", "found by", "contact")
-"""Head of the table of near bodies."""
+"""Column heads of the table of near bodies. The second column, without a head, has the state of the pair."""
 _GROUP = Option("group", "all by default", choices=GROUPS)
 _SHOW = (
     Option("name", "name or class of `nonsmooth list`, FILE.py:CLASS, or a scenario file", metavar="NAME"),
@@ -28,7 +28,7 @@ _SHOW = (
 
 
 def _list(arguments: argparse.Namespace) -> bool:
-    """Print name, kind of a law, source, class and first docstring line of every usable plug-in."""
+    """Print a line for each usable component: name, role if a law, source, class and first docstring line."""
     registry.check_groups()
     wanted = (arguments.group,) if arguments.group else GROUPS
     say("\n\n".join(_section(group) for group in wanted))
@@ -44,12 +44,12 @@ def _section(group: str) -> str:
 
 
 def _kind(group: str, owner: type) -> tuple[str, ...]:
-    """Return the role of a law; other groups have no such column."""
+    """Return the role of a law as a column of the list; () for other groups."""
     return tuple(role for role, base in ROLES.items() if issubclass(owner, base)) if group == "laws" else ()
 
 
 def _show(arguments: argparse.Namespace) -> bool:
-    """Print everything of a name: a scenario and a body may share one."""
+    """Print the parameters of all components of a name, as a scenario and a body may have the same name."""
     if arguments.proximity:
         say(_near_bodies(arguments.name, arguments.trust))
     elif file.is_file(arguments.name):
@@ -74,7 +74,7 @@ def _described(owner: Any, title: str, *imported: str) -> str:
 
 
 def _near_bodies(name: str, trust: bool) -> str:
-    """Return the table of near bodies of a scenario file, which may be trusted, or of a scenario with its defaults."""
+    """Return the table of near bodies at the start of a scenario, with its defaults, or of a scenario file."""
     # imported on use: the other commands start faster without it
     from nonsmooth.queries.proximity import proximity
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import xarray
 
 _MOST = 10
-"""Reasons of failed runs that are printed."""
+"""Largest number of failed runs whose reasons ``study status`` prints."""
 _STUDY = Option("study", "the folder that `--out` was given", metavar="STUDY.zarr", kind=Path)
 _OUT = Option("--out", "STUDY.png by default", metavar="FILE", kind=Path)
 
@@ -45,9 +45,9 @@ _BASIN = (
 def _performed(
     study: studies.Study, words: Mapping[str, Any], path: Path, executor: studies.Executor, chunk: int | None = None
 ) -> xarray.Dataset:
-    """Run or continue a study; store the words of its request with it, report and return its records."""
+    """Run or continue a study, store its request with it, print a summary, and return its records."""
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in
+        with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print
             found = study.run(path, executor=executor, chunk=chunk, request=words)
     except KeyboardInterrupt:
         tell(f"complete chunks stay: `nonsmooth study resume {path}` continues")
@@ -69,7 +69,7 @@ def _sweep(arguments: argparse.Namespace) -> bool:
 
 
 def _basin(arguments: argparse.Namespace) -> bool:
-    """Run the study, find the attractors, print and draw their shares; return whether all could be saved."""
+    """Run a study, find attractors, print and draw their basin stabilities; return whether all could be saved."""
     require("basin", "matplotlib")
     tolerances = dict(tolerance("--features", part) for part in (arguments.features or "").split(",") if part)
     parameter, along = _along(arguments.along, followed=bool(tolerances) or arguments.period is not None)
@@ -101,7 +101,7 @@ def _basin(arguments: argparse.Namespace) -> bool:
 def _check_attractors(
     job: studies.Study, tolerances: dict[str, float], arguments: argparse.Namespace, parameter: str
 ) -> None:
-    """Check before the runs that there will be attractors."""
+    """Check before the runs that the request defines attractors, and that ``--along`` names a varied parameter."""
     if tolerances and arguments.period is not None:
         raise InvalidInput("--features", "must be left out with --period", arguments.features, "Take one of them.")
     if not (tolerances or arguments.period is not None or "attractor" in job.records):
@@ -113,7 +113,7 @@ def _check_attractors(
 
 
 def _along(word: str | None, *, followed: bool) -> tuple[str, studies.Along | None]:
-    """Return the parameter of ``--along``, "" for none, and how attractors are matched along it."""
+    """Return the parameter of ``--along`` ("" if left out), and the rule that matches attractors along it, or None."""
     name = (word or "").partition("=")[0]
     return name, studies.Along(*tolerance("--along", word)) if word and followed else None
 

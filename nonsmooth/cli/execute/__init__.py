@@ -1,1 +1,1 @@
-"""Execute: compute, judge and save runs, and stop at Ctrl-C."""
+"""Execution of commands: compute, judge and save runs, and stop them at Ctrl-C."""

@@ -1,4 +1,4 @@
-"""The run of ``view`` and ``export``: a stored one, or one that is computed first."""
+"""The run that ``view`` and ``export`` show: read from a folder of results, or computed from a scenario."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ OPTIONS = (
     ENGINE,
     TRUST,
 )
-"""Options that name a run."""
+"""Options of ``view`` and ``export`` that name a stored run, or a scenario to run."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Obtained:
-    """A run.
+    """A run to show or to write.
 
     Attributes
     ----------
     title : str
-        Its title.
+        Title of the run.
     solution : Solution or None
-        Its solution, as far as it was computed.
+        Results up to the time reached; None if there are none.
     is_complete : bool
-        Whether it was stored, or reached its end.
+        True if the run was read from a folder, or was computed to its end.
     """
 
     title: str
@@ -51,14 +51,15 @@ class Obtained:
 
 
 def obtain(command: str, arguments: argparse.Namespace) -> Obtained:
-    """Return the run that a request names."""
+    """Return the run of a request: read from its folder, or computed from its scenario."""
     return _stored(command, arguments) if Path(arguments.run).is_dir() else _computed(arguments)
 
 
 def job_of(output: Output, folder: SolutionFolder, is_trusted: bool) -> tuple[str, Job]:
-    """Return scenario, laws and engine of a stored run: by their names, or from the system in the folder.
+    """Return the scenario's name and the job of a stored run, from its stored request or from its stored system.
 
-    Names in the folder load installed plug-ins only, unless the user trusts it.
+    Unless the user trusts the folder, the stored request may name installed plug-ins only. If it names other code, the
+    job comes from the stored system.
     """
     words = folder.said("request")
     name = str(words.get("scenario", output.folder))
@@ -77,7 +78,7 @@ def job_of(output: Output, folder: SolutionFolder, is_trusted: bool) -> tuple[st
 
 
 def computation(made: Job, output: Output | None = None) -> Compute:
-    """Return the function that runs a job, into an output folder if one is given; the system is built at once."""
+    """Return the function that runs a job and writes to an output folder, if given. This call builds the system."""
     scenario, system = made.scenario, made.build()
 
     def compute(progress: Progress) -> Solution:

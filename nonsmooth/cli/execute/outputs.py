@@ -1,4 +1,4 @@
-"""Places that a command writes to, checked before it starts, and the pictures and texts that it saves there."""
+"""Files and folders that a command writes: they are checked before it starts, and get pictures and texts."""
 
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ def require_matplotlib() -> None:
 
 
 def without_display() -> None:
-    """Let matplotlib draw into files only, on machines without a screen too."""
+    """Make matplotlib draw to files only, so that it needs no display."""
     import matplotlib
 
     matplotlib.use("Agg")
 
 
 def prepare_folder(folder: Path, overwrite: bool, remedy: str = _REMEDY) -> None:
-    """Create a folder; InvalidInput if that is impossible, or files are in it that must not be overwritten."""
+    """Create a folder; InvalidInput if it cannot be created, or it has content and ``overwrite`` is false."""
     if not overwrite and folder.is_dir() and any(folder.iterdir()):
         raise InvalidInput(str(folder), "must be a folder that is empty or new", "a folder with files", remedy)
     files.prepare(folder)
 
 
 def prepare_file(path: Path, overwrite: bool) -> None:
-    """Create the folder of a file; InvalidInput if that is impossible, or the file must not be overwritten."""
+    """Create the folder of a file; InvalidInput if it cannot be created, or the file exists without ``overwrite``."""
     if path.is_dir():
         raise InvalidInput(str(path), "must be a file", "a folder", "Add the name of a file.")
     if not overwrite and path.exists():
@@ -57,14 +57,14 @@ def prepare_file(path: Path, overwrite: bool) -> None:
 @final
 @dataclass(frozen=True)
 class Saver:
-    """Saves pictures and texts; a failure is printed and noted, and all else is still saved.
+    """Saves pictures and texts. A failure is printed and noted, and the other files are still saved.
 
     Attributes
     ----------
     folder : Path or None
-        Where they are saved; None if a command saves nothing.
+        Folder of the pictures and texts; None if the command saves nothing.
     troubles : list of str
-        The failures.
+        Messages of the failures.
     """
 
     folder: Path | None
@@ -72,7 +72,7 @@ class Saver:
 
     @classmethod
     def of_pictures(cls, folder: Path | None, overwrite: bool) -> Saver:
-        """Return the saver of a folder of pictures, which is checked and created, if there is one."""
+        """Return a saver of pictures. If a folder is given, it is checked and created."""
         if folder is not None:
             require_matplotlib()
             prepare_folder(folder, overwrite)
@@ -81,7 +81,7 @@ class Saver:
 
     @contextlib.contextmanager
     def noting(self, what: str) -> Iterator[None]:
-        """Note and print a failure instead of raising it."""
+        """Context that notes and prints an exception instead of raising it; ``what`` names the failing action."""
         try:
             yield
         except NonsmoothError as error:
@@ -93,7 +93,7 @@ class Saver:
             complain(self.troubles[-1])
 
     def figures(self, figures: Mapping[str, Any], note: str = "") -> list[Path]:
-        """Save matplotlib figures as PNG by name, with a note below each; return the paths of those written."""
+        """Save matplotlib figures as PNG files of their names, with a note below each; return the written paths."""
         assert self.folder is not None
         paths: list[Path] = []
         for name, figure in figures.items():
@@ -106,7 +106,7 @@ class Saver:
         return paths
 
     def text(self, text: str, name: str) -> Path:
-        """Save a text; return its path."""
+        """Save a text as a file of the folder; return the path of the file."""
         assert self.folder is not None
         path = self.folder / name
         with self.noting(name), files.replacing(path) as part:
@@ -119,7 +119,7 @@ class Saver:
         return not self.troubles
 
     def diagram(self, name: str, draw: Callable[[], Any], numbers: str) -> bool:
-        """Save a picture and its numbers, if there is a folder; return whether both could be written."""
+        """Save a picture (PNG) and its numbers (CSV) if there is a folder; return whether both could be written."""
         if self.folder is not None:
             say("\n".join(map(str, [*self.figures({name: draw().figure}), self.text(numbers, f"{name}.csv")])))
         return not self.troubles

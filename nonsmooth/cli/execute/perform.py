@@ -1,4 +1,4 @@
-"""The course of ``run`` and ``resume``: compute, judge, save, report; Ctrl-C stops a run at the next safe point."""
+"""Steps of ``run`` and ``resume``: compute, judge, save, report. Ctrl-C stops a run at the next safe point."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.storage.files import FileError
 
 Progress = Callable[[float, float, int], None]
-"""Takes the time reached, the end time [s] and the events so far."""
+"""Callback that takes the time reached [s], the end time [s] and the number of events so far."""
 Compute = Callable[[Progress], Solution]
-"""Computes a solution, and reports its progress."""
+"""Function that computes a solution, and calls the given progress callback."""
 
 
 class Interrupt:
-    """While entered, the first Ctrl-C stops the run in :meth:`check`, a second one at once.
+    """Context in which the first Ctrl-C stops the run at the next :meth:`check`, and a second Ctrl-C stops it at once.
 
-    Without it an interrupt could divide a record.  A background process of a script ignores Ctrl-C from the start;
-    ``kill -INT`` stops its run, too, and keeps the results.
+    An interrupt at any other place could divide a record.  A background process of a script ignores Ctrl-C from the
+    start, but ``kill -INT`` stops its run in the same way and keeps the results.
     """
 
     def __init__(self) -> None:
@@ -60,7 +60,7 @@ class Interrupt:
             raise KeyboardInterrupt
 
     def progress(self, meter: ProgressMeter) -> Callable[..., None]:
-        """Return the progress of a run ``(t, t_end, *n_events)``, which is shown and stops the run before its end."""
+        """Return the callback ``(t, t_end, *n_events)`` of a run: it shows the progress, and raises after Ctrl-C."""
         shown = TimeReached(meter)
 
         def after_steps(t: float, t_end: float, *n_events: int) -> None:
@@ -91,9 +91,9 @@ def perform(
     compute : callable
         Computes the solution.
     saver : Saver
-        Saves it, if there is a folder; notes failures.
+        Saves the solution, if it has a folder, and notes failures.
     is_judged : bool
-        Whether the scenario's criteria judge it.
+        Whether the scenario's acceptance criteria judge the run.
     show : callable, optional
         Shows the solution at the end.
     """
@@ -125,7 +125,7 @@ def perform(
 
 
 def computed(compute: Compute) -> tuple[Solution | None, str, str]:
-    """Return the solution as far as it was computed, the status, and the reason of the end."""
+    """Return the solution up to the time reached (None without results), the status, and the reason of the end."""
     try:
         with ProgressMeter(on_standard_error()) as meter, Interrupt() as interrupt:
             solution = compute(interrupt.progress(meter))
@@ -146,14 +146,14 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
 
 
 def check_acceptance(job: Job) -> None:
-    """Raise InvalidInput if other laws than the scenario's own would be judged by its criteria."""
+    """Raise InvalidInput if laws are replaced: the criteria of a scenario hold for its own laws only."""
     if job.laws:
         rule, remedy = "must be left out of a run with --law", "The criteria are for its own laws."
         raise InvalidInput("--accept", rule, sorted(job.laws), remedy)
 
 
 def judged(scenario: Scenario, solution: Solution) -> list[dict[str, Any]]:
-    """Return the criteria of a run, each with its result; failed ones go to standard error."""
+    """Return the acceptance criteria of a run with their results, and print the failed criteria."""
     found = []
     for one in scenario.acceptance(solution):
         row = {name: getattr(one, name) for name in ("name", "value", "lower", "upper", "source", "fulfilled")}
@@ -172,11 +172,11 @@ def is_accepted(report: dict[str, Any]) -> bool:
 
 
 def _save_solution(scenario: Scenario, solution: Solution, saver: Saver, folder: Path) -> None:
-    """Add coordinates of the scenario and a table of events to the samples that the run has written."""
+    """Add the scenario's coordinates and a table of events to the folder that the run has written."""
     with saver.noting(f"{type(scenario).__name__}.coordinates"):
         written = SolutionFolder.held(Output(folder))
         with contextlib.closing(written):
-            # after a full disk there are fewer samples than in the solution
+            # after a full disk the folder has fewer samples than the solution
             if written.status != UNFINISHED:
                 written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
     with saver.noting("saving the events"):
@@ -194,6 +194,6 @@ def _save_figures(job: Job, solution: Solution, saver: Saver) -> None:
     else:
         tell("no picture of transitions: the run has one mode")
     with saver.noting(f"{type(job.scenario).__name__}.figures"):
-        # titles and captions may mention the laws that were replaced
+        # titles and captions may still name the scenario's own laws
         note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""
         saver.figures(job.scenario.figures(solution), note)

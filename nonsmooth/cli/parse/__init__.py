@@ -1,1 +1,1 @@
-"""Parse: options of commands, and the scenarios, components, values and places that their words mean."""
+"""Parsing of requests: options of commands, and the scenarios, components and values that their arguments denote."""

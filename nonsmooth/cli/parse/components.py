@@ -1,4 +1,4 @@
-"""Components in one word of the command line, ``NAME,PARAMETER=VALUE,...``: engines and laws."""
+"""Engines and laws from one argument of the command line, ``NAME,PARAMETER=VALUE,...``."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from nonsmooth.interfaces import CompliantNormalLaw, Engine, ImpactLaw, NormalLa
 from nonsmooth.parameters import from_all_words, rules
 
 ROLES: dict[str, type] = {"normal": NormalLaw, "friction": TangentialLaw, "impact": ImpactLaw}
-"""Laws of a contact by their names in ``--law``."""
+"""Interface of each law of a contact, by the role of the law in ``--law``."""
 _LAW = "must have the form ROLE=LAW or ROLE=LAW,NAME=VALUE,..."
 _LAW_EXAMPLE = "For example --law friction=./my_law.py:MyLaw,coefficient=0.2."
 _ENGINE = "must have the form ENGINE or ENGINE,NAME=VALUE,..."
@@ -19,26 +19,26 @@ _ENGINE_EXAMPLE = "For example --engine event_driven,tolerance=1e-10."
 
 
 def engine(word: str, gate: Gate) -> Engine:
-    """Return the engine of a word.
+    """Return the engine that a value of ``--engine`` describes.
 
     Raises
     ------
     InvalidInput
-        If the word has another form, or an option is wrong.
+        If the value is malformed, or an option of the engine is wrong or missing.
     PluginError
-        If it cannot be loaded.
+        If the engine cannot be loaded.
     """
     made: Engine = _component("--engine", "engines", Engine, word, _ENGINE, _ENGINE_EXAMPLE, gate)
     return made
 
 
 def laws(words: Iterable[str], gate: Gate) -> dict[str, Any]:
-    """Return the laws of some words by role.
+    """Return the laws that values of ``--law`` describe, by role.
 
     Raises
     ------
     InvalidInput
-        If a word has another form, a role comes twice, a parameter is wrong or missing.
+        If a value is malformed, a role is given twice, or a parameter is wrong or missing.
     PluginError
         If a law cannot be loaded.
     """
@@ -56,7 +56,7 @@ def laws(words: Iterable[str], gate: Gate) -> dict[str, Any]:
 
 
 def _component(option: str, group: str, base: type, word: str, form: str, example: str, gate: Gate) -> Any:
-    """Return the component of a word: an installed name or FILE.py:CLASS that the gate allows, and its parameters."""
+    """Return the component of ``word``: an installed name, or FILE.py:CLASS if the gate allows it, with parameters."""
     name, *settings = (part.strip() for part in word.split(","))
     if not name:
         raise InvalidInput(option, form, word, example)
@@ -71,12 +71,12 @@ def _component(option: str, group: str, base: type, word: str, form: str, exampl
 
 
 def described(kind: str, made: Any) -> dict[str, Any]:
-    """Return the class of a component under its kind, and its parameters, for the report."""
+    """Return the entries of a component in the report: its class under the key ``kind``, and its parameters."""
     return {kind: type(made).__name__} | {name: getattr(made, name) for name in rules(type(made))}
 
 
 def replacements(laws: Mapping[str, Any]) -> dict[str, str]:
-    """Return the replaced roles, each with the role of the law that replaces it."""
+    """Return each replaced role with the role of the new law; a compliant normal law also replaces the impact law."""
     replaced = {role: role for role in laws}
     if isinstance(laws.get("normal"), CompliantNormalLaw):
         replaced["impact"] = "normal"
@@ -84,7 +84,7 @@ def replacements(laws: Mapping[str, Any]) -> dict[str, str]:
 
 
 def check_not_ignored(owner: type, given: Iterable[str], laws: Mapping[str, Any]) -> None:
-    """Raise InvalidInput if a parameter of a scenario is given, but its law is replaced."""
+    """Raise InvalidInput if the user gives a parameter of the scenario that belongs to a replaced law."""
     replaced, known = replacements(laws), rules(owner)
     for name in given:
         if name in known and known[name][1].law in replaced:

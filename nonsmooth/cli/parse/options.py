@@ -1,4 +1,4 @@
-"""Options of commands: made from the parameters of Python functions, so that both have one name, default and help."""
+"""Options of commands, made from the parameters of Python functions, so that name, default and help are the same."""
 
 from __future__ import annotations
 
@@ -17,36 +17,36 @@ _KINDS: Mapping[str, tuple[Callable[[str], Any], str]] = {
     "int": (int, "N"),
     "str": (str, "NAME"),
 }
-"""Conversion and placeholder of a word by the annotation of the parameter."""
+"""Conversion of a value, and its placeholder in the help, by the annotation of the parameter."""
 _SHAPE = re.compile(r",? shape \[[^]]*\]")
-"""Shape of an array in a docstring: the command line has none."""
+"""Shape of an array in a docstring. The help omits it, because a value on the command line has no shape."""
 
 
 @final
 @dataclass(frozen=True)
 class Option:
-    """An option of a command, or an argument by its place.
+    """An option of a command, or a positional argument.
 
     Attributes
     ----------
     name : str
-        "--at" of an option, "scenario" of an argument by its place.
+        Name as in "--at" for an option, or "scenario" for a positional argument.
     text : str
-        Its help.
+        Help of the option.
     default : object
-        Its value if it is left out.
+        Value if the user leaves the option out.
     metavar : str
-        Placeholder of the value.
+        Placeholder of the value in the help.
     kind : callable or None
-        Conversion of the word by the parser; None for a flag.
+        Conversion of the value by the parser; None for a flag, which has no value.
     repeats, is_required : bool
-        Whether it may come several times, and whether it must be given.
+        Whether the option may be given several times, and whether it must be given.
     choices : tuple of str
-        Allowed words; empty for all.
+        Allowed values; empty if any value is allowed.
     convert : callable, optional
-        From the word to the argument of the function; it may raise InvalidInput.
+        Second conversion, from the parsed value to the argument of the function; it may raise InvalidInput.
     source : tuple, optional
-        The function and its parameter.
+        The function and the name of its parameter that the option sets.
     """
 
     name: str
@@ -62,7 +62,7 @@ class Option:
 
     @classmethod
     def of(cls, function: Callable[..., Any], parameter: str, *, name: str = "", form: str = "", **more: Any) -> Option:
-        """Return the option of a parameter of a function: type and default of its signature, help of its docstring.
+        """Return the option for a parameter of a function: type and default of its signature, help of its docstring.
 
         Parameters
         ----------
@@ -71,9 +71,9 @@ class Option:
         parameter : str
             Name of the parameter.
         name : str
-            Name of the option, if it is another one.
+            Name of the option; by default the name of the parameter.
         form : str
-            Form of the word, if it is not a plain value.
+            Form of the value, for the help, if the user does not give a plain number or text.
         **more
             Further attributes: metavar, repeats, is_required, convert.
         """
@@ -88,19 +88,19 @@ class Option:
 
     @property
     def place(self) -> str:
-        """Name of its value in the parsed request."""
+        """Attribute of the parsed request that has the value of the option."""
         return self.name.removeprefix("--").replace("-", "_")
 
     @property
     def stored_kinds(self) -> tuple[type, ...]:
-        """Types of its value in a request that was stored."""
+        """Types that the value of the option may have in a stored request."""
         if self.repeats:
             return (list,)
         number = {float: (int, float), int: (int,)}.get(self.kind, (str,)) if isinstance(self.kind, type) else (str,)
         return number if self.is_required or self.default is not None else (*number, NoneType)
 
     def add_to(self, parser: argparse.ArgumentParser) -> None:
-        """Add it to a parser."""
+        """Add the option to a parser."""
         more: dict[str, Any] = {"help": self.text.replace("%", "%%")}
         if not self.name.startswith("--"):
             more |= {"nargs": "?"} if self.choices and not self.is_required else {}
@@ -116,17 +116,17 @@ class Option:
 
 
 def flag(name: str, text: str) -> Option:
-    """Return an option without a value."""
+    """Return a flag: an option without a value, false by default."""
     return Option(name, text, False, kind=None)
 
 
 def given(function: Callable[..., Any], options: Iterable[Option], arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the arguments of a function that a request gives, by parameter.
+    """Return the arguments for a function, by parameter, from those options of a parsed request that belong to it.
 
     Raises
     ------
     InvalidInput
-        If a word has another form than its option says.
+        If the value of an option is malformed.
     """
     found = dict[str, Any]()
     for option in options:
@@ -140,14 +140,14 @@ def given(function: Callable[..., Any], options: Iterable[Option], arguments: ar
 @final
 @dataclass(frozen=True)
 class Command:
-    """A command: its options, and the function that executes a request and returns whether all went well."""
+    """A command: its options, and the function that executes a request and returns True on success."""
 
     execute: Callable[[argparse.Namespace], bool]
     options: tuple[Option, ...]
     text: str = ""
 
     def fill(self, parser: argparse.ArgumentParser) -> None:
-        """Add its options to a parser."""
+        """Add the options of the command, and the function that executes it, to a parser."""
         for option in self.options:
             option.add_to(parser)
         parser.set_defaults(execute=self.execute)
@@ -156,21 +156,21 @@ class Command:
 @final
 @dataclass(frozen=True)
 class CommandGroup:
-    """A command that consists of others, such as ``study status``."""
+    """A command that has subcommands, such as ``study`` with ``study status``."""
 
     title: str
     metavar: str
     parts: Mapping[str, Command]
 
     def fill(self, parser: argparse.ArgumentParser) -> None:
-        """Add the parts to a parser."""
+        """Add the subcommands to a parser."""
         parts = parser.add_subparsers(title=self.title, required=True, metavar=self.metavar)
         for name, part in self.parts.items():
             part.fill(parts.add_parser(name, help=part.text, allow_abbrev=False))
 
 
 def names(word: str) -> tuple[str, ...]:
-    """Return the names of a word, which commas separate."""
+    """Return the names of a list that is separated by commas."""
     return tuple(part.strip() for part in word.split(","))
 
 

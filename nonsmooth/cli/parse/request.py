@@ -1,4 +1,4 @@
-"""The scenario, laws and engine of a request, typed or stored; and the options that name them."""
+"""Job of a request, typed or stored: its scenario, laws and engine. The options that name these."""
 
 from __future__ import annotations
 
@@ -49,21 +49,21 @@ TRUST = flag(
 JSON = flag("--json", "print one JSON object and nothing else")
 
 RUN_WORDS = (SCENARIO, SET, LAW, ENGINE)
-"""Options whose words a stored run keeps."""
+"""Options whose values are stored with a run, so that its job can be made again."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """A scenario to run.
+    """A scenario to run, with its engine and replaced laws.
 
     Attributes
     ----------
     scenario : Scenario
         The scenario.
     engine : Engine
-        Its engine.
+        Engine that runs the scenario.
     laws : dict
-        Laws by role that replace those of the scenario.
+        Laws, by role, that replace the laws of the scenario.
     """
 
     scenario: Scenario
@@ -76,7 +76,7 @@ class Job:
         return str(self.scenario.resolved().get("title", type(self.scenario).title))
 
     def build(self) -> System:
-        """Return the system with these laws."""
+        """Return the system of the scenario, with the replaced laws."""
         system = self.scenario.build()
         return with_laws(system, **self.laws) if self.laws else system
 
@@ -101,26 +101,26 @@ def job(
     trust: bool,
     typed: bool = True,
 ) -> Job:
-    """Return the scenario of a name, of a Python file, or of a scenario file, with its parameters, laws and engine.
+    """Return the job of a scenario, which is given by an installed name, a Python file or a scenario file.
 
-    Words that the user has typed may name Python files.  Files, and words that are stored, may do so only if they are
-    trusted.
+    A request that the user types may name Python files.  A scenario file or a stored request may do so only if the user
+    trusts it.
 
     Parameters
     ----------
     name : str
-        The scenario.
+        Installed name, FILE.py:CLASS, or path of a scenario file.
     words, laws : iterable of str
         Values of ``--set`` and ``--law``.
     engine : str, optional
-        Value of ``--engine``; the engine of the file, or the event-driven one, by default.
+        Value of ``--engine``; by default the engine of the scenario file, or the event-driven engine.
     trust, typed : bool
-        Whether the user trusts the file or folder, and whether the words are typed.
+        Whether the user trusts the file or folder, and whether the request is typed instead of stored.
 
     Raises
     ------
     InvalidInput
-        If a name or a value is wrong, or a value is missing.
+        If a name or a value is wrong, or a required value is missing.
     PluginError
         If the scenario or a law cannot be loaded.
     """
@@ -132,7 +132,7 @@ def job(
         if not gate.trusted:
             gate.component("scenario", "scenarios", Scenario, name)
         owner = file.load("scenario", (Scenario,), name)
-    # a name with a suffix is a file, of a known format or not
+    # a name with a suffix is a scenario file, even if its format is unknown
     elif Path(name).suffix and name not in registry.names("scenarios"):
         setup = read(Path(name), trust, values)
         return Job(FileScenario(setup), other or setup.engine, replaced)
@@ -144,12 +144,12 @@ def job(
 
 
 def assignments(words: Iterable[str]) -> dict[str, str]:
-    """Return the values of ``name=value`` words.
+    """Return values by name from the values ``name=value`` of ``--set``.
 
     Raises
     ------
     InvalidInput
-        If a word has another form, or a name comes twice.
+        If a value is malformed, or a name is given twice.
     """
     values: dict[str, str] = {}
     for word in words:
@@ -163,7 +163,7 @@ def assignments(words: Iterable[str]) -> dict[str, str]:
 
 
 def check_stored(thing: str, words: Any, options: Iterable[Option]) -> None:
-    """Raise InvalidInput unless stored words are as a command writes those of these options."""
+    """Raise InvalidInput if a stored request is damaged: a value of the options is missing or has a wrong type."""
     if not isinstance(words, dict):
         raise InvalidInput(f"{thing}: request", "must be a table", words, "It is damaged.")
     for option in options:

@@ -18,7 +18,7 @@ from nonsmooth.studies.records import Requested
 from nonsmooth.studies.study import EXECUTORS, check_chunk, executor_of
 
 RECORD = ("t_end", "impacts", "events", "steps", "energy_residual")
-"""Default records, besides the attractor of a scenario that classifies its runs."""
+"""Records of a study by default; a scenario that classifies its runs adds the record "attractor"."""
 STROBOSCOPE = (
     Option.of(Stroboscope, "period", metavar="SECONDS"),
     Option.of(Stroboscope, "within", form="NAME,NAME,...", metavar="NAMES"),
@@ -46,18 +46,18 @@ RECORD_OPTION = Option.of(
     metavar="NAME",
     repeats=True,
 )
-"""Option of ``sweep``."""
+"""Option of ``sweep`` that names the records; ``basin`` takes them from ``--features``."""
 STUDY_WORDS = (SCENARIO, *_DRAWN, SET, ENGINE, *STROBOSCOPE, _BUDGET, RECORD_OPTION)
-"""Options whose words a stored study keeps."""
+"""Options whose values are stored with a study, so that it can be made again."""
 
 
 def words_of(arguments: argparse.Namespace, record: list[str]) -> dict[str, Any]:
-    """Return the words of a request from which its study can be made again.
+    """Return the values of a request, by option, from which its study can be made again.
 
     Raises
     ------
     InvalidInput
-        If a word contradicts another one, or the size of chunks is not valid.
+        If a parameter is given by both ``--over`` and ``--set``, or the size of chunks is wrong.
     """
     check_chunk(arguments.chunk)
     values.check_not_set(arguments.over, arguments.set)
@@ -70,14 +70,14 @@ def executor_given(arguments: argparse.Namespace) -> Executor:
 
 
 def study_of(words: Mapping[str, Any], *, trust: bool, typed: bool = True) -> Study:
-    """Return the study of typed or stored words; stored ones may be trusted.
+    """Return the study of a request, typed or stored; ``trust`` as for :func:`nonsmooth.cli.parse.request.job`.
 
     Raises
     ------
     InvalidInput
-        If it is not valid.
+        If a value of the request is wrong or missing.
     """
-    with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in
+    with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print
         made = job(words["scenario"], words["set"], (), words["engine"], trust=trust, typed=typed)
         sampling = values.sampling(words["over"], words["sample"], words["seed"])
         classes = [name for name in made.scenario.words if name == "attractor"]

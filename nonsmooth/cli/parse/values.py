@@ -1,4 +1,4 @@
-"""Values of a parameter in one word: lists, ranges and draws of ``--over``, and the period of ``--period``."""
+"""Values of a parameter from one argument: lists, ranges and draws of ``--over``, and the period of ``--period``."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ _PERIOD = re.compile(r"(?P<count>\d*\.?\d*)\s*(?P<pi>pi)?\s*/\s*(?P<name>\S+)")
 
 
 def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
-    """Return the sampling of ``--over``, ``--sample`` and ``--seed``.
+    """Return the sampling that the values of ``--over``, ``--sample`` and ``--seed`` describe.
 
     Raises
     ------
     InvalidInput
-        If a word has another form, or a range is empty.
+        If a value is malformed, a parameter is given twice, or a range is empty.
     """
     named: dict[str, str] = {}
     for word in words:
@@ -50,7 +50,7 @@ def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
 
 
 def axis(word: str) -> tuple[str, list[float]]:
-    """Return a parameter and its values; InvalidInput if they are not numbers."""
+    """Return parameter and values of NAME=LOW:HIGH:N or NAME=A,B,C; InvalidInput if a value is not a number."""
     name, values = _cut(word)
     row = _values(name, values)
     if not np.issubdtype(row.dtype, np.floating):
@@ -59,13 +59,13 @@ def axis(word: str) -> tuple[str, list[float]]:
 
 
 def span(word: str) -> tuple[str, tuple[float, float]]:
-    """Return a parameter and its range."""
+    """Return the parameter and both ends of its range from NAME=LOW:HIGH."""
     name, values = _cut(word)
     return name, _numbers(name, values.split(":"), _RANGE)
 
 
 def check_not_set(words: Iterable[str], given: Iterable[str]) -> None:
-    """Raise InvalidInput if a parameter of ``--over`` has a value of ``--set``, too."""
+    """Raise InvalidInput if the user gives a parameter by both ``--over`` and ``--set``."""
     fixed = assignments(given)
     for name in (_cut(word)[0] for word in words):
         if name in fixed:
@@ -73,7 +73,7 @@ def check_not_set(words: Iterable[str], given: Iterable[str]) -> None:
 
 
 def period(word: str, name: str) -> Period:
-    """Return the period [s], or the function that returns it at a value of the parameter.
+    """Return the period [s], or a function that computes the period [s] from a value of the parameter.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def period(word: str, name: str) -> Period:
     Raises
     ------
     InvalidInput
-        If the word has another form, or names another parameter.
+        If the text is malformed, or names another parameter.
     """
     try:
         return float(word)
@@ -102,7 +102,7 @@ def period(word: str, name: str) -> Period:
 
 
 def tolerance(thing: str, word: str) -> tuple[str, float]:
-    """Return the name and the number of NAME=TOLERANCE."""
+    """Return name and tolerance from NAME=TOLERANCE; ``thing`` names the option in messages."""
     name, _, number = word.partition("=")
     try:
         return name.strip(), float(number)
@@ -135,7 +135,7 @@ def _values(name: str, word: str) -> NDArray[Any]:
 
 
 def _numbers(name: str, words: list[str], form: str) -> tuple[float, float]:
-    """Return two numbers out of two words."""
+    """Return both ends of a range as numbers; ``form`` is the expected form, for messages."""
     try:
         low, high = (float(word) for word in words)
     except ValueError:

@@ -1,1 +1,1 @@
-"""Report: messages, tables and the report of a run."""
+"""Output of commands: messages, tables and the report of a run."""

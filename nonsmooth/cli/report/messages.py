@@ -12,11 +12,11 @@ from typing import Any
 from nonsmooth.errors import NonsmoothWarning
 
 _CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
-"""Characters that a terminal obeys, apart from tabulators and line breaks."""
+"""Characters that control a terminal or the direction of text, except tabulators and line breaks."""
 
 
 def _printable(text: str) -> str:
-    """Return a text without control characters: names and titles may come from a file of another person."""
+    """Return a text with its control characters escaped, because a title may come from a file of another person."""
     return _CONTROLS.sub(lambda found: repr(found[0])[1:-1], text)
 
 
@@ -26,7 +26,7 @@ def say(text: str) -> None:
     Raises
     ------
     FileError
-        If it cannot be written: a full disk.
+        If standard output cannot be written, for example because the disk is full.
     """
     try:
         print(_printable(text), flush=True)
@@ -34,10 +34,10 @@ def say(text: str) -> None:
         # imported on use: `nonsmooth --help` starts faster without it
         from nonsmooth.storage.files import FileError
 
-        with contextlib.suppress(OSError):  # else the interpreter tries, and fails, once more when it ends
+        with contextlib.suppress(OSError):  # otherwise the interpreter writes again at exit, and fails
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if isinstance(error, BrokenPipeError):
-            # the reader has what it wanted, as `head` does
+            # the reader has closed the pipe because it needs no more lines, as `head` does
             return
         raise FileError("standard output", error) from error
 
@@ -55,7 +55,7 @@ def complain(text: str) -> None:
 
 
 def warn_plainly(otherwise: Callable[..., None]) -> Callable[..., None]:
-    """Return a replacement of ``warnings.showwarning`` that prints our warnings as one line each, once."""
+    """Return a replacement of ``warnings.showwarning`` that prints each warning of nonsmooth once, in one line."""
     printed: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:

@@ -17,17 +17,17 @@ from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
 _LONG_WORD = 80
-"""Characters of the longest word of modes that is printed as it is."""
+"""Largest number of characters of a mode word that is printed in full: it fits into a line."""
 _NAMED = 2
-"""Contacts that are named in place of a longer word."""
+"""Largest number of contacts that are named if a mode word is too long to be printed."""
 _COMMONEST = 5
-"""Words of modes that are printed; the others are counted."""
+"""Largest number of mode words that are printed; the others are counted."""
 _INSTANT = 5e-5
-"""Part of the time below which a word of modes is only counted."""
+"""Share of the time below which a mode word is only counted: its share would be printed as 0.00 %."""
 _ROUND_OFF = 1e-15
-"""Numbers below it in SI units are printed as 0."""
+"""Numbers of smaller magnitude, in their SI units, are printed as 0, because they are round-off."""
 _NOTHING = 1e-9
-"""Numbers below this part of the largest of their list are printed as 0."""
+"""Numbers of a list below this size, relative to the largest number of the list, are printed as 0."""
 
 
 def _verdict(solution: Solution) -> dict[str, Any]:
@@ -52,13 +52,13 @@ _NUMBERS: Mapping[str, Callable[[Solution], Any]] = {
     "cause": attrgetter("end.cause"),
     "verdict": _verdict,
 }
-"""Entries that a report takes from the solution."""
+"""Entries of a report that come from the solution, each with the function that reads it."""
 UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J"}
-"""Units of these entries; the others have none."""
+"""SI units of the entries from the solution that have a unit."""
 
 
 def of_solution(solution: Solution | None) -> Report:
-    """Return the entries of a solution; None for all of them without one."""
+    """Return the entries of a report that come from a solution; each entry is None if there is no solution."""
     return {name: None if solution is None else find(solution) for name, find in _NUMBERS.items()}
 
 
@@ -69,7 +69,7 @@ def as_json(report: Report) -> str:
 
 
 def as_text(report: Report) -> str:
-    """Return a short summary to read."""
+    """Return a report as a short text with aligned columns."""
     plain = json.loads(as_json(report))
     head = f"{plain['scenario']}: {plain['status']}" + (f" ({plain['cause']})" if plain["cause"] else "")
     if plain["t_end"] is None:
@@ -99,7 +99,7 @@ def as_text(report: Report) -> str:
 
 
 def _modes(shares: dict[str, float] | None, names: list[str]) -> list[str]:
-    """Return the commonest words of modes with their shares of time, and the number of others."""
+    """Return lines with the commonest mode words and their shares of time, and with the number of others."""
     if shares is None:
         return ["unknown: the engine records no modes"]
     lasting = [(word, share) for word, share in shares.items() if share >= _INSTANT]
@@ -112,19 +112,19 @@ def _modes(shares: dict[str, float] | None, names: list[str]) -> list[str]:
 
 
 def _limits(counts: dict[str, int]) -> str:
-    """Return the limits of the steps with their counts, the commonest first."""
+    """Return the causes that limited steps, with the number of steps each, the commonest first."""
     ranked = sorted(counts.items(), key=lambda item: -item[1])
     return ", ".join(f"{limit} {n}" for limit, n in ranked if limit != LIMITS[Limit.NO_STEP]) or "none"
 
 
 def _contacts(names: list[str]) -> str:
-    """Return the number of contacts, or their names in the order of the digits of a word, if these fit into a line."""
+    """Return the names of the contacts in the order of a mode word's digits, or their number if a line is too short."""
     text = f"from the right {', '.join(names)}"
     return text if names and len(text) <= _LONG_WORD else str(len(names))
 
 
 def _described(word: str, before: str, names: list[str]) -> str:
-    """Return a word of modes; of a long one the counts of its modes, and contacts that differ from the word before."""
+    """Return a mode word, or, if it is too long, the counts of its modes and contacts that differ from ``before``."""
     if len(word) <= _LONG_WORD:
         return word
     kinds, others = word.strip("{}").split(","), before.strip("{}").split(",")
@@ -137,7 +137,7 @@ def _described(word: str, before: str, names: list[str]) -> str:
 
 
 def _judged(criteria: list[dict[str, Any]]) -> list[str]:
-    """Return a line per criterion: result, value, bounds, and their source."""
+    """Return a table of criteria: result, name, value, bounds, and source of the bounds."""
     if not criteria:
         return ["  not accepted: no criterion for these parameters"]
     word = "accepted" if all(one["fulfilled"] for one in criteria) else "not accepted"
@@ -151,13 +151,13 @@ def _judged(criteria: list[dict[str, Any]]) -> list[str]:
 
 
 def _listed(value: Any) -> Any:
-    """Return numbers and arrays of numpy as those of Python; all else that JSON does not know as words."""
+    """Convert numbers and arrays of numpy to numbers and lists, and any other object to text, for JSON."""
     listed = np.asarray(value).tolist()
     return str(value) if listed is value else listed
 
 
 def _spell(value: Any, scale: float = _ROUND_OFF) -> str:
-    """Return a value in words; a number below a scale, or below round-off of the largest of its list, is 0."""
+    """Return a value as text. A number is 0 below ``scale``, or below 1e-9 of the largest number of its list."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):

@@ -12,18 +12,18 @@ from nonsmooth.parameters import Rule
 HEAD = ("parameter", "default", "unit", "allowed", "")
 ASSUMED = "* assumed: the source does not give this value, we chose it"
 _WIDTH = 80
-"""Characters of a line."""
+"""Width of a line [characters]."""
 
 
 def lines(rows: Sequence[Sequence[str]], indent: str = "  ") -> list[str]:
-    """Return rows of words as lines with aligned columns."""
+    """Return rows of cells as lines with aligned columns."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     padded = (indent + "  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)) for row in rows)
     return [line.rstrip() for line in padded]
 
 
 def folded(rows: Sequence[Sequence[str]], indent: str = "  ") -> list[str]:
-    """Return the same with the last column folded to lines of 80 characters."""
+    """Return rows of cells as aligned lines, with the last column folded to lines of 80 characters."""
     if not rows:
         return []
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
@@ -42,7 +42,7 @@ def folded(rows: Sequence[Sequence[str]], indent: str = "  ") -> list[str]:
 
 
 def parameter_rows(owner: Any) -> list[tuple[str, str, str, str, str]]:
-    """Return name, default, unit, allowed range and description of each field that a call of a dataclass takes."""
+    """Return name, default, unit, allowed range and description of each field in a dataclass's constructor."""
     return [_row(field) for field in dataclasses.fields(owner) if field.init]
 
 

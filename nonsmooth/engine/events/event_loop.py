@@ -80,11 +80,11 @@ def cause_of(ws: Workspace, guard: int) -> Cause:
 def cause_at_start(ws: Workspace, which: int) -> Cause:
     """Cause of an event of contact ``which`` at the start of a step: its gap is closed, or a guard is negative."""
     contact = ws.contacts[which]
-    # of an open contact only the gap is a guard
+    # the only guard of an open contact is its gap
     if contact.mode == Mode.OPEN:
         return _cause_of_closing(contact)
+    # negative: the contact point is past the end of an edge or a face.
     # at_end is the value at the end of the last step, which is the start of this one
-    # the contact point is past the end of an edge or a face
     if end_of(ws, contact).at_end < 0.0:
         return Cause.FEATURE_END
     # else the force of a closed contact has the wrong sign, or exceeds the bound of friction

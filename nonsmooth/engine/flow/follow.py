@@ -44,7 +44,7 @@ def _add_contact_forces(ws: Workspace, forces: int) -> None:
         write_wrench(ws, c, contact.force)
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-            # write_wrench has put the generalised forces there
+            # write_wrench has written the generalised forces to this row
             row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + FIRST_ROW * articulation.n_u
             for j in range(articulation.n_u):
                 ws.floats[forces + articulation.u + j] += ws.floats[row + j]

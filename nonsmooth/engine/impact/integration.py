@@ -87,8 +87,9 @@ def energetic_impact(ws: Workspace, seed: float) -> ImpactOutcome:
     """Integrate the impact of the active contacts, from their rates before it.
 
     Writes the impulse of every active contact [N s] and its energies stored in compression, returned in expansion and
-    dissipated by friction [J]. ``FINISHED``, or why it has none (:class:`ImpactOutcome`). An impact without collision
-    needs a speed ``seed`` [m/s] as its scale; of other impacts it is zero.
+    dissipated by friction [J]. The result is ``FINISHED``, or the reason why the impact has no end
+    (:class:`ImpactOutcome`). An impact without collision needs a speed ``seed`` [m/s] as its scale; for other impacts
+    it is zero.
     """
     # the normal impulse of a lone contact is the variable of integration; later one that is left alone may become so
     ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT

@@ -1,4 +1,4 @@
-"""Numbers that size the workspace: stages, accounts, limits of what is coupled; and those that Python needs as well."""
+"""Constants that size the workspace, such as numbers of stages and accounts, and constants that Python needs too."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_ENTRIES = 2**26
 N_STAGES = len(tableau.NODES)
 """Number of stages of both Runge-Kutta pairs."""
 LAST_STAGE = N_STAGES - 1
-"""The last stage: its slope is that at the end of the step."""
+"""The last stage: its slope is the slope at the end of the step."""
 NORMAL_ROW, FIRST_ROW, SECOND_ROW = 0, 1, 2
 """Rows of a contact: along the normal and along the two tangents."""
 IMPULSE, DEFORMATION, WORK, DISSIPATED, ENERGY, LOST = 0, 3, 4, 5, 6, 7
@@ -31,6 +31,6 @@ IMPACT_STATE = 8
 IMPACT_GUARDS = 3
 """Number of guards of a contact within an impact: rate, energy and friction."""
 SINGULAR = 1e-10
-"""Pivots and remaining columns below this, relative to the largest, count as zero."""
+"""Size of a pivot or of a remaining column that counts as zero, relative to the largest one."""
 NO_PAIR = -1
-"""Number in place of a pair for a contact between shapes whose overlap is not checked."""
+"""Number of the pair of a contact if the overlap of its shapes is not checked."""

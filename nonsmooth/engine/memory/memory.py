@@ -188,7 +188,8 @@ class Memory:
     def __getitem__(self, declared: Any) -> Any:
         """A scalar, or a view of an array: ``memory[Island.time]``, ``memory[ContactRecord.gap]``.
 
-        Of records, the first axis is the record; the second is the number, if each record has several.
+        The first axis of a view of records counts the records. A second axis counts the numbers of each record, if it
+        has several.
         """
         return self.record[declared.key].item() if declared.is_scalar else self._view(declared)
 
@@ -205,7 +206,7 @@ class Memory:
 
     def declared(self, declared: Any) -> np.ndarray:
         """View of a number of all declared contacts: ``memory.declared(ContactRecord.mode)``."""
-        # memory[ContactRecord.mode] has those on the neighbour list only, with their newest values
+        # memory[ContactRecord.mode] has only contacts on the neighbour list, with their newest values
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Modes of a contact, causes of events, limits of steps, the status of the engine: enumerations and their words."""
+"""Enumerations of the engine, with their texts: modes of contacts, causes of events, limits of steps, status."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ class Limit(IntEnum):
     """Cause that limited the length of a step."""
 
     NO_STEP = 0
-    """No step was taken: an event began where another one ended, or the neighbour list was made again."""
+    """No step was taken: an event follows another one at once, or the neighbour list was renewed."""
     ERROR = 1
     """The estimated error."""
     LARGEST_STEP = 2
     """The largest step of the engine."""
     NEIGHBOUR_LIST = 3
-    """The neighbour list is valid for no longer."""
+    """The neighbour list is valid only up to the end of the step."""
     SAMPLES = 4
     """The buffer of samples is full."""
     FIRST_STEP = 5
@@ -29,7 +29,7 @@ class Limit(IntEnum):
     EVENT = 9
     """An event."""
     CROWDED_EVENTS = 10
-    """Too many guards fire in it."""
+    """Too many guards fire in the step."""
     END = 11
     """The end of the run."""
     AVERAGING = 12
@@ -54,7 +54,7 @@ LIMITS = (
     "averaging of forces",
     "turning in flight",
 )
-"""The limits in words, by number."""
+"""Text for each limit, by its number."""
 
 
 class Mode(IntEnum):
@@ -128,12 +128,12 @@ CAUSES = (
     "averaging of forces",
     "step of the engine",
 )
-"""The causes in words, by number."""
+"""Text for each cause, by its number."""
 
 NO_CONTACT = -1
-"""Number in place of a contact where there is none."""
+"""Value of the index of a contact if there is no contact."""
 NO_RELEASE = Cause.START
-"""Cause of the release of a contact that no jump of its contact point released."""
+"""Value of a cause of release if no jump of the contact point has released the contact."""
 
 
 class Phase(IntEnum):
@@ -166,11 +166,11 @@ class ImpactOutcome(IntEnum):
     FINISHED = 1
     """No contact is loaded."""
     ENDLESS = 2
-    """It was cut short: too many steps, or an interrupt."""
+    """The integration was stopped: too many steps, or an interrupt."""
     INVALID = 3
     """A law gave a number that is not finite, or not positive."""
     MOVED = 4
-    """It continues, but has reached the rim of its window."""
+    """The impact continues, but has reached the rim of its window."""
 
 
 class Painleve(IntEnum):
@@ -250,7 +250,7 @@ REASONS = {
 """Why a run ended, by status."""
 
 ENUMERATIONS = (Mode, Cause, Phase, Truncation, ImpactOutcome, Painleve, Status, Limit)
-"""All of them; signatures of kernels know them by their names."""
+"""All enumerations of this module. Signatures of kernels use their names."""
 
 
 def word(a: list[int], b: list[int], c: list[int]) -> str:

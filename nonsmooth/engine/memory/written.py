@@ -87,7 +87,7 @@ PACKED: Mapping[str, Fields] = {
     "part_at": CONVEX_PART,
     "load_wrench": WRENCH_OF_LOAD,
 }
-"""Blocks by the names of the functions of kernels that give access to them.
+"""Fields of the packed blocks, by the names of the kernel functions that give access to these blocks.
 
-Several blocks of a kind follow each other, or the stride is 0.
+Several blocks of one kind follow each other. A stride of 0 means that there is a single block.
 """

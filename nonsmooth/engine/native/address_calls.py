@@ -100,15 +100,15 @@ def _support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any)
 
 
 def support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
-    """What is compiled in place of :func:`nonsmooth.engine.native.kernel.call_support`."""
+    """Farthest point of a body [m]: compiled half of :func:`nonsmooth.engine.native.kernel.call_support`."""
     return _support_at(floats, place, x, y, z)
 
 
 @typeof_impl.register(Shared)
 def _type_of_shared(value: Shared, context: Any) -> Any:
-    """Numba type of a `Shared` that compiled code names: that of its compiled half, so that a call of it is compiled.
+    """Numba type of a `Shared`: the type of its compiled half, so that compiled code can call it.
 
-    This half is a function of Python, or an intrinsic, whose type numba knows.
+    The half is a Python function, which gets a dispatcher, or an intrinsic, whose type numba knows.
     """
     half = globals()[value.compiled] if value.compiled else value.function
     return types.Dispatcher(_dispatcher(half)) if isfunction(half) else typing_context.resolve_value_type(half)

@@ -44,7 +44,7 @@ class Source(NamedTuple):
 
 
 SOURCES: dict[str, Source] = {}
-"""Entry points by name, as far as the modules that define them are imported."""
+"""Entry points by name, of the modules that have been imported."""
 
 
 def kernel(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
@@ -89,7 +89,9 @@ def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], A
 
 
 def add_step(function: Callable[..., Any], own: type[Singleton], signature: str, fingerprint: Fingerprint) -> str:
-    """Register the step function of a plug-in's engine. Its name for ``call_entry``, whose first call compiles it.
+    """Register the step function of a plug-in's engine; returns its name for ``call_entry``.
+
+    The first call of ``call_entry`` compiles it.
 
     ``own`` is the part of the workspace that the engine adds. The machine code is kept on disk if ``fingerprint`` gives
     a digest of the function; if not, each process compiles it.
@@ -115,7 +117,7 @@ def _step_address(function: Callable[..., Any], typed: Any, signature: str, fing
 
 
 def compile_entry(name: str) -> tuple[str, int]:
-    """Compile an entry point in this process, and write its file. Its signature and its address."""
+    """Compile an entry point in this process and write its file; returns its signature and its address."""
     # this module imports all those that define entry points
     importlib.import_module("nonsmooth.engine.events.event_loop")
     function, signature = SOURCES[name]
@@ -124,7 +126,7 @@ def compile_entry(name: str) -> tuple[str, int]:
 
 
 def compile_shim(shim: Callable[..., Any], signature: str, key: str) -> int:
-    """Address of a shim, which is compiled, and kept in the file of its key, if it is not empty."""
+    """Compile a shim and write it to the file of its key, unless this is empty; returns its address."""
     with _uncollected():
         return shim_address(shim, signature, key)
 
@@ -134,8 +136,8 @@ def _uncollected() -> Iterator[None]:
     """Switch the garbage collector off within a ``with`` block. A collector that was off stays off.
 
     The compiler makes millions of small objects, all of which are needed. The collector would go through them again and
-    again, a tenth of the time. One block about many functions saves more than a block about each: after each block the
-    collector goes through all objects once.
+    again, which takes a tenth of the time. One block around many functions saves more than a block around each: after
+    each block the collector goes through all objects once.
     """
     is_enabled = gc.isenabled()
     gc.disable()

@@ -27,16 +27,16 @@ from nonsmooth.user_cache import user_cache
 _ENGINE = Path(__file__).resolve().parents[1]
 _WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _NUMBA_FILE = Path(".numba_config.yaml")
-"""File of the working folder with settings of numba."""
+"""File in the working folder that may hold settings of numba."""
 
 
 @functools.cache
 def build_name() -> str:
-    """Name of what is compiled from the engine's sources: a hash of all of them.
+    """Name of the folder of compiled code: a hash of all sources of the engine.
 
-    The versions of numba, llvmlite, numpy and Python and the kind of processor are part of it. It is the name of a
-    folder, so that code which does not fit is never found. The sources are read, because a file may change and keep its
-    size and time: it takes some milliseconds.
+    The versions of numba, llvmlite, numpy and Python and the kind of processor are part of the hash. So code that does
+    not fit is never found. The sources are read, which takes some milliseconds, because a file may change and keep its
+    size and time.
     """
     versions = f"{_numba_version()} {llvmlite.__version__} {np.__version__} {sys.version}"
     digest = hashlib.sha256(f"{versions} {_processor()}".encode())
@@ -57,7 +57,7 @@ def _numba_version() -> str:
 
 
 def _processor() -> str:
-    """Processor for which numba compiles: name and features, as its settings choose them or of this machine."""
+    """Processor for which numba compiles: name and features from numba's settings, or else of this machine."""
     # with NUMBA_CPU_NAME a cluster of different processors uses the same code
     chosen = os.environ.get("NUMBA_CPU_NAME", "")
     name = chosen or get_host_cpu_name()

@@ -56,7 +56,7 @@ class _Decorator(Protocol):
 
 
 _calls = importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else 'machine_code'}")
-"""The half of what Python and plug-ins use: compiled functions, or plain ones with the same names."""
+"""Module of the functions for Python and plug-ins: compiled, or plain with the same names."""
 
 entry_addresses: Callable[[], tuple[int, ...]] = _calls.entry_addresses
 """Addresses of all entry points, which the workspace holds."""
@@ -67,17 +67,20 @@ call_entry: Callable[..., Any] = _calls.call_entry
 at: Callable[[Floats, int], Floats] = _calls.at
 """``at(floats, offset)``: the floats from an offset on, for kernels and for the functions of plug-ins."""
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _calls.call_support
-"""Call ``support(direction, parameters, point)``, whose address stands at a place, followed by the parameters."""
+"""``call_support(floats, place, x, y, z)``: farthest point in the direction (x, y, z) [m].
+
+``floats[place]`` is the address of ``support(direction, parameters, point)``; its parameters follow.
+"""
 watch_address: Callable[[Callable[[float], float]], int] = _calls.watch_address
 """Address of a Python function for :func:`call_watch`, valid until :func:`forget_watch`."""
 forget_watch: Callable[[int], None] = _calls.forget_watch
 """Release an address of :func:`watch_address`."""
 jit: Callable[[Callable[..., Any]], Any] = _calls.jit
-"""Compile a plug-in's function on demand."""
+"""``jit(function)``: a plug-in's function, compiled on demand."""
 shared: Callable[[Callable[..., Any]], Any] = _calls.shared
-"""Let the functions of plug-ins call a function, compiled or not."""
+"""Decorator of a function that functions of plug-ins may call, compiled or not."""
 unshared: Callable[[Any], Any] = _calls.unshared
-"""The function from which :func:`shared` has made a value; any other value as it is."""
+"""``unshared(value)``: the Python function behind the result of :func:`shared`; other values are unchanged."""
 address_of: Callable[[Callable[[], Callable[..., Any]], str, str], int] = _calls.address_of
 """``address_of(make_shim, form, key)``: address of a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`.
 
@@ -142,12 +145,12 @@ _OF_KERNELS = {
     **dict.fromkeys(PACKED, "views"),
     **dict.fromkeys((*(f"call_{form}" for form in FORMS), "call_watch"), "address_calls"),
 }
-"""The names above that have no value yet, and the modules that hold them if they are compiled."""
+"""Names above that get their values at the first use, each with the module of its compiled value."""
 
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
-        """A name of kernels, from the compiled or the plain half, which is imported now."""
+        """Value of a name that kernels use, from the compiled or the plain module, which is imported here."""
         if name not in _OF_KERNELS:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         half = importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else _OF_KERNELS[name]}")

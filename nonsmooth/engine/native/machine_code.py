@@ -21,7 +21,7 @@ from nonsmooth.engine.native.loader import load
 from nonsmooth.engine.native.shared import Shared, shared, unshared
 
 __all__ = ["shared", "unshared"]
-"""Names of other modules that are part of this half."""
+"""Names imported from another module that belong to this half."""
 
 
 class EntryPoint(NamedTuple):
@@ -42,16 +42,16 @@ class EntryPoint(NamedTuple):
 ENTRIES: dict[str, EntryPoint] = {}
 """Steps of engines by name, and entry points after :func:`entry_addresses`."""
 _callables: dict[str, Callable[..., Any]] = {}
-"""Those that Python has called, by name, as C functions."""
+"""C functions of the entry points and steps that Python has called, by name."""
 
 
 def _compiler() -> Any:
-    """The module that compiles. With it numba is imported."""
+    """The module that compiles, which imports numba."""
     return importlib.import_module("nonsmooth.engine.native.entry_points")
 
 
 def add_entry(name: str, entry: EntryPoint) -> None:
-    """Let :func:`call_entry` find a function by its name. A function that had the name before is forgotten."""
+    """Let :func:`call_entry` find a function by its name. It replaces an earlier one of this name."""
     ENTRIES[name] = entry
     _callables.pop(name, None)
 
@@ -65,7 +65,7 @@ def entry_addresses() -> tuple[int, ...]:
         codes |= {name: read(name) for name in missing}
     addresses: list[int] = []
     for name, code in codes.items():
-        # what no other process could compile and write is compiled here
+        # entry points that no other process could compile and write are compiled here
         signature, address = (code.signature, load(code)) if code else _compiler().compile_entry(name)
         add_entry(name, EntryPoint(signature, lambda address=address: address))  # type: ignore[misc]
         addresses.append(address)
@@ -73,14 +73,14 @@ def entry_addresses() -> tuple[int, ...]:
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call an entry point, or the step of an engine, on the memory of one trajectory, which it changes. Its result.
+    """Result of an entry point, or of the step of an engine, called on the memory of one trajectory, which it changes.
 
     Other threads of Python run meanwhile, as C functions do not hold the interpreter's lock.
 
     Raises
     ------
     UnknownName
-        If the name is that of no entry point and no step.
+        If no entry point and no step has the name.
     """
     return _callable(name)(*memory.addresses, *arguments)
 

@@ -95,7 +95,7 @@ try:
     from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 
     OF_PASSES = {
-        # when a module is optimised and becomes machine code, what is linked, and the machine code
+        # optimisation of a module, its linking, and its machine code
         JITCodeLibrary: (
             *("_optimize_functions", "_optimize_final_module", "_finalize_final_module", "_finalized"),
             *("add_ir_module", "codegen", "has_dynamic_globals", "_get_compiled_object"),

@@ -56,7 +56,7 @@ def shim_address(function: Callable[..., Any], signature: str, key: str) -> int:
 
 
 def _address(function: CFunction, signature: str, key: str) -> int:
-    """Compile a C function. Its address, valid until the process ends, as a list keeps the function alive."""
+    """Compile a C function; returns its address, valid until the process ends, as a list keeps the function alive."""
     function.compile()
     _alive.append(function)
     if key and (machine_code := function.machine_code(signature)):
@@ -66,6 +66,6 @@ def _address(function: CFunction, signature: str, key: str) -> int:
 
 def start_runtime() -> None:
     """Give LLVM the functions of numba that machine code may need, such as those that allocate memory."""
-    # the context registers all but those that allocate. numba's `context.refresh` would do this too, but it imports
-    # all of numpy and scipy: a third of a start
+    # the context registers all functions except those that allocate. numba's `context.refresh` would do this too, but
+    # it imports all of numpy and scipy: a third of a start
     rtsys.initialize(cpu_target.target_context)

@@ -265,7 +265,7 @@ class CFunction(private.CFunc):
     function : callable
         The Python function.
     signature : numba signature
-        Its types.
+        Types of its arguments and of its result.
     passes : type
         The passes of the compiler.
     options : bool
@@ -290,7 +290,7 @@ class CFunction(private.CFunc):
     def machine_code(self, signature: str) -> MachineCode | None:
         """The compiled code for a file, with the types of the function as text.
 
-        None if it has addresses of this process, which mean nothing in another one.
+        None if the code has addresses of this process, which mean nothing in another one.
         """
         if self.library.has_dynamic_globals:
             return None

@@ -11,18 +11,18 @@ from typing import Any, final
 
 @final
 class Shared:
-    """A function that compiled code calls compiled and Python calls as it is.
+    """A function that has a compiled half for compiled code, and that Python calls as a Python function.
 
     Parameters
     ----------
     function : callable
         The function.
     compiled : str
-        Name, in :mod:`nonsmooth.engine.native.address_calls`, of what is compiled in its place; "" for itself.
+        Name, in :mod:`nonsmooth.engine.native.address_calls`, of the function compiled in its place; "" for itself.
     """
 
     def __init__(self, function: Callable[..., Any], compiled: str = "") -> None:
-        """Keep the function, and take over its name and docstring."""
+        """Store the function, and copy its name and docstring."""
         self.function, self.compiled = function, compiled
         functools.update_wrapper(self, function)
 
@@ -42,7 +42,7 @@ def unshared(value: Any) -> Any:
     """
     if isinstance(value, Shared):
         return value.function
-    # a kernel is numba's object for the function. Without numba there is none
+    # a kernel is numba's object for the function. Without numba there are no kernels
     if "numba" not in sys.modules:
         return value
     names = importlib.import_module("nonsmooth.engine.native.numba_names")

@@ -456,5 +456,5 @@ def _packed(kind: str) -> Any:
     return intrinsic(one_of_many if stride > 0 else single)
 
 
-# in the order of the table
+# in the order of PACKED
 impact_state, part_end, delassus_block, joint_row, frame_at, part_at, load_wrench = map(_packed, PACKED)

@@ -1,4 +1,4 @@
-"""Attractors of a study, their basins, and the change of these along a parameter."""
+"""Attractors of a study, their basins, and how both change along a parameter."""
 
 from nonsmooth.lazy_names import lazy_names
 

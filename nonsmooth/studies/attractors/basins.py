@@ -1,4 +1,4 @@
-"""Basins: shares of the starts that lead to each attractor, and the uncertainty exponent of the boundaries."""
+"""Basins of attraction: shares of the starts that lead to each attractor, and uncertainty of the boundaries."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     import xarray
 
 _MARGIN = 8
-"""Shortest side of the grid over the largest distance."""
+"""Shortest side of the grid over the largest distance: at least three quarters of the side then have all neighbours."""
 _FEWEST = 3
-"""Distances of a fit with an error, at least."""
+"""Least number of distances in the fit: a standard error needs a third point."""
 _SMOOTH = 1.0
-"""Exponent of a smooth boundary, the largest possible one."""
+"""Uncertainty exponent of a smooth boundary, the largest possible value."""
 _SATURATED = 0.5
-"""Share of uncertain starts above which a distance is not small compared with the basins."""
+"""Largest share of uncertain starts in the fit: above it, a distance is not small compared with the basins."""
 
 
 def basin_stability(attractor: xarray.DataArray) -> dict[str, tuple[float, float]]:
@@ -38,7 +38,7 @@ def basin_stability(attractor: xarray.DataArray) -> dict[str, tuple[float, float
     Raises
     ------
     InvalidInput
-        If it is no record of words, or no run reached its end.
+        If the array has no names of attractors (``flag_meanings``), or no run reached its end.
 
     References
     ----------
@@ -63,18 +63,18 @@ def basin_fractions(attractor: xarray.DataArray, parameter: str, bins: int = 10)
     parameter : str
         A parameter that the study varies.
     bins : int
-        Parts of its range if the runs are draws; of a grid each value counts.
+        Number of equal intervals of the range, if the values were drawn.  The values of a grid are taken one by one.
 
     Returns
     -------
     Dataset
-        Over the attractors and the parameter ``share`` b and its standard ``error`` sqrt(b (1 - b) / N); over the
-        parameter ``runs`` N, those that reached their end.  Without such runs the share is nan.
+        ``share`` b and its standard ``error`` sqrt(b (1 - b) / N), over the attractors and the parameter.  ``runs`` N,
+        the number of runs that reached their end, over the parameter.  Share and error are nan if N is 0.
 
     Raises
     ------
     InvalidInput
-        If it is no record of words.
+        If the array has no names of attractors (``flag_meanings``), or `bins` is not positive.
     UnknownName
         If the study does not vary the parameter.
     """
@@ -100,24 +100,24 @@ def basin_fractions(attractor: xarray.DataArray, parameter: str, bins: int = 10)
 @final
 @dataclass(frozen=True, eq=False)
 class Boundary:
-    """Share f of uncertain starts over their distance eps: f ~ eps^exponent.
+    """Uncertainty of basin boundaries: share f of uncertain starts over the distance eps, f ~ eps^exponent.
 
     Attributes
     ----------
     steps : array
         Distances eps, in steps of the grid, shape [n].
     uncertain : array
-        Share f of the starts that have a neighbour at this distance along an axis of the grid with another attractor,
-        shape [n].
+        Share f of uncertain starts at each distance, shape [n].  A start is uncertain if a neighbour at this distance,
+        along an axis of the grid, leads to another attractor.
     starts : int
-        Number of starts.
+        Number of starts that count.
     exponent, error : float
-        The uncertainty exponent, 1 for a smooth boundary, and its standard error from the scatter about the fit.  No
-        boundary has an exponent above 1: the error is at least the excess of the fit.
+        Uncertainty exponent, 1 for a smooth boundary, and its standard error from the scatter about the fit.  No
+        boundary has an exponent above 1, so the error is at least the excess of the exponent over 1.
     offset : float
-        Value of ln f of the fit at one step.
+        Value of ln f on the fitted line at a distance of one step.
     dimension : float
-        Dimension of the boundary: dimension of the grid less the exponent.
+        Dimension of the boundary: dimension of the grid less the exponent, of which at most 1 counts.
     """
 
     steps: Array
@@ -139,13 +139,14 @@ def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
     Parameters
     ----------
     attractor : DataArray
-        The attractors of a study over a grid of evenly spaced starts; if the study varies a parameter, too, those of
-        one value, ``attractor.sel(gamma=0.8)``.
+        The attractors of a study over a grid of evenly spaced starts.  If the study also varies a parameter, choose one
+        value of it: ``attractor.sel(gamma=0.8)``.
 
     Raises
     ------
     InvalidInput
-        If it is no record of words, or the grid is uneven, too small, or without a boundary.
+        If the array has no names of attractors (``flag_meanings``), or the grid is uneven, too small, or without a
+        boundary.
 
     References
     ----------
@@ -188,7 +189,7 @@ def _check_even(attractor: xarray.DataArray) -> None:
 
 
 def _neighbours(labels: NDArray[np.int64], step: int, margin: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return for starts within a margin whether all neighbours are known, and whether one has another attractor."""
+    """Return two masks of the starts within a margin: all neighbours known, some neighbour with another attractor."""
     inner = tuple(slice(margin, n - margin) for n in labels.shape)
     known, other = labels[inner] >= 0, np.zeros(labels[inner].shape, bool)
     for axis in range(labels.ndim):

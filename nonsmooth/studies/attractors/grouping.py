@@ -1,4 +1,4 @@
-"""Attractors of runs, by recurrences of the stroboscopic map or by recorded numbers that agree."""
+"""Find the attractor of each run, by recurrences of the stroboscopic map or by recorded numbers that agree."""
 
 from __future__ import annotations
 
@@ -21,41 +21,45 @@ if TYPE_CHECKING:
     import xarray
 
 NEAR = 10.0
-"""Tolerance of points of two runs over that of one run: a run that settles is farther from its attractor than it
-moves."""
+"""Tolerance between points of two runs, relative to that within a run: a run that still settles is farther from its
+attractor than it moves."""
 
 
 def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | None = None) -> xarray.Dataset:
     """Find the attractor of each run by recurrences, and the period of its motion.
 
-    A run repeats after n periods if all of its sections do, within the tolerance.  Runs of the same n are on one
-    attractor if all of their points agree within ten times the tolerance, as they may still settle, or through further
-    runs that do (single linkage).  Runs that do not repeat are on one attractor if their points overlap: at least half
-    of the points of either run are as near to the other run as nine tenths of its points are to each other.  A smaller
-    set within a larger one belongs to it.  A run that overlaps no other is "unsettled".
+    A run repeats after n periods if all of its sections that are n, 2 n, 3 n ... periods apart agree within the
+    tolerance.  Two runs of the same n are on one attractor if all of their points agree within ten times the tolerance,
+    because both may still settle.  Agreement through a chain of further runs is enough (single linkage).
+
+    Runs that do not repeat are on one attractor if their points overlap.  The spacing of a run is the distance within
+    which nine tenths of its points have a neighbour in the same run.  Two runs overlap if at least half of the points
+    of each are within the spacing of the other.  A smaller set within a larger set belongs to the larger.  A run that
+    overlaps no other run is "unsettled".
 
     Parameters
     ----------
     study : Dataset
         A study with the record of a :class:`Stroboscope`.
     tolerance : float
-        Largest difference of coordinates that repeat, in units of their scales: the size of the body, and the speed of
-        a fall through it.
+        Largest difference of coordinates that repeat, in units of their scales.  The scale of a position is the size of
+        the body, the scale of a velocity the speed after a fall through this size.
     along : Along, optional
-        A parameter: attractors are found for each of its values, and matched.
+        A parameter: attractors are found for each of its values, then matched from value to value.
 
     Returns
     -------
     Dataset
-        ``attractor``, numbers with names in ``flag_meanings``, the largest first, -1 for runs without records; and
-        ``period``, 0 if a run does not repeat, -1 for runs without records.  Add them by ``study.assign(...)``.
+        ``attractor``: number of the attractor of each run, with names in ``flag_meanings``; number 0 has the most runs,
+        -1 marks runs without records.  ``period``: number of periods after which the run repeats, 0 if it does not, -1
+        for runs without records.  Add both by ``study.assign(...)``.
 
     Raises
     ------
     InvalidInput
-        If the study has no such record, or a number is not valid.
+        If the study has no record of a :class:`Stroboscope`, or a tolerance or number of bins is not positive.
     UnknownName
-        If the study does not vary the parameter.
+        If the study does not vary the parameter of `along`.
 
     References
     ----------
@@ -78,14 +82,24 @@ def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | N
 @final
 @dataclass(frozen=True, eq=False)
 class _Recurrences:
-    """Groups runs: ``points`` [n_runs, n_sections, n_coordinates] over their scales, ``after`` [n_runs] the periods."""
+    """Groups runs by recurrences.
+
+    Attributes
+    ----------
+    points : array
+        Coordinates at the sections in units of their scales, shape [n_runs, n_sections, n_coordinates].
+    after : array
+        Number of periods after which each run repeats, 0 if it does not, shape [n_runs].
+    tolerance : float
+        Largest difference of coordinates that repeat.
+    """
 
     points: Array
     after: Integers
     tolerance: float
 
     def __call__(self, runs: Integers) -> list[Group]:
-        """Return the groups of some runs."""
+        """Return a group for each attractor of the runs with these numbers."""
         found, after = list[Group](), self.after[runs]
         for n in np.unique(after[after > 0]).tolist():
             found += self._periodic(runs[after == n], n)
@@ -109,29 +123,31 @@ def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Alon
     """Find the attractor of each run by recorded numbers.
 
     Two runs are on one attractor if they agree in every feature within its tolerance, or through further runs that
-    do (single linkage).  A missing number is a feature, too: a run that never comes to rest has no time of it.
+    do (single linkage).  A missing number agrees with a missing number only: a run that never comes to rest has no time
+    of rest.
 
     Parameters
     ----------
     study : Dataset
         A study.
     tolerances : mapping of str to float
-        Largest difference of each feature within an attractor, in its unit; a feature is a record that is one number.
+        Name of each feature, a record with one number per run, and its largest difference within an attractor, in the
+        unit of the record.
     along : Along, optional
-        A parameter: attractors are found for each of its values, and matched.
+        A parameter: attractors are found for each of its values, then matched from value to value.
 
     Returns
     -------
     Dataset
-        ``attractor``, numbers with names in ``flag_meanings``, the largest first, -1 for runs without records.  Add it
-        by ``study.assign(...)``.
+        ``attractor``: number of the attractor of each run, with names in ``flag_meanings``; number 0 has the most runs,
+        -1 marks runs without records.  Add it by ``study.assign(...)``.
 
     Raises
     ------
     InvalidInput
-        If there is no feature, or a tolerance is not valid.
+        If `tolerances` is empty, or a tolerance or number of bins is not positive.
     UnknownName
-        If a feature is no record with one number per run, or the study does not vary the parameter.
+        If the study has no record of that name with one value per run, or does not vary the parameter of `along`.
     """
     known = records_of(study)
     if not tolerances:

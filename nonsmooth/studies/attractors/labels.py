@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 UNSETTLED = "unsettled"
-"""Attractor of runs that agree with no other run."""
+"""Name that replaces an attractor for runs that agree with no other run."""
 
 
 @final
@@ -33,9 +33,11 @@ class Group:
     runs : array
         Numbers of the runs, shape [n_runs].
     points : array
-        The attractor over the scales of its coordinates, shape [n_points, n_coordinates].
+        Points of the attractor, shape [n_points, n_coordinates], in units of the scales of its coordinates, or of the
+        tolerances of its features.
     period : int or None
-        Periods after which it repeats, 0 if it does not; None if that is unknown, or not the same for all runs.
+        Number of periods after which the motion repeats, 0 if it does not.  None if the number is unknown, or not the
+        same for all runs.
     """
 
     runs: Integers
@@ -44,7 +46,7 @@ class Group:
 
 
 Grouping = Callable[[Integers], list[Group]]
-"""From the numbers of some runs to their groups."""
+"""Function from the numbers of runs, shape [n_runs], to a group for each of their attractors."""
 
 
 @final
@@ -55,12 +57,12 @@ class Along:
     Parameters
     ----------
     parameter : str
-        Parameter along which attractors are matched.
+        Name of the parameter.
     tolerance : float
-        Largest Hausdorff distance of an attractor from itself at the next value; coordinates count in units of their
-        scales, features in units of their tolerances.
+        Largest Hausdorff distance between the points of an attractor at two successive values.  Coordinates count in
+        units of their scales, features in units of their tolerances.
     bins : int
-        Parts of the range if the runs are draws; of a grid each value counts.
+        Number of equal intervals of the range, if the values were drawn.  The values of a grid are taken one by one.
     """
 
     parameter: str
@@ -74,14 +76,14 @@ class Along:
 
 
 def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> list[int]:
-    """Return the number of the known attractor that matches each attractor, -1 for none.
+    """Return, for each attractor of ``now``, the number of the known attractor that matches it; -1 without a match.
 
-    As many as possible are paired within the tolerance, with the least sum of distances.
+    As many attractors as possible are paired within the tolerance, with the least sum of distances.
 
     Parameters
     ----------
     known, now : sequence of array
-        Points of each attractor, shape [n_points, n_coordinates].
+        Points of each attractor found before, and of each found at this value, shape [n_points, n_coordinates].
     tolerance : float
         Largest Hausdorff distance of a pair.
 
@@ -93,7 +95,7 @@ def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> l
     from scipy.optimize import linear_sum_assignment
 
     distances = np.array([[hausdorff(one, other) for other in known] for one in now]).reshape(len(now), len(known))
-    # a forbidden pair costs more than all allowed ones together
+    # a pair beyond the tolerance costs more than all allowed pairs together
     costs = np.where(distances <= tolerance, distances, 1.0 + 2.0 * tolerance * min(distances.shape, default=0))
     found = [-1] * len(now)
     for i, j in zip(*linear_sum_assignment(costs), strict=True):
@@ -103,16 +105,16 @@ def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> l
 
 
 def joined(parts: Sequence[Sequence[Group]], tolerance: float) -> list[Group]:
-    """Return the attractors of all parts, matched ones as one group.
+    """Return the attractors at all values of a parameter; matched attractors become one group.
 
-    An attractor that is absent at some values is matched with its last points.
+    An attractor that is absent at some values is matched by its points at the last value at which it was found.
 
     Parameters
     ----------
     parts : sequence of sequence of Group
         The attractors of each value, in the order of the values.
     tolerance : float
-        As of :func:`matched`.
+        Largest Hausdorff distance of a matched pair.
     """
     known = list[Group]()
     for part in parts:
@@ -130,7 +132,7 @@ def joined(parts: Sequence[Sequence[Group]], tolerance: float) -> list[Group]:
 def labelled(
     study: xarray.Dataset, valued: NDArray[np.bool_], grouping: Grouping, along: Along | None
 ) -> xarray.Dataset:
-    """Return the attractor of each run.
+    """Return a dataset with the attractor of each run: its number, -1 without records, and the names of all numbers.
 
     Parameters
     ----------
@@ -139,9 +141,9 @@ def labelled(
     valued : array
         True for runs that have records, shape [n_runs].
     grouping : callable
-        Groups some runs.
+        Returns the groups of the runs with given numbers.
     along : Along, optional
-        The parameter along which groups are matched.
+        Parameter along which groups are matched; by default all runs are grouped at once.
     """
     import xarray
 
@@ -165,7 +167,7 @@ def labelled(
 
 
 def over_runs(study: xarray.Dataset, values: NDArray[Any], attributes: dict[str, Any]) -> xarray.DataArray:
-    """Return one value for each run over the axes of the study."""
+    """Return values of all runs, shape [n_runs], as an array over the axes of the study."""
     import xarray
 
     status = study.status
@@ -178,12 +180,12 @@ def _word(number: int, group: Group) -> str:
 
 
 def words_of(attractor: xarray.DataArray, thing: str) -> Sequence[str]:
-    """Return the names of the attractors of a record.
+    """Return the names of the attractors in an array of attractors; ``thing`` is the subject of the error.
 
     Raises
     ------
     InvalidInput
-        If it is no record of words.
+        If the array has no names (``flag_meanings``).
     """
     words = attractor.attrs.get("flag_meanings")
     if words is None:
@@ -195,14 +197,14 @@ def words_of(attractor: xarray.DataArray, thing: str) -> Sequence[str]:
 @final
 @dataclass(frozen=True, eq=False)
 class RunsByValue:
-    """The runs of a study by the values of one parameter.
+    """The runs of a study, split into parts by the value of one parameter.
 
     Attributes
     ----------
     values : array
-        Value of each part, or the middle of its values, shape [n_parts].
+        Value of the parameter in each part, shape [n_parts]; the middle of an interval if the values were drawn.
     of_runs : array
-        Part of each run, shape [n_runs].
+        Number of the part of each run, shape [n_runs].
     """
 
     values: NDArray[Any]
@@ -210,14 +212,14 @@ class RunsByValue:
 
 
 def runs_by_value(runs: xarray.DataArray, parameter: str, bins: int) -> RunsByValue:
-    """Return the runs by the values of a parameter: values of a grid, or ``bins`` equal parts of the range of draws.
+    """Split the runs by a parameter: by each value of a grid, or into ``bins`` equal intervals of the range of draws.
 
     Raises
     ------
     UnknownName
         If the study does not vary the parameter.
     InvalidInput
-        If the number of parts is not positive.
+        If `bins` is not a positive integer.
     """
     known = [str(name) for name, one in runs.coords.items() if set(one.dims) <= set(runs.dims)]
     if parameter not in known:

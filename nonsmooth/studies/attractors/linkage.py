@@ -1,4 +1,4 @@
-"""Which points, and which sets of points, belong together."""
+"""Groups of points by single linkage, and groups of sets of points that overlap."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ Integers = NDArray[np.int64]
 
 
 def linked(points: Array) -> Integers:
-    """Return the group of each point by single linkage: points within 1 in all coordinates are in one group.
+    """Return the group of each point by single linkage: points that differ by at most 1 in each coordinate are linked.
 
-    Points are sorted into cells of size 1.  Points of one cell belong together, and only points of neighbouring cells
-    are compared, so that many points in few places are quick.
+    Points are sorted into cells of size 1.  All points of a cell are linked, and only points of neighbouring cells are
+    compared.  Many points in few cells are therefore grouped fast.
 
     Parameters
     ----------
@@ -24,7 +24,8 @@ def linked(points: Array) -> Integers:
     Returns
     -------
     array
-        Numbers from 0 on, in the order of the first points, shape [n_points].
+        Number of the group of each point, shape [n_points].  Groups are numbered from 0 in the order of their first
+        points.
     """
     from scipy.cluster.hierarchy import DisjointSet
     from scipy.spatial import cKDTree
@@ -43,7 +44,7 @@ def linked(points: Array) -> Integers:
 
 
 def nearest(points: Array, others: Array) -> Array:
-    """Return the distance of each point from the nearest of other points, in the maximum norm, shape [n_points]."""
+    """Return the distance from each point to the nearest of the others, in the maximum norm, shape [n_points]."""
     from scipy.spatial import cKDTree
 
     return np.asarray(cKDTree(others).query(points, p=np.inf)[0])
@@ -55,17 +56,17 @@ def hausdorff(one: Array, other: Array) -> float:
 
 
 SPACING = 0.9
-"""Quantile of the distances of the points of a set from their neighbours: its spacing."""
+"""The spacing of a set is this quantile of the distances of its points from their nearest neighbours."""
 SHARE = 0.5
-"""Share of the points of either set within the spacing of the other, from which two sets overlap.  Of two samples of
-one set about nine tenths are within it."""
+"""Two sets overlap if at least this share of the points of each is within the spacing of the other; two samples of one
+attractor have a share of about 0.9."""
 
 
 def overlapping(sets: Array) -> list[Integers]:
     """Return groups of sets that overlap, each as the numbers of its sets; a set that overlaps no other has no group.
 
-    Each set joins the first one that it overlaps.  Then a group joins a larger one if that share of its points lies
-    among those of the larger one: a sample may cover a part of the set.
+    Each set joins the first set that it overlaps.  Then a group joins a larger group if :data:`SHARE` of its points is
+    within the spacing of the larger group, because a sample may cover only a part of an attractor.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def overlapping(sets: Array) -> list[Integers]:
     """
     spacing = np.array([_spacing(points) for points in sets])
     found = list[Integers]()
-    # the sort keeps the order of groups of one size
+    # the sort is stable: groups of equal size keep their order
     for group in sorted(_alike(sets, spacing), key=len, reverse=True):
         points = sets[group].reshape(-1, sets.shape[2])
         for i, larger in enumerate(found):
@@ -92,7 +93,7 @@ def _alike(sets: Array, spacing: Array) -> list[Integers]:
     while len(left):
         first, others = int(left[0]), left[1:]
         one, low, high = sets[first], sets[first].min(axis=0), sets[first].max(axis=0)
-        # a quick test first: the mean of a sample lies within the bounds of the others
+        # quick test first: the mean of another sample of the same attractor is within the bounds of this sample
         likely = others[np.all((means[others] >= low) & (means[others] <= high), axis=1)]
         here = [i for i in likely if _within(sets[i], one, spacing[first]) and _within(one, sets[i], spacing[i])]
         groups.append(np.array([first, *here]))
@@ -105,7 +106,7 @@ def _within(points: Array, others: Array, spacing: float) -> bool:
 
 
 def _spacing(points: Array) -> float:
-    """Return the spacing of a set of points."""
+    """Return the spacing of a set of points: the quantile SPACING of the distances between nearest neighbours."""
     from scipy.spatial import cKDTree
 
     return float(np.quantile(cKDTree(points).query(points, k=2, p=np.inf)[0][:, 1], SPACING))

@@ -35,7 +35,7 @@ def shares(attractor: xarray.DataArray, ax: Axes | None = None) -> Axes:
     Raises
     ------
     InvalidInput
-        If it is no record of words, or no run came to its end.
+        If the array has no names of attractors (``flag_meanings``), or no run reached its end.
     """
     stability = basin_stability(attractor)
     colours = dict(zip(stability, class_colours(len(stability)), strict=True))
@@ -55,7 +55,7 @@ def basins(study: xarray.Dataset) -> Figure:
     Parameters
     ----------
     study : Dataset
-        A study with ``attractor``.
+        A study with the variable ``attractor``.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def basins(study: xarray.Dataset) -> Figure:
 
 
 def largest(stability: Mapping[str, tuple[float, float]]) -> list[str]:
-    """Return the attractors with the largest shares, in their order, as many as a picture distinguishes."""
+    """Return the names of the attractors with the largest shares, the largest first, at most ``MOST_CLASSES``."""
     found = [word for word, (share, _) in stability.items() if share > 0.0]
     return sorted(found, key=lambda word: -stability[word][0])[:MOST_CLASSES]
 
@@ -117,7 +117,7 @@ def _value(value: object) -> str:
 
 
 def uncertainty(found: Boundary, ax: Axes | None = None) -> Axes:
-    """Draw the share of uncertain starts over their distance, and the fit; its slope is the uncertainty exponent.
+    """Draw the share of uncertain starts over their distance, and the fit, whose slope is the uncertainty exponent.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How motions change with parameters and starts, and parameters fitted to measurements."""
+"""Derivatives of motions by parameters and starts, and parameters fitted to measurements."""
 
 from nonsmooth.lazy_names import lazy_names
 

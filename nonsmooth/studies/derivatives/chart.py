@@ -27,19 +27,19 @@ from nonsmooth.system.system import System
 from nonsmooth.types import Array
 
 _PROBE = 1e-6
-"""Step of the derivatives of gaps and rates, in units of scales."""
+"""Step of the central differences of gaps and gap rates, in units of the scales of the bodies."""
 _DEPENDS = 1e-6
-"""Derivatives below this part of the largest one count as zero."""
+"""Derivatives that count as zero, relative to the largest derivative."""
 _EARLIER = 0.1
-"""The first direction above this part of the largest one is eliminated: neighbours then have the same directions."""
+"""The first direction above this part of the largest is eliminated: neighbouring states then eliminate the same."""
 _MOST = 20
-"""Steps of Newton's method."""
+"""Largest number of steps of Newton's method."""
 
 
 @final
 @dataclass(frozen=True)
 class ClosedConstraints:
-    """Contacts of rigid bodies that are closed in a state.
+    """Closed contacts of a state with a rigid normal law, which constrain its changes.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class ClosedConstraints:
         Raises
         ------
         InvalidInput
-            If the law of a closed contact has inner states, which are no coordinates.
+            If the friction law of a closed contact has states of its own, which a chart does not contain.
         """
         contacts = model.system.contacts
         for number in np.flatnonzero(state.modes != Mode.OPEN).tolist():
@@ -70,7 +70,7 @@ class ClosedConstraints:
         return cls(np.flatnonzero(closed), np.flatnonzero(closed & (state.modes == Mode.STICK)))
 
     def residual(self, model: Model, state: State) -> Array:
-        """Return gaps of closed contacts [m], their rates, and slips of contacts that stick [m/s]; all zero if held."""
+        """Return gaps [m] and gap rates [m/s] of closed contacts, and slip velocities of sticking contacts [m/s]."""
         gaps, rates = model.contact_rates(state)
         return np.concatenate([gaps[self.closed], rates[self.closed, 0], rates[self.stuck, 1:].ravel()])
 
@@ -80,23 +80,23 @@ class ClosedConstraints:
 class Chart:
     """Directions about a state, in units of the scales of the bodies.
 
-    Each closed contact takes directions away.  A state moves freely along the others; the eliminated directions follow,
-    so that gaps stay closed and sticking contacts keep sticking.
+    Each closed contact eliminates directions.  A state moves freely along the remaining directions.  It is corrected
+    along the eliminated directions, so that closed gaps stay zero and sticking contacts have no slip.
 
     Attributes
     ----------
     basis : array
-        A free direction a column, shape [n_q + n_u, m].
+        Free directions, one in each column, shape [n_q + n_u, m].
     names : tuple of str
         The coordinate, velocity or turn of a body that each direction changes.
     quaternions : tuple of int
-        Where the quaternions begin.
+        Index in q of the first component of each quaternion.
     contacts : ClosedConstraints
         The closed contacts.
     following : array
         The eliminated directions, shape [n_q + n_u, k].
     inverse : array
-        Steps along these that remove a residual of gaps and rates, shape [k, n_residual].
+        Pseudo-inverse of the derivatives of gaps and rates along the eliminated directions, shape [k, n_residual].
     ignored : array
         Directions along which states count as equal, shape [n_q + n_u, s].
     """
@@ -130,20 +130,21 @@ class Chart:
             Names of the coordinates and velocities that may change ("z", or "ball.z" for one body), and of turns about
             a body's own axes ("rx", "ry", "rz"); all by default.
         without : collection of str
-            Whole names of coordinates that stay as they are ("ball.z").
+            Names of constant coordinates and velocities, each with its body ("ball.z").
         ignored : array, optional
             Directions along which states count as equal, shape [n_q + n_u, s].
 
         Raises
         ------
         UnknownName
-            If a coordinate has no such name.
+            If `within` contains an unknown name.
         InvalidInput
-            If the law of a closed contact has inner states, or closed contacts leave no direction free.
+            If the friction law of a closed contact has states of its own, or a contact is closed and no coordinate or
+            velocity may change.
         """
         contacts, quaternions = ClosedConstraints.at(model, state), tuple(quaternions_of(model.system).values())
         columns, names = _columns(model.system, state, within, without)
-        # a direction is ignored only as far as coordinates that may change have a part in it
+        # only the part of an ignored direction counts that lies along coordinates that may change
         changes = np.any(columns, axis=1)[:, None]
         same = np.zeros((len(columns), 0)) if ignored is None else np.where(changes, ignored, 0.0)
         kept = _independent(columns, same)
@@ -162,11 +163,11 @@ class Chart:
         return cls(columns[:, free], chosen, quaternions, contacts, columns[:, follow], inverse, same)
 
     def moved(self, model: Model, state: State, way: Array) -> State:
-        """Return a state moved along the directions, shape [m], with its closed contacts closed in this model."""
+        """Return a state moved by steps along the free directions, shape [m], then corrected by :meth:`held_in`."""
         return self.held_in(model, self._stepped(state, self.basis @ way))
 
     def held_in(self, model: Model, state: State) -> State:
-        """Return the nearest state whose closed contacts are closed in a model, as far as Newton's method reaches."""
+        """Return a state moved along the eliminated directions until its closed contacts are closed, by Newton."""
         if not self.following.size:
             return state
         left = self.contacts.residual(model, state)
@@ -192,7 +193,7 @@ class Chart:
         """Return the coefficients of columns in the difference of two states, by least squares."""
         q = two.q.copy()
         for start in self.quaternions:
-            # after a whole turn a body has the other one of the two quaternions of its orientation
+            # an orientation has two quaternions, q and -q, and a full turn swaps them: take the nearer one
             if q[start : start + 4] @ one.q[start : start + 4] < 0.0:
                 q[start : start + 4] *= -1.0
         return np.asarray(np.linalg.lstsq(columns, np.concatenate([q - one.q, two.u - one.u]), rcond=None)[0])
@@ -214,8 +215,8 @@ class Chart:
 
 
 def _eliminated(rows: Array) -> list[int]:
-    """Return as many directions as there are independent rows, by Gram-Schmidt with pivots."""
-    # gaps and rates have other units
+    """Return the directions to eliminate, one for each independent row, by Gram-Schmidt with pivots."""
+    # rows are normalised, because gaps and rates have different units
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
     left, found = rows / np.where(sizes > 0.0, sizes, 1.0), list[int]()
     largest = np.max(np.linalg.norm(left, axis=0), initial=0.0)
@@ -232,7 +233,7 @@ def _eliminated(rows: Array) -> list[int]:
 
 
 def _independent(columns: Array, same: Array) -> list[int]:
-    """Return the columns that stay independent modulo the columns of ``same``, in their order."""
+    """Return the numbers of columns that are independent of each other and of the columns of ``same``, rising."""
     basis, kept = np.linalg.qr(same)[0], list[int]()
     while True:
         left = columns - basis @ (basis.T @ columns)
@@ -248,7 +249,7 @@ def _independent(columns: Array, same: Array) -> list[int]:
 def _columns(
     system: System, state: State, within: Collection[str] | None, without: Collection[str]
 ) -> tuple[Array, tuple[str, ...]]:
-    """Return all directions about a state that may change, shape [n_q + n_u, m], and their names."""
+    """Return all directions in which a state may change, shape [n_q + n_u, m], and their names."""
     chosen, scale = labels_within(system, within), scales_of(system)
     y, quaternions = values_of(state), quaternions_of(system)
     columns, names = list[Array](), list[str]()
@@ -268,6 +269,6 @@ def _columns(
 
 
 def _turns(q: Array) -> Array:
-    """Return the change of a unit quaternion per turn about each of the three axes of its body, shape [3, 4]."""
+    """Return the derivative of a unit quaternion by the angle [rad] about each body axis, shape [3, 4]."""
     w, x, y, z = q
     return 0.5 * np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])

@@ -12,7 +12,7 @@ from nonsmooth.system.system import System
 from nonsmooth.types import Array
 
 TURNS = ("rx", "ry", "rz")
-"""Turns of a body about its own axes; they stand for the four numbers of its quaternion."""
+"""Names of rotations of a body about its own axes, which replace the four components of its quaternion."""
 
 
 def values_of(state: State) -> Array:
@@ -33,19 +33,19 @@ def labels_of(system: System) -> list[tuple[str, str, str]]:
 
 
 def quaternions_of(system: System) -> dict[str, int]:
-    """Return where the quaternion of each body that has one begins among the coordinates."""
+    """Return the index in q of the first component of each quaternion, by the name of its body."""
     firsts = np.cumsum([0, *(body.n_q for body in system.bodies)]).tolist()
     rows = zip(system.names.bodies, system.bodies, firsts, strict=False)
     return {name: first + body.quaternion for name, body, first in rows if body.quaternion >= 0}
 
 
 def labels_within(system: System, within: Collection[str] | None) -> dict[str, set[str]]:
-    """Return the names of ``within`` by body; all names by default.
+    """Return the coordinates, velocities and turns that ``within`` names, for each body; all by default.
 
     Raises
     ------
     UnknownName
-        If a coordinate has no such name.
+        If ``within`` contains an unknown name.
     """
     known = {
         name: {label for label, _ in (*body.q_labels, *body.u_labels)} | (set(TURNS) if body.quaternion >= 0 else set())
@@ -64,12 +64,12 @@ def labels_within(system: System, within: Collection[str] | None) -> dict[str, s
 
 
 def coordinate_number(system: System, name: str) -> int:
-    """Return the place of a coordinate or velocity, "z" or "ball.z", in :func:`values_of` a state.
+    """Return the index of a coordinate or velocity, "z" or "ball.z", in the array of :func:`values_of`.
 
     Raises
     ------
     UnknownName
-        If there is none of that name.
+        If no coordinate or velocity has this name.
     """
     labels = labels_of(system)
     for i, (body, label, _) in enumerate(labels):
@@ -89,5 +89,5 @@ def unit(system: System, number: int) -> str:
 
 
 def is_in_quaternion(system: System, number: int) -> bool:
-    """Return True if a coordinate is one of the four numbers of a quaternion."""
+    """Return True if a coordinate is one of the four components of a quaternion."""
     return any(start <= number < start + 4 for start in quaternions_of(system).values())

@@ -1,4 +1,4 @@
-"""Derivatives of maps by differences, taken only if all runs pass the same events, and their errors."""
+"""Derivatives of maps by differences of runs that pass the same events, with bounds of their errors."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from nonsmooth.studies.derivatives.flow import Signature
 from nonsmooth.types import Array
 
 Stencil = tuple[tuple[int, float], ...]
-"""Offsets in steps, and weights, of a difference."""
+"""Terms of a finite difference: offset in steps, and weight."""
 Sampled = Callable[[float], tuple[Array, Signature]]
-"""From a small change to the value of the map, and the events on the way."""
+"""Function from a small change to the value of the map, shape [m], and the events of the run."""
 CENTRAL: Stencil = ((-2, 1.0 / 12.0), (-1, -2.0 / 3.0), (1, 2.0 / 3.0), (2, -1.0 / 12.0))
 """Central difference of fourth order."""
 FORWARD: Stencil = ((0, -25.0 / 12.0), (1, 4.0), (2, -3.0), (3, 4.0 / 3.0), (4, -0.25))
 """One-sided difference of fourth order."""
 BACKWARD: Stencil = tuple((-i, -weight) for i, weight in FORWARD)
-"""The same to the other side."""
+"""One-sided difference of fourth order, to negative changes."""
 SECOND: Stencil = ((-1, -0.5), (1, 0.5))
 """Central difference of second order: two runs instead of four."""
 _LEAST = 2e-7
-"""Smallest step, relative to the first one: rounding of 1e-14 leaves five digits of a derivative of 1 at 1e-9."""
+"""Smallest step, relative to the first: at a step of 1e-9, rounding of 1e-14 leaves a derivative of 1 five digits."""
 _REFUSED = 0.25
-"""Factor of a step whose runs pass other events: ten such steps span six decades."""
+"""Factor that reduces a step whose runs pass other events: ten reductions span six decades."""
 _WORSE = 2.0
-"""Factor by which the error grows before the search stops: one that grows less may be scatter (Ridders)."""
+"""Growth of the error that stops the search: a smaller growth may be scatter (Ridders)."""
 _SCATTER = 3.0
-"""Factor of the error: rounding differs from step to step, so differences of two estimates underrate it by chance."""
+"""Safety factor of the error: rounding varies with the step, so two estimates may agree by chance."""
 
 
 class OrderOfEvents(NonsmoothError):
@@ -58,9 +58,9 @@ class Derivative:
     value : array
         The derivative, shape [m].
     error : float
-        Bound of the error of its largest number, in the same unit; infinite if a single step gave a value.
+        Bound of the error of each component, in the unit of the derivative; infinite if it is unknown.
     step : float
-        The smallest step that went into it.
+        Smallest step from which the derivative was computed.
     """
 
     value: Array
@@ -76,7 +76,7 @@ def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil =
     sampled : callable
         The map.
     step : float
-        The unit of the changes.
+        The change for an offset of 1.
     expected : Signature
         Events without a change.
     stencil : Stencil
@@ -85,7 +85,7 @@ def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil =
     Raises
     ------
     OrderOfEvents
-        If a change passes other events.
+        If a changed run passes other events, or the same events in another order.
     """
 
     def value(offset: int) -> Array:
@@ -106,15 +106,15 @@ def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil =
 def steady(found_with: Callable[[float], Array], steps: Sequence[float]) -> tuple[Array, float, float]:
     """Return the derivative that changes least with the next smaller step, its step, and this change.
 
-    Larger steps leave the linear range, smaller ones leave round-off.  The change is relative to the largest number of
-    the derivative; nan if only one step gives any.
+    Truncation errors dominate at larger steps, round-off at smaller steps.  The change is relative to the largest
+    component of the derivative; nan if only one step gives a derivative.
 
     Raises
     ------
     OrderOfEvents
         If all steps change the order of events.
     InvalidInput
-        If no change gives a system and a start.
+        If no step gives a valid system and start.
     """
     best: tuple[Array, float, float] | None = None
     last: tuple[Array, float] | None = None
@@ -123,7 +123,7 @@ def steady(found_with: Callable[[float], Array], steps: Sequence[float]) -> tupl
         try:
             found = found_with(step)
         except (OrderOfEvents, InvalidInput) as error:
-            # bodies that overlap at the start are refused: the change was too large, too
+            # InvalidInput, too, may mean that the change was too large: bodies overlap at the start
             trouble, last = error, None
             continue
         if last is not None:
@@ -143,9 +143,9 @@ def derivative(sampled: Sampled, first: float, expected: Signature, enough: floa
     """Return the derivative of a map at 0 with its error, by the method of Ridders (1982).
 
     The error of a central difference is a series in the square of the step.  Neville's scheme extrapolates differences
-    with halved steps to a step of 0.  Each extrapolation is compared with the two that it is made of.  The one that
-    differs least is returned; the search ends when rounding makes the differences grow.  A step is usable only if both
-    of its runs pass the expected events in the same order.
+    with halved steps to a step of 0.  Each extrapolation is compared with the two values from which it is computed.
+    The extrapolation that differs least is returned.  The search ends when rounding makes the differences grow.  A step
+    is usable only if both of its runs pass the expected events in the same order.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def derivative(sampled: Sampled, first: float, expected: Signature, enough: floa
     OrderOfEvents
         If all steps change the order of events.
     InvalidInput, RunFailed
-        If the smallest step gives no system, no start or no run.
+        If even the smallest step gives no valid system or start, or its run fails.
     """
     row, best, after, step = list[Array](), None, np.inf, first
     trouble: OrderOfEvents | InvalidInput | RunFailed | None = None
@@ -171,7 +171,7 @@ def derivative(sampled: Sampled, first: float, expected: Signature, enough: floa
         try:
             difference = slope(sampled, step, expected, SECOND)
         except (OrderOfEvents, InvalidInput, RunFailed) as error:
-            # larger steps that passed the same events tell nothing about the derivative at 0
+            # larger steps passed the same events by chance: they are discarded
             trouble, row, best, step = error, [], None, _REFUSED * step
             continue
         before, row = row, _extrapolated(row, difference)
@@ -202,6 +202,6 @@ def _extrapolated(before: list[Array], difference: Array) -> list[Array]:
 
 
 def _apart(row: list[Array], before: list[Array], i: int) -> float:
-    """Return the difference of an extrapolation from the two that it is made of."""
+    """Return the largest difference of an extrapolation from the two values from which it is computed."""
     parents = np.array([row[i - 1], before[i - 1]])
     return float(np.max(np.abs(row[i] - parents), initial=0.0))

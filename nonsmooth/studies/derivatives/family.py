@@ -16,11 +16,11 @@ from nonsmooth.studies.plotting import with_unit
 from nonsmooth.system.system import System
 
 EXACT = EventDriven(tolerance=1e-12, impact_tolerance=1e-12, time_tolerance=1e-14)
-"""Engine of derivatives: the default tolerances leave errors at events that are as large as small differences."""
+"""Engine for derivatives: with the default tolerances, errors at events would be as large as small differences."""
 _UNUSED = 1.0
-"""End time that a file of a system needs; studies run each model to times of their own [s]."""
+"""End time [s] that :class:`FileScenario` requires; it has no effect, because studies choose the times of runs."""
 _KEPT = 64
-"""Cached models at most: those of the differences about one point, and some more."""
+"""Largest number of cached models: more than the differences about one point need."""
 
 
 @final
@@ -48,7 +48,7 @@ class Family:
 
     @classmethod
     def of(cls, what: Varied, engine: Engine = EXACT) -> Family:
-        """Return the family of a scenario or a system; a family as it is.
+        """Return the family of a scenario or a system; a family is returned unchanged.
 
         The parameters of a scenario are those that have a number.  The parameters of a system are all numbers of the
         file that :func:`save_system` would write, by dotted key: "bodies.ball.radius", "laws.coulomb.friction".
@@ -56,7 +56,7 @@ class Family:
         Raises
         ------
         InvalidInput
-            If it is none of them, or a component of the system cannot be written to a file.
+            If `what` has another type, or a component of the system cannot be written to a file.
         """
         if isinstance(what, Family):
             return what
@@ -67,7 +67,7 @@ class Family:
         known = {name: float(value) for name, value in scenario.values.items() if is_finite(value)}
 
         def make(**values: float) -> System:
-            # parameters that the scenario derives from others keep following them, unless they are changed themselves
+            # only changed values are given: parameters that the scenario derives from others then follow these
             return scenario.varied(**{name: x for name, x in values.items() if x != known[name]}).build()
 
         units = {name: rule.unit for name, rule in scenario.varies.items() if name in known}
@@ -79,7 +79,7 @@ class Family:
         Raises
         ------
         UnknownName
-            If there is none of that name.
+            If the family has no parameter of this name.
         """
         if name not in self.values:
             raise UnknownName("parameter", name, set(self.values))
@@ -90,7 +90,7 @@ class Family:
         return with_unit(name, self.units.get(name, ""))
 
     def at(self, **changed: float) -> Family:
-        """Return the family with other values, which shares its models."""
+        """Return the family with some values changed; both share the cached models."""
         for name in changed:
             _ = self[name]
         return replace(self, values={**self.values, **changed})

@@ -12,7 +12,7 @@ from nonsmooth.solution.state import State
 from nonsmooth.types import Array
 
 Signature = tuple[tuple[int, int], ...]
-"""Cause and contact of each event, in order."""
+"""Cause of each event, and number of its contact (or of its guard), in the order of the events."""
 
 
 @final
@@ -23,11 +23,11 @@ class FlowSegment:
     Attributes
     ----------
     state : State
-        Its end.
+        State at the end of the run.
     signature : Signature
         The events after the start, in order.
     times : tuple of float
-        Their times [s].
+        Times of these events [s].
     """
 
     state: State
@@ -41,9 +41,9 @@ def flow(model: Model, start: State, t_end: float) -> FlowSegment:
     Raises
     ------
     RunFailed
-        If it cannot continue.
+        If the run cannot continue.
     KeyboardInterrupt
-        If it was interrupted before its end.
+        If the run was interrupted before its end.
     """
     run = completed(model.run(t_end, start=start, sample_interval=t_end - start.time))
     times, signature = events_of(run)
@@ -51,14 +51,14 @@ def flow(model: Model, start: State, t_end: float) -> FlowSegment:
 
 
 def completed(run: Solution) -> Solution:
-    """Return a run; raise KeyboardInterrupt if it was interrupted."""
+    """Return a run unchanged; raise KeyboardInterrupt if it was interrupted."""
     if run.status == "interrupted":
         raise KeyboardInterrupt
     return run
 
 
 def events_of(run: Solution) -> tuple[Array, Signature]:
-    """Return the times [s], shape [n], and the signature of all events of a run but its start."""
+    """Return the times [s], shape [n], and the signature of all events of a run except its start."""
     events = run.events
     kept = events.cause != Cause.START
     signature = zip(events.cause[kept].tolist(), events.contact[kept].tolist(), strict=True)
@@ -66,7 +66,7 @@ def events_of(run: Solution) -> tuple[Array, Signature]:
 
 
 def named(signature: Signature, model: Model, most: int = 4) -> str:
-    """Return the first events of a signature in words."""
+    """Return the first ``most`` events of a signature in words, and the number of further events."""
     names = model.system.names
     words = []
     for cause, i in signature[:most]:

@@ -19,7 +19,7 @@ from nonsmooth.studies.inputs import rising_times
 from nonsmooth.types import Array
 
 _STEPS = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)
-"""Steps of the differences, relative to the value of the parameter; in its unit if it is 0."""
+"""Steps of the differences, relative to the value of the parameter; in the unit of the parameter if the value is 0."""
 
 
 class NotDifferentiable(InvalidInput):
@@ -40,14 +40,15 @@ class Sensitivity:
     parameters : tuple of str
         Names of the parameters.
     q, u : array
-        Coordinates and velocities there, shapes [n, n_q] and [n, n_u].
+        Coordinates and velocities at these times, shapes [n, n_q] and [n, n_u].
     q_by, u_by : array
-        Their derivatives, shapes [n, n_q, p] and [n, n_u, p], in units of q and u over that of the parameter.
+        Derivatives of q and u by the parameters, shapes [n, n_q, p] and [n, n_u, p], in the unit of the coordinate or
+        velocity over the unit of the parameter.
     error : array
-        Difference from the derivatives of the next smaller step, relative to the largest one, per parameter; nan if
-        only one step keeps the order of events; shape [p].
+        Estimated error for each parameter, relative to its largest derivative: the difference from the next smaller
+        step; nan if only one step keeps the order of events; shape [p].
     events : array
-        Times of the events up to the last of the times [s]: derivatives jump there.
+        Times of all events up to the last time [s], at which derivatives jump.
     """
 
     family: Family
@@ -64,9 +65,9 @@ class Sensitivity:
 def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Sensitivity:
     """Differentiate the states at given times by parameters.
 
-    A changed parameter shifts the times of events, and with them the jumps of velocities.  Differences of fourth order
-    of whole runs, each with its events located, contain this shift.  A change that reorders, adds or removes events is
-    made smaller, until none is left.
+    A changed parameter shifts the times of events, and with them the jumps of velocities.  The derivatives are
+    differences of fourth order between complete runs.  Each run locates its own events, so the differences contain this
+    shift.  If a change reorders, adds or removes events, a smaller change is taken.
 
     Parameters
     ----------
@@ -80,9 +81,9 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
     Raises
     ------
     UnknownName
-        If there is no such parameter.
+        If the system has no parameter of this name.
     InvalidInput
-        If times do not rise from 0.
+        If `parameters` is a single string, or the times are not positive or do not rise.
     NotDifferentiable
         If the smallest change of a parameter reorders events; the message names them.
     """
@@ -101,13 +102,13 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
 
 
 def _states(model: Model, times: Array) -> tuple[Array, Signature, Array]:
-    """Return the states at times, shape [n, n_q + n_u], the events between them, and the times of these [s]."""
+    """Return the states at times, shape [n, n_q + n_u], all events up to the last time, and their times [s]."""
     state, rows, passed, when = model.start, list[Array](), list[tuple[int, int]](), list[float]()
     for time in times.tolist():
         piece = flow(model, state, time)
         state = piece.state
         rows.append(values_of(state))
-        # a mark between events tells on which side of a time they are
+        # a mark at each time: an event that moves past the time then changes the signature
         passed += [*piece.signature, (-1, -1)]
         when += piece.times
     return np.array(rows), tuple(passed), np.array(when)

@@ -25,9 +25,9 @@ Observe = Callable[[State], Any]
 _STEP = 1e-5
 """Step of the differences of least squares, relative to the range of the parameter."""
 _ROUND_OFF = 1e-7
-"""Relative effect of a parameter below which it is round-off: that of runs, 1e-12, over the step."""
+"""Effect of parameters that counts as round-off, relative to the largest: error of runs, 1e-12, over the step."""
 _REFINED = 3
-"""Starting points that are refined."""
+"""Number of best starting points from which the search starts."""
 
 
 @final
@@ -38,7 +38,7 @@ class Fit:
     Attributes
     ----------
     family : Family
-        The systems, at the values found.
+        The systems, at the fitted values.
     observe : callable
         ``observe(state)`` returns the observables of a state.
     values : mapping of str to float
@@ -52,7 +52,7 @@ class Fit:
     measured, modelled : array
         Observables as measured, and of the fitted system, shape [n, k].
     deviation : float
-        Standard deviation of their difference, in the unit of the measurements.
+        Standard deviation of measured less modelled observables, in the unit of the measurements.
     message : str
         Reason for the end of the search.
     """
@@ -80,8 +80,8 @@ def fit(
 ) -> Fit:
     """Fit parameters to observations at given times by least squares.
 
-    If impacts come and go with a parameter, the sum of squares has many local minima.  Points are spread evenly over
-    the bounds (Sobol), and the search starts from the three best.
+    If impacts appear or vanish as a parameter changes, the sum of squares has many local minima.  Starting points are
+    therefore spread evenly over the bounds (Sobol's sequence), and the search starts from the three best points.
 
     Parameters
     ----------
@@ -92,19 +92,19 @@ def fit(
     at : array
         Times of the measurements, rising [s], shape [n].
     measured : array
-        Measurements, shape [n, k], or [n]; nan where one is missing.
+        Measurements, shape [n, k], or [n]; nan for a missing value.
     observe : callable
         ``observe(state)`` returns the observables of a state, shape [k].
     starts : int
-        Further starting points, a power of two.
+        Number of further starting points, 0 or a power of two.
 
     Raises
     ------
     UnknownName
-        If there is no such parameter.
+        If the system has no parameter of this name.
     InvalidInput
-        If bounds, times or measurements are not valid, there are fewer numbers than parameters, or the measurements do
-        not determine the parameters.
+        If bounds, times or measurements are not valid, fewer numbers are measured than parameters are fitted, or the
+        measurements do not determine the parameters.
     """
     check_callable("fit: observe", observe, "observe(state)")
     times = rising_times("fit: at", at)
@@ -141,20 +141,20 @@ class _Problem:
     observe: Observe
 
     def values(self, scaled: Array) -> Array:
-        """Return the parameters of scaled ones, from 0 to 1."""
+        """Return the parameters for values scaled to the bounds, 0 to 1."""
         return self.low + scaled * (self.high - self.low)
 
     def modelled(self, values: Array) -> Array:
-        """Return the observables, shape [n, k]."""
+        """Return the observables of the model at all times, shape [n, k]."""
         model = self.family.model(**dict(zip(self.names, values.tolist(), strict=True)))
         return observed(model, self.times, self.observe)
 
     def residual(self, scaled: Array) -> Array:
-        """Return the differences from all measurements that are given, shape [m]."""
+        """Return modelled less measured observables, without missing measurements, shape [m]."""
         return np.asarray((self.modelled(self.values(scaled)) - self.data)[np.isfinite(self.data)])
 
     def cost(self, scaled: Array) -> float:
-        """Return the sum of squares; infinite at a point at which no run succeeds."""
+        """Return the sum of squared residuals; infinite if the run fails."""
         try:
             return float(np.sum(self.residual(scaled) ** 2))
         except (RunFailed, InvalidInput):
@@ -166,7 +166,7 @@ class _Problem:
         Raises
         ------
         RunFailed, InvalidInput
-            If runs from all points fail.
+            If a run fails in the search from each of these points.
         """
         from scipy.optimize import least_squares
         from scipy.stats.qmc import Sobol
@@ -211,7 +211,7 @@ def observed(model: Model, times: Array, observe: Observe) -> Array:
 
 
 def _inverse(jacobian: Array, names: Sequence[str]) -> Array:
-    """Return the inverse of J^T J; InvalidInput if a combination of parameters changes nothing."""
+    """Return the inverse of J^T J; raise InvalidInput if a combination of parameters has no effect."""
     _, effects, ways = np.linalg.svd(jacobian, full_matrices=False)
     idle = effects <= _ROUND_OFF * effects[0]
     if np.any(idle):

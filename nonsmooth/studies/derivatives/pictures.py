@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 _FINE = 400
 """Points of a fitted curve."""
 _PAIRS = 3
-"""Pairs of parameters with a drawn covariance, at most."""
+"""Largest number of pairs of parameters whose covariance is drawn."""
 _LEVELS = ((1.0, "-"), (-2.0 * math.log(0.05), ":"))
-"""Squared radii of ellipses: one standard error, and 95 % by the chi-squared distribution of two numbers."""
+"""Squared radius and line of each ellipse: one standard error, and 95 % (chi-squared distribution of two numbers)."""
 
 
 def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -> Axes:
     """Draw the derivatives of a coordinate by each parameter, times the parameter, over time [s].
 
-    All lines have the unit of the coordinate: a change of the parameter by 1 % changes it by a hundredth of the line.
+    All lines have the unit of the coordinate: a parameter larger by 1 % changes the coordinate by 1 % of the line.
     Lines are broken at events, at which derivatives jump.
 
     Parameters
@@ -46,7 +46,7 @@ def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -
     Raises
     ------
     UnknownName
-        If there is no such coordinate.
+        If the system has no coordinate or velocity of this name.
     """
     ax, system = axes_of(ax), found.family.model().system
     number = coordinate_number(system, coordinate)
@@ -122,7 +122,7 @@ def _covariance(ax: Axes, found: Fit, one: str, two: str) -> None:
     ax.errorbar(
         x, y, found.standard_errors[two], found.standard_errors[one], fmt="o", color=VERMILION, markersize=4, capsize=3
     )
-    # the labels of the axes have dotted keys in full
+    # the title has only the last part of dotted keys: the labels of the axes show the full keys
     words = {name: name.rpartition(".")[2] for name in (one, two)}
     lines = [f"{word} = {found.values[name]:.6g} ± {found.standard_errors[name]:.1g}" for name, word in words.items()]
     ax.locator_params(nbins=4)

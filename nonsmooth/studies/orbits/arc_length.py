@@ -1,4 +1,4 @@
-"""Predictor and corrector of pseudo-arclength continuation: orbits on a branch, and its tangent."""
+"""Predictor and corrector of pseudo-arclength continuation: orbits on a branch, and the tangent of the branch."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from nonsmooth.types import Array
 _CLOSE = 1e-11
 """Largest residual of an orbit on the branch, in units of scales."""
 _CORRECTIONS = 12
-"""Steps of Newton's method."""
+"""Largest number of steps of Newton's method."""
 _FIRST = 1e-3
-"""Largest step of derivatives by the parameter, relative to its largest absolute value in the range."""
+"""Largest step of derivatives by the parameter, relative to the largest absolute value of the parameter."""
 _ENOUGH = 1e-4
-"""Relative error of derivatives by the parameter: they direct steps only."""
+"""Sufficient relative error of derivatives by the parameter: they only direct the steps of the continuation."""
 
 
 class OutOfRange(Exception):
@@ -36,20 +36,21 @@ class OutOfRange(Exception):
 @final
 @dataclass(frozen=True)
 class ContinuationPoint:
-    """An orbit, and the tangent of the branch.
+    """An orbit of a branch, and the tangent of the branch there.
 
     Attributes
     ----------
     orbit : Orbit
         The orbit.
     by : array
-        Derivative of the map by the parameter over its range, along the directions of the chart, shape [m].
+        Derivative of the map by the parameter in units of its range, along the directions of the chart, shape [m].
     step : float
         Step of this derivative, in the unit of the parameter.
     tangent : array
-        Unit tangent of the branch: directions of the chart, then the parameter over its range, shape [m + 1].
+        Unit tangent of the branch, shape [m + 1]: along the directions of the chart, then along the parameter in units
+        of its range.
     along : float
-        Arc length from the start of the branch.
+        Arc length from the start of the branch [1].
     """
 
     orbit: Orbit
@@ -83,9 +84,9 @@ class Path:
     def at(
         self, state: State, value: float, along: float, before: ContinuationPoint | None, *, is_quick: bool = False
     ) -> ContinuationPoint:
-        """Return the map about a state with its tangent, oriented as the tangent of the point before.
+        """Return the point of a state: the map about the state, and a tangent that points as that of ``before``.
 
-        Quick derivatives use the steps of the point before and have no errors.  They serve Newton's method.
+        Quick derivatives use the steps of ``before``, and their errors are unknown.  They serve Newton's method.
 
         Raises
         ------
@@ -113,7 +114,7 @@ class Path:
         return ContinuationPoint(Orbit(family, state, section, self.within, residual, found), by, step, tangent, along)
 
     def _by(self, changed: Sampled, expected: Signature, near: ContinuationPoint | None) -> tuple[Array, float]:
-        """Return the derivative by the parameter over its range, and the step of the parameter."""
+        """Return the derivative of the map by the parameter in units of its range, and the step of the parameter."""
         if near is not None:
             with contextlib.suppress(OrderOfEvents, InvalidInput):
                 return self.range * slope(changed, near.step, expected, SECOND), near.step
@@ -122,14 +123,14 @@ class Path:
         return self.range * found.value, found.step
 
     def corrected(self, point: ContinuationPoint, step: float) -> ContinuationPoint:
-        """Return the point on the branch whose projection on the tangent of a point is a step.
+        """Return the point on the branch whose projection on the tangent of ``point`` is ``step``, by Newton's method.
 
         Raises
         ------
         NoOrbit
             If Newton's method does not converge.
         OrderOfEvents
-            If events change.
+            If the order of events changes.
         OutOfRange
             If the parameter leaves its range.
         """

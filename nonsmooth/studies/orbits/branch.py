@@ -21,17 +21,18 @@ from nonsmooth.studies.orbits.sections import Section
 from nonsmooth.types import Array
 
 _FIRST, _LARGEST, _SMALLEST = 1e-2, 5e-2, 1e-6
-"""Steps of the arc length; a step of 1 changes the parameter by its range, or a coordinate by its scale."""
+"""First, largest and smallest step of the arc length; a step of 1 changes the parameter by its range, or a coordinate
+by its scale."""
 _MOST = 2000
-"""Steps at most, either way."""
+"""Largest number of steps in each direction, by default."""
 _GROWS = 1.3
-"""Factor of the step after a success."""
+"""Factor by which the step grows after a success."""
 _SAME = 1e-6
-"""Allowed difference of a motion from the same a period later: round-off of runs is below it."""
+"""Allowed difference of motions that begin a period apart, in units of scales: round-off of runs is below it."""
 _PARTS = tuple(0.5**i for i in range(11))
-"""Parts of the way to an end of the range at which the period is tested, until a motion can begin there."""
+"""Fractions of the distance to an end of the range: the period is tested at the first where a motion can begin."""
 _KNOWN = 1e-9
-"""Relative error of a predicted change of events at which the branch ends."""
+"""Relative error of a predicted change of events that is small enough to end the branch there."""
 
 
 @final
@@ -42,12 +43,12 @@ class Special:
     Attributes
     ----------
     kind : str
-        "fold", "period doubling", "Neimark-Sacker"; at an end where events change "grazing", "simultaneous impacts", or
-        "sequence" for all others.
+        "fold", "period doubling" or "Neimark-Sacker".  If the branch ends because events change: "grazing",
+        "simultaneous impacts", or "sequence" for all other changes.
     value : float
-        The parameter there; of a "sequence" that of the last orbit.
+        Value of the parameter at the point; for a "sequence", at the last orbit before the point.
     orbit : Orbit
-        The orbit there; where events change, the last one before.
+        The orbit at the point; if events change there, the last orbit before the point.
     """
 
     kind: str
@@ -63,17 +64,17 @@ class Branch:
     Attributes
     ----------
     name : str
-        The parameter.
+        Name of the parameter.
     values : array
-        Its values, shape [n].
+        Value of the parameter at each orbit, shape [n].
     orbits : tuple of Orbit
-        The orbits.
+        The orbits, in their order along the branch.
     grazing_distances : tuple of GrazingDistance
-        Distance of each to grazing and to simultaneous impacts.
+        Distance of each orbit to grazing and to simultaneous impacts.
     special : tuple of Special
         Bifurcations, and changes of events at the ends.
     ending : str
-        Reason for each end.
+        Reason why the branch ends, for each of its two ends.
     """
 
     name: str
@@ -100,13 +101,13 @@ def continuation(
     orbit : Orbit
         The first orbit.
     name : str
-        The parameter.
+        Name of the parameter.
     span : tuple of float
-        Its range, around the value of the orbit.
+        Range of the parameter, around its value at the orbit.
     period : callable, optional
         ``period(value)`` returns the period of the drive at a value of the parameter [s]; that of the orbit by default.
     most : int
-        Steps at most, either way.
+        Largest number of steps in each direction.
     display : Display, optional
         Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
@@ -146,14 +147,15 @@ _PERIOD = "continuation: period"
 
 
 def _check_period(path: Path, orbit: Orbit) -> None:
-    """Check at both ends of the range that a motion that begins a period later is the same.
+    """Check at both ends of the range that a motion is the same if it begins a period later.
 
-    If the state of the orbit is impossible at an end, as bodies would overlap, nearer values are tested.
+    If the state of the orbit is impossible at an end, because bodies would overlap, values nearer to the orbit are
+    tested.
 
     Raises
     ------
     InvalidInput
-        If it is not.
+        If the motions differ: the drive has another period there.
     """
     value = orbit.family[path.name]
     for end in (path.low, path.high):
@@ -169,7 +171,7 @@ def _check_period(path: Path, orbit: Orbit) -> None:
 
 
 def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
-    """Return the change of a motion that begins a period later, in units of scales; None if none can begin."""
+    """Return the difference of motions that begin a period apart, in units of scales; None if one cannot run."""
     model, section, start = path.family.model(**{path.name: value}), path.section(value), orbit.state
     try:
         one = section.flow(model, start).state
@@ -180,7 +182,7 @@ def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
 
 
 def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCovered) -> Branch:
-    """Return the orbits from a point on, with steps that grow after a success and are halved after a failure."""
+    """Return the branch from a point on, with steps that grow after a success and are halved after a failure."""
     found, distances, special, step = [point], [grazing_distance(point.orbit)], list[Special](), _FIRST
     ending, bound = f"{most} steps", np.inf
     while len(found) <= most:
@@ -209,7 +211,7 @@ def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCov
         distances.append(grazing_distance(following.orbit))
         covered.add(path.value(following))
         point, step = following, min(_GROWS * step, _LARGEST)
-        # half of the way to a point without an orbit is likely to lead to one
+        # half of the distance to the last failure is likely to succeed
         if bound > point.along:
             step = min(step, max(0.5 * (bound - point.along), _SMALLEST))
     values, orbits = np.array([path.value(one) for one in found]), tuple(one.orbit for one in found)
@@ -217,7 +219,7 @@ def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCov
 
 
 def _between(path: Path, one: ContinuationPoint, step: float, two: ContinuationPoint) -> list[Special]:
-    """Return the bifurcations between two neighbours: where a test function changes its sign."""
+    """Return the bifurcations between two successive points, at which a test function changes its sign."""
     from scipy.optimize import brentq
 
     found = []
@@ -238,7 +240,7 @@ def _doubling(point: ContinuationPoint) -> float:
 
 
 def _torus(point: ContinuationPoint) -> float:
-    """Return the square of the largest absolute value of the complex multipliers, less 1; -1 without any."""
+    """Return |z|^2 - 1 of the largest complex multiplier z; -1 if all multipliers are real."""
     values = point.orbit.multipliers
     pairs = values[np.abs(values.imag) > 1e-9]
     return float(np.max(np.abs(pairs) ** 2, initial=0.0)) - 1.0
@@ -249,4 +251,4 @@ _TESTS: dict[str, Callable[[ContinuationPoint], float]] = {
     "period doubling": _doubling,
     "Neimark-Sacker": _torus,
 }
-"""Test function of each bifurcation; its sign changes there."""
+"""Test function of each bifurcation, which changes its sign there."""

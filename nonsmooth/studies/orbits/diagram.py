@@ -1,6 +1,6 @@
 """Bifurcation diagrams: a coordinate once a period, over a parameter, after the motion has settled.
 
-In a hysteresis diagram the values rise, then fall, and each run starts from the one before.
+In a hysteresis diagram the values rise, then fall, and each run continues the run before.
 """
 
 from __future__ import annotations
@@ -41,17 +41,17 @@ class Diagram:
     Attributes
     ----------
     name, label : str
-        The parameter, and its name with its unit.
+        Name of the parameter, without and with its unit.
     values : array
-        Its values, shape [n].
+        Values of the parameter, shape [n].
     coordinate, unit : str
         The sampled coordinate or velocity, and its unit.
     points : array
-        Its samples in the last ``keep`` periods; nan if a run failed; shape [n, keep].
+        Samples of the coordinate in the last ``keep`` periods, shape [n, keep]; nan if a run failed.
     failures : tuple of str
         Reasons of failures, "" for a run that succeeded.
     scale : float
-        Scale of the coordinate by the size of its body, in its unit.
+        Scale of the coordinate, from the size of its body, in the unit of the coordinate.
     """
 
     name: str
@@ -87,9 +87,9 @@ class Diagram:
         ax : Axes, optional
             The axes, which may show a branch of orbits; of a new figure by default.
         colour, mark : str
-            Of the points.
+            Colour and mark of the points, as in matplotlib.
         label : str, optional
-            Their name in a legend.
+            Name of the points in a legend.
         """
         ax = axes_of(ax)
         over = np.repeat(self.values, self.points.shape[1])
@@ -125,9 +125,9 @@ def bifurcation(
     what : Scenario, System or Family
         The system; each run starts as it is placed.
     name : str
-        The parameter.
+        Name of the parameter.
     values : array
-        Its values, shape [n].
+        Values of the parameter, shape [n].
     period : float or callable
         Period of the drive, or a multiple [s]; ``period(value)`` if the parameter changes it.  A run fails if the drive
         has another period at its value.
@@ -136,18 +136,18 @@ def bifurcation(
     at : float
         Time of the sample in each period [s], at which no velocity jumps.
     settle : int
-        Periods of the transient before.
+        Number of periods of the transient, which are not sampled.
     keep : int
-        Periods that are sampled.
+        Number of periods that are sampled.
     display : Display, optional
         Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
     UnknownName
-        If there is no such parameter or coordinate.
+        If the system has no parameter or coordinate of this name.
     InvalidInput
-        If a number is not valid, or no value gives a system.
+        If an argument is not valid, or the runs at all values are refused.
     """
     row = np.atleast_1d(floats("bifurcation: values", values))
     sampling = PeriodicSampling(period, coordinate, at, settle, keep, "bifurcation")
@@ -175,9 +175,9 @@ class PeriodicSampling:
     at : float
         Time of the sample in each period [s].
     settle, keep : int
-        Periods of the transient, and of the samples.
+        Number of periods of the transient, and of the samples.
     study : str
-        Subject of errors.
+        Name of the study in messages of errors.
 
     Raises
     ------
@@ -201,7 +201,7 @@ class PeriodicSampling:
         Raises
         ------
         InvalidInput
-            If it is not positive, or the time of the sample is not within it.
+            If the period is not positive, or the time of the sample is not within it.
         """
         period = period_at(self.period, value, f"{self.study}: period")
         check_phase(f"{self.study}: at", self.at, period)
@@ -213,7 +213,7 @@ class PeriodicSampling:
         Raises
         ------
         UnknownName
-            If there is no such parameter or coordinate.
+            If the system has no parameter or coordinate of this name.
         InvalidInput
             If the period is not valid.
         """
@@ -231,7 +231,7 @@ class PeriodicSampling:
         RunFailed
             If a run cannot continue.
         InvalidInput
-            If the system does not have the period.
+            If the drive has another period.
         """
         period = self.lasts(value)
         begin = state_at_phase(model, start, period, self.at)
@@ -251,7 +251,7 @@ class Hysteresis:
     Attributes
     ----------
     up, down : Diagram
-        Both ways, each with its values rising.
+        Diagrams for rising and for falling values; both store their values in rising order.
     """
 
     up: Diagram
@@ -259,7 +259,7 @@ class Hysteresis:
 
     @property
     def apart(self) -> NDArray[np.bool_]:
-        """True if both ways lead to different motions, of which at least one repeats; shape [n]."""
+        """True if rising and falling values lead to different motions, of which at least one repeats; shape [n]."""
         both = np.array([self.up.points, self.down.points])
         differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > alike(both, self.up.scale)
         periodic = np.array([self.up.periods, self.down.periods]) > 0
@@ -267,7 +267,7 @@ class Hysteresis:
         return np.asarray(others & np.isfinite(both).all(axis=(0, 2)))
 
     def draw(self, ax: Axes | None = None) -> Axes:
-        """Draw both ways with their own marks and colours, on axes or in a new figure."""
+        """Draw both diagrams, each with its own mark and colour, on axes or in a new figure."""
         ax = self.up.draw(axes_of(ax), colour=BLUE, mark="^", label=f"{self.up.name} rises")
         self.down.draw(ax, colour=GREEN, mark="v", label=f"{self.down.name} falls")
         failed = self.up.failed + self.down.failed
@@ -290,23 +290,23 @@ def hysteresis(
 ) -> Hysteresis:
     """Sample a motion once a period for rising, then falling values of a parameter.
 
-    At the first value either way, and after a failed run, the system starts as it is placed.  At each other value the
-    motion continues from a state of its neighbour with few closed contacts.  Closed contacts stay closed, and bodies
-    that would overlap touch.
+    At the first value in each direction, and after a failed run, the system starts as it is placed.  At each other
+    value the motion continues from a state at the value before, with as few closed contacts as possible.  Closed
+    contacts stay closed.  Bodies that would overlap at the new value are placed in contact.
 
     Parameters
     ----------
     what, name, values, period, coordinate, at, settle, keep
-        As of :func:`bifurcation`; the values are sorted.
+        As in :func:`bifurcation`; the values are sorted.
     display : Display, optional
         Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
     UnknownName
-        If there is no such parameter or coordinate.
+        If the system has no parameter or coordinate of this name.
     InvalidInput
-        If a number is not valid, or no value gives a system.
+        If an argument is not valid, or the runs at all values are refused.
     """
     row = np.unique(floats("hysteresis: values", values))
     sampling = PeriodicSampling(period, coordinate, at, settle, keep, "hysteresis")
@@ -333,10 +333,10 @@ def hysteresis(
 
 
 def _carried(model: Model, period: float, last: Model, state: State, last_period: float) -> State:
-    """Return the state in which a motion of another model continues in a model, at the same phase of the drive."""
+    """Return the state from which a model continues a motion of the model ``last``, at the same phase of the drive."""
     there = clearest_state(last, state, last_period)
     there = replace(there, time=there.time % last_period * (period / last_period))
-    # a body in low flight that a faster plate would reach is placed on it
+    # open contacts that overlap in the new model are closed: a faster plate reaches a body in low flight
     reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == Mode.OPEN)
     there = replace(there, modes=np.where(reached, Mode.SLIDE, there.modes))
     return Chart.at(model, there).held_in(model, there)

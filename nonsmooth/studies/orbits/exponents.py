@@ -26,11 +26,11 @@ class Lyapunov:
     Attributes
     ----------
     exponents : array
-        The largest first [1/s], shape [m].
+        Lyapunov exponents, the largest first [1/s], shape [m].
     history : array
         Running estimates after each period [1/s], shape [n, m].
     left_out : int
-        Periods without a derivative, as events changed their order; they are not counted.
+        Number of periods without a derivative, because a small change reorders events.  They do not count.
     state : State
         Last state of the motion.
     """
@@ -55,14 +55,15 @@ def lyapunov(
     n_periods : int
         Number of these periods.
     settle : float
-        Time of the transient before [s].
+        Time of the transient, which does not count [s].
     within : sequence of str, optional
         Names of coordinates and velocities of the perturbations (:func:`orbit`).
 
     Raises
     ------
     InvalidInput
-        If a number is not valid, or other contacts are closed at the ends of periods.
+        If a number is not positive, other contacts are closed at the end of a later period, or no period has a
+        derivative.
     """
     for name, value in (("period", period), ("n_periods", n_periods)):
         check_positive(f"lyapunov: {name}", value, "Give a larger one.")

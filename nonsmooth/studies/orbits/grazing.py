@@ -19,13 +19,13 @@ SIMULTANEOUS = "simultaneous impacts"
 _KINDS = {"approach": "grazing", "gap": "grazing", "between_impacts": SIMULTANEOUS}
 """Kind of change at which each distance vanishes."""
 _CANDIDATES = 200
-"""Times of a period between which least gaps are searched for."""
+"""Number of parts of a run in each of which a least gap is searched for."""
 _CLOSED, _COLLIDES = 1, 2
 """Bits of the mode code of a contact."""
 _POINTS = 4
-"""Orbits from which the end of a distance is extrapolated."""
+"""Largest number of orbits from which the zero of a distance is extrapolated."""
 _GROWS = 1.5
-"""Least ratio of the distances of two of these orbits."""
+"""Least ratio of the distances of two successive ones of these orbits."""
 _LITTLE = 1e-2
 """Largest distance, relative to its scale, that is extrapolated to zero."""
 
@@ -33,7 +33,7 @@ _LITTLE = 1e-2
 @final
 @dataclass(frozen=True)
 class GrazingDistance:
-    """Distances of an orbit to a change of its events; infinite if such a change cannot happen.
+    """Distances of an orbit to a change of its events; infinite if the orbit has no such impacts or gaps.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class GrazingDistance:
     between_impacts : float
         Least time between successive impacts of different contacts [s].
     scales : tuple of float
-        Scales of the three: the largest rate of a gap [m/s], the largest gap [m], the period [s].
+        Scales of these distances: the largest rate of a gap [m/s], the largest gap [m], the period [s].
     """
 
     approach: float
@@ -54,11 +54,11 @@ class GrazingDistance:
 
 
 def grazing_distance(orbit: Orbit) -> GrazingDistance:
-    """Return the distances of an orbit to a change of its events, from one more run of it."""
+    """Return the distances of an orbit to a change of its events, by one more run."""
     model, end, state = orbit.family.model(), orbit.map.end.state.time, orbit.state
     approach, gap, impacts = [np.inf], [np.inf], list[tuple[float, int]]()
     fastest = widest = 0.0
-    # a Poincare section ends runs: an orbit that passes it several times consists of several
+    # a Poincare section ends runs: an orbit that passes it several times consists of several runs
     while end - state.time > 1e-9 * orbit.period:
         run = model.run(end, start=state, sample_interval=end - state.time)
         events, state = run.events, run.state
@@ -79,16 +79,16 @@ def grazing_distance(orbit: Orbit) -> GrazingDistance:
 @final
 @dataclass(frozen=True)
 class PredictedChange:
-    """A change of events after the last of some orbits, extrapolated from their distances.
+    """A change of events beyond the last orbit of a branch, extrapolated from the distances of the orbits.
 
     Attributes
     ----------
     kind : str
         "grazing" or "simultaneous impacts".
     value : float
-        The parameter there.
+        Value of the parameter at the change.
     error : float
-        Difference from the extrapolation of one orbit fewer; infinite for two orbits.
+        Estimated error of the value: difference from the extrapolation with one orbit fewer; infinite for two orbits.
     """
 
     kind: str
@@ -97,16 +97,16 @@ class PredictedChange:
 
 
 def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistance]) -> PredictedChange | None:
-    """Return the first change of events just after the last of some orbits; None if no distance vanishes there.
+    """Return the first change of events just beyond the last orbit of a branch; None if no distance vanishes there.
 
     Parameters
     ----------
     along : array
         Arc length of the orbits, shape [n].
     values : array
-        Their values of the parameter, shape [n].
+        Values of the parameter at the orbits, shape [n].
     found : sequence of GrazingDistance
-        Their distances.
+        Distances of the orbits.
     """
     from scipy.interpolate import BarycentricInterpolator
 
@@ -116,7 +116,7 @@ def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistanc
         which = _graded(left)
         if left[-1] > _LITTLE * scale or len(which) < 2:
             continue
-        # the distance is the abscissa: a distance that vanishes like a root has no slope over the parameter
+        # the distance is the abscissa: if it vanishes like a square root, its slope over the parameter is infinite
         there = np.column_stack([along, values])
         beyond, value = BarycentricInterpolator(left[which], there[which])(0.0).tolist()
         fewer = BarycentricInterpolator(left[which[:-1]], values[which[:-1]])(0.0) if len(which) > 2 else np.inf
@@ -128,7 +128,7 @@ def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistanc
 
 
 def _graded(left: Array) -> list[int]:
-    """Return the last of some distances, and those before it that increase backwards by a factor each."""
+    """Return the indices of the last distance, and of earlier distances that increase backwards by :data:`_GROWS`."""
     if not np.isfinite(left[-1]):
         return []
     which = [len(left) - 1]
@@ -143,7 +143,7 @@ def _graded(left: Array) -> list[int]:
 
 
 def _least_gaps(run: Solution, times: Array, motion: History) -> list[float]:
-    """Return the least gaps of the contacts that come near in a run without an impact [m]."""
+    """Return the least gaps [m] of open contacts that approach and separate in a run without an impact."""
     from scipy.optimize import brentq
 
     events = run.events
@@ -164,7 +164,7 @@ def _least_gaps(run: Solution, times: Array, motion: History) -> list[float]:
 
 
 def _largest(numbers: Array) -> float:
-    """Return the largest finite number; 0 if all contacts are too far for any."""
+    """Return the largest number without nan; 0 if all are nan, because the bodies of all contacts are far apart."""
     return float(np.max(np.nan_to_num(numbers), initial=0.0))
 
 

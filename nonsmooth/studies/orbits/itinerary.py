@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _FILLS = COLOURS[1:]
 _HATCHES = ("", "////", "....", "xxxx")
 _KINDS = len(_FILLS) * len(_HATCHES)
-"""Kinds of events that a picture distinguishes; all others have the style of the last of them."""
+"""Number of kinds of events that a picture distinguishes; all further kinds have the style of the last."""
 
 
 @final
@@ -42,9 +42,10 @@ class Itinerary:
     Attributes
     ----------
     at : array
-        Their times, in periods from the beginning of the first one, shape [n]; the first may be negative.
+        Times of the events, in periods since the beginning of the first period, shape [n].  A negative first time is
+        that of the last event before.
     events : Signature
-        Cause and contact of each.
+        Cause and contact of each event.
     """
 
     at: Array
@@ -61,13 +62,13 @@ class ItineraryDiagram:
     label : str
         The parameter with its unit.
     values : array
-        Its value in each row, shape [n].
+        Value of the parameter, or number of the period, in each row, shape [n].
     keep : int
-        Periods of each row.
+        Number of periods in each row.
     rows : tuple of Itinerary
-        The events.
+        The events of each row.
     words : mapping
-        Cause and contact of each kind of events in words, the most frequent first.
+        Words for each kind of event, by its cause and contact, the most frequent first.
     failures : tuple of str
         Reasons of failures, "" for a run that succeeded.
     """
@@ -122,25 +123,25 @@ def itinerary_diagram(
     what : Scenario, System or Family
         The system; each run starts as it is placed.
     name : str
-        The parameter.
+        Name of the parameter.
     values : array
-        Its values, rising, shape [n].
+        Values of the parameter, rising, shape [n].
     period : float or callable
         Period of the drive, or a multiple [s]; ``period(value)`` if the parameter changes it.  A run fails if the drive
         has another period at its value.
     settle : int
-        Periods of the transient before.
+        Number of periods of the transient, which are not recorded.
     keep : int
-        Periods that are recorded.
+        Number of periods that are recorded.
     display : Display, optional
         Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
     UnknownName
-        If there is no such parameter.
+        If the system has no parameter of this name.
     InvalidInput
-        If a number is not valid, or no value gives a system.
+        If an argument is not valid, or the runs at all values are refused.
     """
     thing = "itinerary_diagram: period"
     column = np.atleast_1d(floats("itinerary_diagram: values", values))
@@ -166,7 +167,7 @@ def itinerary_of_run(model: Model, run: Solution, period: float) -> ItineraryDia
     Raises
     ------
     InvalidInput
-        If the run is shorter than a period.
+        If the period is not positive, or longer than the run.
     """
     n = int(run.t_end / period * (1.0 + 1e-12)) if is_finite(period) and period > 0.0 else 0
     if n < 1:
@@ -178,7 +179,7 @@ def itinerary_of_run(model: Model, run: Solution, period: float) -> ItineraryDia
 
 
 def _row(run: Solution, period: float, first: int, keep: int) -> Itinerary:
-    """Return the events of some periods, and the last one before them, which gives the first colour."""
+    """Return the events of ``keep`` periods, and the last event before them, which gives the first colour."""
     times, events = events_of(run)
     at = times / period - first
     begin, end = max(0, int(np.searchsorted(at, 0.0)) - 1), int(np.searchsorted(at, keep))

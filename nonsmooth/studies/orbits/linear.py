@@ -45,7 +45,7 @@ class NonDifferentiablePoint:
     direction : str
         The coordinate, velocity or turn.
     before, after : array
-        One-sided derivatives for decreasing and increasing coordinates; nan if events change there, too; shape [m].
+        One-sided derivatives for decreasing and increasing coordinates, shape [m]; nan if events also change there.
     signatures : tuple of Signature
         The events on either side.
     """
@@ -70,12 +70,12 @@ class Linear:
     way : array
         Image less state along the directions, shape [m].
     matrix : array
-        Derivatives of the image along the directions there, a column for each direction at the state; nan if there is
-        none; shape [m, m].
+        Derivatives of the image, a column for each direction at the state, shape [m, m]; nan in a column without a
+        derivative.
     non_differentiable : tuple of NonDifferentiablePoint
         The directions without a derivative.
     error : array
-        Bounds of the errors of the derivatives; infinite if there is none; shape [m, m].
+        Bounds of the errors of the derivatives, shape [m, m]; infinite if they are unknown.
     step : float
         The smallest step of the differences, in units of scales.
     """
@@ -98,21 +98,21 @@ def linear(
     *,
     is_smooth: bool = False,
 ) -> Linear:
-    """Return the map from a state to its next return to a section, along the coordinates of ``within``.
+    """Linearise the map from a state to its next return to a section, along the coordinates of ``within``.
 
-    With ``step``, which is known to be good near the state, the derivatives are quick differences of fourth order with
-    unknown errors.  They serve Newton's method.  Without it the steps are chosen at this state.
+    With a ``step`` that was good at a state nearby, the derivatives are quick differences of fourth order with unknown
+    errors.  They serve Newton's method.  Without a ``step``, steps are chosen at this state and errors are estimated.
 
     Raises
     ------
     UnknownName
-        If a coordinate has no such name.
+        If ``within`` contains an unknown name.
     RunFailed
         If a run cannot continue.
     InvalidInput
-        If a motion does not return to the section, or the law of a closed contact has inner states.
+        If a motion does not return to the section, or the friction law of a closed contact has states of its own.
     OrderOfEvents
-        If the map must be smooth and lacks a derivative.
+        If ``is_smooth`` is True and the map lacks a derivative.
     """
     chart, end, maps = _maps(model, state, section, within)
     columns, points, m = list[Derivative](), list[NonDifferentiablePoint](), len(chart.names)
@@ -180,15 +180,15 @@ def eigenvalues(matrix: Array, error: Array) -> tuple[NDArray[np.complex128], Ar
     """Return the eigenvalues, the largest first, and bounds of their errors, shape [m] each.
 
     Gershgorin's circles of the matrix in the basis of its eigenvectors V contain the eigenvalues of every matrix within
-    the errors E; their radii are the row sums of abs(V^-1) E abs(V).  They grow beyond all bounds where two
-    eigenvalues meet.  There the bound of Elsner (1985) is smaller: (2 |M| + |E|)^(1 - 1/m) |E|^(1/m).
+    the errors E; their radii are the row sums of abs(V^-1) E abs(V).  The radii grow beyond all bounds as two
+    eigenvalues meet.  The bound of Elsner (1985) is then smaller: (2 |M| + |E|)^(1 - 1/m) |E|^(1/m).
 
     Parameters
     ----------
     matrix : array
         The matrix, shape [m, m].
     error : array
-        Bounds of the errors of its numbers, shape [m, m].
+        Bounds of the errors of the entries of the matrix, shape [m, m].
     """
     m = len(matrix)
     if m == 0:

@@ -34,16 +34,16 @@ from nonsmooth.types import Array
 _CLOSE = 1e-12
 """Largest residual of an orbit, in units of scales."""
 _AGAIN = 1e-8
-"""Largest residual after another period, for a map that stretches by 1."""
+"""Largest residual after a second period, in units of scales; multiplied by the norm of the map if that exceeds 1."""
 _MOST = 30
-"""Steps of Newton's method."""
+"""Largest number of steps of Newton's method."""
 _HELD = 1e-6
 """Largest difference of eliminated coordinates after a period, in units of scales."""
 _MODES = {Mode.OPEN: "open", Mode.STICK: "closed and sticks", Mode.SLIDE: "closed and slides"}
 _NAMED = 3
-"""Contacts that a message names at most."""
+"""Largest number of contacts that a message names."""
 _NEARLY_ONE = 1e-3
-"""Distance of a multiplier from 1 below which Newton's method divides by less than a thousandth."""
+"""Distance of a multiplier from 1 that explains a failure of Newton's method, which divides by it."""
 
 
 class NoOrbit(NonsmoothError):
@@ -60,15 +60,15 @@ class Orbit:
     family : Family
         The systems, at the values of this orbit; with a Poincare section their runs end at the section.
     state : State
-        Its state at the section.
+        State of the motion at the section.
     section : Section
-        Where a period ends.
+        Section at which a period ends.
     within : tuple of str or None
         The coordinates and velocities that repeat.
     residual : float
         Largest difference between end and start, in units of scales.
     map : Linear
-        The map of one period about it; its matrix is the monodromy matrix.
+        The map of one period, linearised about the orbit; its matrix is the monodromy matrix.
     """
 
     family: Family
@@ -85,7 +85,7 @@ class Orbit:
 
     @property
     def turns(self) -> dict[str, float]:
-        """Angle by which a period turns the motion [rad], by symmetry."""
+        """Angle by which a period turns the motion [rad], for each symmetry by its name."""
         return self.section.turns(self.family.model(), self.state)
 
     @property
@@ -145,7 +145,7 @@ class Orbit:
         Raises
         ------
         UnknownName
-            If there is none of that name.
+            If no coordinate or velocity has this name.
         """
         model = self.family.model()
         there = state_at_phase(model, self.state, self.period, at)
@@ -182,11 +182,11 @@ def orbit(
     period : float, optional
         Period of the drive, or a multiple [s].
     section : PoincareSection, optional
-        Where a period ends, if nothing drives the system.
+        Section at which a period ends, for a system without a drive.
     at : float, optional
         Time of the section in each period [s]; by default far from all events.
     settle : float
-        Time of the transient before [s].
+        Time of the transient before the search [s].
     start : State, optional
         First state; by default as the system is placed.
     within : sequence of str, optional
@@ -202,9 +202,9 @@ def orbit(
     Raises
     ------
     InvalidInput
-        If a number is not valid, the system does not have the period, or the motion does not pass the section.
+        If a number is not valid, the drive has another period, or the motion does not pass the section.
     UnknownName
-        If a coordinate has no such name.
+        If the system has no coordinate or velocity of a given name.
     NoOrbit
         If Newton's method does not converge.
     """
@@ -237,7 +237,7 @@ def _modulo(section: Section, symmetries: Sequence[Symmetry]) -> Section:
 
 
 def close(family: Family, state: State, section: Section, within: tuple[str, ...] | None) -> Orbit:
-    """Return the orbit near a state of the section.
+    """Return the orbit near a state of the section, by Newton's method.
 
     Raises
     ------
@@ -253,7 +253,7 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
-            # values and remedies of the run belong to a state that only Newton's method visited
+            # without value and remedy: they belong to a state that only Newton's method visited
             why = f"{error.thing} {error.rule}" if isinstance(error, InvalidInput) else str(error)
             raise NoOrbit(
                 f"no orbit near the start: step {i} of Newton's method leads to a state from which no run comes back "
@@ -270,7 +270,7 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         smooth = ~np.isnan(found.matrix[0]) if len(found.matrix) else np.zeros(0, dtype=bool)
         change = np.zeros(len(found.way))
         reduced = found.matrix[np.ix_(smooth, smooth)] - np.eye(int(np.sum(smooth)))
-        # the least change of all leaves directions of symmetry as they are
+        # lstsq returns the shortest change, which does not move along directions of symmetry
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
         state, step = found.chart.moved(model, state, change), found.step
     raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; {_advice(found)}")
@@ -282,7 +282,7 @@ def _check_closed(model: Model, start: State, end: State) -> None:
     Raises
     ------
     NoOrbit
-        If they are not.
+        If a contact has another mode at the end.
     """
     differ = np.flatnonzero(start.modes != end.modes).tolist()
     if not differ:
@@ -300,12 +300,12 @@ def _check_closed(model: Model, start: State, end: State) -> None:
 
 
 def _check_following(found: Linear, start: State) -> None:
-    """Check that coordinates of ``within`` that closed contacts constrain repeat, too.
+    """Check that the coordinates of ``within`` that closed contacts constrain also repeat.
 
     Raises
     ------
     NoOrbit
-        If they do not: they depend on coordinates that were left out.
+        If a coordinate differs after a period: it depends on coordinates that are not in ``within``.
     """
     off = float(np.max(np.abs(found.chart.following_between(start, found.end.state)), initial=0.0))
     if off > _HELD:
@@ -330,12 +330,12 @@ def _advice(found: Linear) -> str:
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
-    """Check that the end of a period maps to itself as the start does; else the system has another period.
+    """Check that the state also repeats after a second period; otherwise the drive has another period.
 
     Raises
     ------
     InvalidInput
-        If it does not.
+        If the state differs after the second period.
     """
     end = found.end.state
     again = section.flow(model, end).state

@@ -42,23 +42,23 @@ def multipliers(orbit: Orbit, ax: Axes | None = None) -> Axes:
 
 
 def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes | None = None) -> Axes:
-    """Draw a number of the orbits of a branch over its parameter: stable orbits in full, unstable ones dashed.
+    """Draw a quantity of the orbits of a branch over its parameter: stable orbits in full, unstable ones dashed.
 
     Parameters
     ----------
     found : Branch
         The branch.
     shown : callable
-        ``shown(orbit)`` returns the number.
+        ``shown(orbit)`` returns the quantity.
     label : str
-        Its name with its unit.
+        Name of the quantity with its unit.
     ax : Axes, optional
         The axes; of a new figure by default.
     """
     ax = axes_of(ax)
     heights = np.array([shown(orbit) for orbit in found.orbits])
     stable = np.array([orbit.stable for orbit in found.orbits])
-    # a piece belongs to both of its ends: it is dashed between a stable orbit and an unstable one
+    # the line between a stable orbit and an unstable one is dashed
     for which, style, word in ((stable, "-", "stable"), (~stable, "--", "unstable")):
         wide = which if style == "-" else which | np.roll(which, 1) | np.roll(which, -1)
         if np.any(which):

@@ -25,11 +25,11 @@ FREQUENCY_REMEDY = (
     "If the parameter changes the frequency, give period=lambda value: ... [s]; on the command line --period 1/NAME."
 )
 _SAME = 1e-6
-"""Largest difference of a motion from the same a period later, in units of scales: tolerances of runs leave less."""
+"""Allowed difference of motions that begin a period apart, in units of scales: tolerances of runs cause less."""
 _TRIES = 3
-"""Periods of which one must agree: rounding may decide the order of simultaneous impacts in one of them."""
+"""Number of periods of which one must agree: in one, rounding may decide the order of simultaneous impacts."""
 _MOST = 8
-"""Periods at most until one has a contact: the drive may act on a body through contacts only."""
+"""Largest number of periods tested until one has a contact: the drive may act on a body through contacts only."""
 
 
 def scan(
@@ -60,9 +60,9 @@ def scan(
     Raises
     ------
     UnknownName
-        If there is no such parameter.
+        If the family has no parameter of this name.
     InvalidInput
-        If no value gives a system.
+        If `values` is empty, or the runs at all values are refused.
     """
     _ = family[name]
     if not len(values):
@@ -101,15 +101,16 @@ def period_at(period: Period, value: float, thing: str) -> float:
 def check_period(model: Model, state: State, period: float, thing: str, remedy: str = FREQUENCY_REMEDY) -> None:
     """Check that a motion from a state is the same if it begins a period later.
 
-    A fixed period fails if the parameter changes the frequency of the drive.  The state is part of a motion, so closed
-    contacts are closed a period later, too.  A motion that cannot continue for a period passes.
+    The check fails if the parameter changes the frequency of the drive, but the period is fixed.  The state is part of
+    a motion, so its closed contacts must also be closed a period later.  A motion that cannot continue for a period
+    passes the check.
 
     Parameters
     ----------
     model : Model
         The model.
     state : State
-        Where the motion begins.
+        State in which the motion begins.
     period : float
         The period [s].
     thing, remedy : str

@@ -1,4 +1,4 @@
-"""Sections: where a period ends, at a time of the drive or as a coordinate passes a level."""
+"""Sections, which end a period of a motion: at a time of the drive, or as a coordinate passes a level."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from nonsmooth.system.system import System
 from nonsmooth.types import Array, Floats
 
 _CANDIDATES = 200
-"""Times of a period among which the section is chosen."""
+"""Number of times in a period among which the time of the section is chosen."""
 _CLOSED, _SLIDES = 1, 4
 """Bits of the mode code of a contact."""
 
 
 class Section(ABC):
-    """Where a period ends."""
+    """Set of states at which a period of a motion ends."""
 
     @abstractmethod
     def flow(self, model: Model, start: State) -> FlowSegment:
@@ -41,12 +41,12 @@ class Section(ABC):
         RunFailed
             If the run cannot continue.
         InvalidInput
-            If the motion does not return.
+            If the motion does not return to the section.
         """
 
     @abstractmethod
     def with_period(self, period: float) -> Section:
-        """Return the section with another period of the drive [s], if it has one."""
+        """Return the section for another period of the drive [s]; unchanged if it has no period."""
 
     def fixed(self, model: Model) -> tuple[str, ...]:
         """Return the names of coordinates that are constant on the section; none by default."""
@@ -57,7 +57,7 @@ class Section(ABC):
         return np.zeros((len(state.q) + len(state.u), 0))
 
     def check(self, model: Model, start: State) -> None:
-        """Raise InvalidInput if a period from a state contradicts what the section assumes; nothing by default."""
+        """Raise InvalidInput if a period from a state contradicts an assumption of the section; none by default."""
         return
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
@@ -95,20 +95,20 @@ class PoincareSection(Section):
     Attributes
     ----------
     coordinate : str
-        "z", or "ball.z" if bodies share a name; no component of a quaternion.
+        Name of the coordinate or velocity: "z", or "ball.z" if bodies share a name; no component of a quaternion.
     level : float
         The level, in the unit of the coordinate.
     rising : bool
         True if it passes upwards.  A velocity that jumps over the level does not pass it.
     times : int
-        Passages in a period.
+        Number of passages in a period.
     longest : float
         Longest time between passages; a motion that takes longer has no orbit [s].
 
     Raises
     ------
     InvalidInput
-        If a number is not valid.
+        If the level is not finite, or ``times`` or ``longest`` is not positive.
     """
 
     coordinate: str
@@ -129,9 +129,9 @@ class PoincareSection(Section):
         Raises
         ------
         UnknownName
-            If a coordinate has no such name.
+            If the system has no coordinate or velocity of this name.
         InvalidInput
-            If it belongs to a quaternion.
+            If the coordinate is a component of a quaternion.
         """
 
         def make(**values: float) -> System:
@@ -142,11 +142,11 @@ class PoincareSection(Section):
         return Family(make, family.values, family.engine, family.units)
 
     def first(self, model: Model, start: State) -> State:
-        """Return the first passage of a motion that begins in a state of the system without the guard."""
+        """Return the state at the first passage of a motion; ``start`` is a state of the system without the guard."""
         return self._next(model, replace(start, guards_spent=np.append(start.guards_spent, 0))).state
 
     def flow(self, model: Model, start: State) -> FlowSegment:
-        """Run until the coordinate has passed ``times`` times."""
+        """Run until the coordinate has passed the level ``times`` times."""
         state, signature, times = start, list[tuple[int, int]](), list[float]()
         for _ in range(int(self.times)):
             segment = self._next(model, state)
@@ -160,7 +160,7 @@ class PoincareSection(Section):
         return self
 
     def fixed(self, model: Model) -> tuple[str, ...]:
-        """Return the coordinate."""
+        """Return the name of the coordinate that passes the level."""
         return (whole_name(model.system, coordinate_number(model.system, self.coordinate)),)
 
     def _next(self, model: Model, start: State) -> FlowSegment:
@@ -206,20 +206,20 @@ class _Level(Guard):
 
     @property
     def value(self) -> Callable[..., float]:
-        """Distance from the level."""
+        """Function that returns the signed distance from the level."""
         return _distance
 
     @property
     def ends_run(self) -> bool:
-        """True."""
+        """True: the run ends at the level."""
         return True
 
 
 def clearest_state(model: Model, begin: State, period: float) -> State:
     """Return the state in the period after ``begin`` that is farthest from all events.
 
-    If all contacts are open at some time, the state has the largest of all least gaps.  Otherwise it has the fewest
-    constraints of closed contacts, and of these states it is in the middle between events.
+    If all contacts are open at some time, it is the state whose least gap is largest.  Otherwise it is a state with the
+    fewest constraints of closed contacts, and among these the one with the longest time to the nearest event.
     """
     times = begin.time + period * (np.arange(_CANDIDATES) + 0.5) / _CANDIDATES
     run = model.run(begin.time + period, start=begin, sample_interval=period)
@@ -243,5 +243,5 @@ def state_at(model: Model, begin: State, time: float) -> State:
 
 
 def state_at_phase(model: Model, begin: State, period: float, at: float) -> State:
-    """Return the first state of a motion at a time within each period [s]."""
+    """Return the first state of a motion from ``begin`` on at the time ``at`` within a period [s]."""
     return state_at(model, begin, begin.time + (at - begin.time) % period)

@@ -1,4 +1,4 @@
-"""Symmetries: rotations that commute with the motion, and sections modulo these."""
+"""Symmetries: rotations that commute with the motion, and sections modulo such rotations."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ _TEST_ANGLE = 1.0
 _SAME = 1e-6
 """Allowed difference of a turned motion, in units of scales: round-off of runs is below it."""
 _GUESSES, _MOST = 5, 20
-"""Angles a turn that are tried first, and steps of Newton's method from the best of them."""
+"""Number of angles per turn that are tried first, and largest number of Newton's steps from the best of them."""
 _CLOSE = 1e-9
-"""Last step of Newton's method [rad]; the error along a symmetry does not change the orbit."""
+"""Step at which Newton's method ends [rad]: an error along a symmetry does not change the orbit."""
 
 
 class Symmetry(ABC):
@@ -47,7 +47,7 @@ class Symmetry(ABC):
         Raises
         ------
         InvalidInput
-            If a body cannot be turned.
+            If a moving body is not free in space.
         """
 
     def direction(self, system: System, state: State) -> Array:
@@ -64,12 +64,12 @@ class Turn(Symmetry):
     Attributes
     ----------
     axis : tuple of float
-        Its direction, shape [3].
+        Direction of the axis, shape [3].
 
     Raises
     ------
     InvalidInput
-        If the axis is not a direction.
+        If the axis has not three components, or is zero.
     """
 
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -80,11 +80,11 @@ class Turn(Symmetry):
             raise InvalidInput("Turn.axis", "must be a direction", self.axis, "For example (0, 0, 1).")
 
     def __str__(self) -> str:
-        """Return its name."""
+        """Return the name of the symmetry."""
         return f"turn about ({', '.join(f'{x:g}' for x in self.axis)})"
 
     def turned(self, system: System, state: State, angle: float) -> State:
-        """Return all bodies turned."""
+        """Return the state with all bodies turned about the axis by an angle [rad]."""
         q, u = state.q.copy(), state.u.copy()
         way = angle * np.asarray(self.axis) / np.linalg.norm(self.axis)
         matrix = rotation(turned(_IDENTITY, way))
@@ -102,9 +102,9 @@ class Spin(Symmetry):
     Attributes
     ----------
     body : str
-        Its name.
+        Name of the body.
     axis : str
-        "x", "y" or "z".
+        Axis of symmetry in the frame of the body: "x", "y" or "z".
     """
 
     body: str
@@ -115,11 +115,11 @@ class Spin(Symmetry):
             raise UnknownName("Spin.axis", self.axis, _AXES)
 
     def __str__(self) -> str:
-        """Return its name."""
+        """Return the name of the symmetry."""
         return f"spin of {self.body} about its {self.axis}"
 
     def turned(self, system: System, state: State, angle: float) -> State:
-        """Return the body turned; its angular velocity stays the same in space."""
+        """Return the state with the body turned by an angle [rad]; its angular velocity in world axes is the same."""
         places = {name: (i, j) for name, i, j in _free(system)}
         if self.body not in places:
             raise UnknownName("Spin.body", self.body, places)
@@ -132,7 +132,7 @@ class Spin(Symmetry):
 
 
 def _free(system: System) -> Iterator[tuple[str, int, int]]:
-    """Yield name, and offsets in q and u, of all moving bodies; InvalidInput if one is not free in space."""
+    """Yield name, and offsets in q and u, of all moving bodies; raise InvalidInput if one is not free in space."""
     i = j = 0
     for name, body in zip(system.names.bodies, system.bodies, strict=True):
         if body.n_u:
@@ -151,9 +151,9 @@ class RelativeSection(Section):
     Attributes
     ----------
     section : Section
-        Where a period ends.
+        Section at which a period ends.
     symmetries : tuple of Symmetry
-        By which a period may turn the motion.
+        Symmetries by which a period may turn the motion.
     """
 
     section: Section
@@ -165,7 +165,7 @@ class RelativeSection(Section):
         Raises
         ------
         InvalidInput
-            If a contact is closed there: its state has directions in space.
+            If a contact is closed at the end: the state of a contact has directions in space.
         """
         segment = self.section.flow(model, start)
         if np.any(segment.state.modes):
@@ -218,12 +218,12 @@ class RelativeSection(Section):
         return state
 
     def _angles(self, model: Model, start: State, end: State) -> Array:
-        """Return the angles that minimise the distance of orientations and velocities from the start, by Newton."""
+        """Return the angles [rad] by which to turn the end back so that it is nearest to the start, by Newton."""
         scales = np.concatenate([body.scales[1] for body in model.system.bodies])
         rows = [slice(at, at + 4) for at in quaternions_of(model.system).values()]
 
         def seen(state: State) -> Array:
-            # of the two quaternions of an orientation the one nearer to the start
+            # an orientation has two quaternions, q and -q: take the one nearer to the start
             turns = [state.q[at] * (1.0 if state.q[at] @ start.q[at] >= 0.0 else -1.0) for at in rows]
             return np.concatenate([*turns, state.u / scales])
 
