@@ -91,7 +91,7 @@ class Glb:
 
     Loads, joints and links of mechanisms have tracks of scale, too.  So has the arrow of each contact, whose length is
     proportional to the impulse for 50 ms after an impact.  Times count from the beginning of the run.  They are 32-bit
-    floats that increase strictly; of instants with the same 32-bit time, the last one is kept.
+    floats that increase strictly; of instants with the same 32-bit time, only the last one is stored.
 
     Attributes
     ----------

@@ -90,7 +90,7 @@ class History(Mapping[str, NDArray[Any]]):
     ) -> History:
         """History of arrays whose dimensions leave out the axis of time.
 
-        Of ``labels``, it takes those of the axes that the arrays have.
+        Labels of axes that no array has are dropped.
         """
         used = dict.fromkeys(axis for one in arrays for axis in one.dimensions)
         known = {**FIXED_LABELS, **labels}

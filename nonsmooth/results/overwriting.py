@@ -20,7 +20,7 @@ def arrays_of_run(path: Path) -> ArrayFolder:
 
 
 def _status(path: Path) -> str | None:
-    """Status of the run in a folder of arrays, None if there is no run that can be opened."""
+    """Status of the run in a folder of arrays, None if no run can be opened there."""
     try:
         return str(arrays_of_run(path).attributes.get("status"))
     except InvalidInput:

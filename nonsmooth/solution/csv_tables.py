@@ -173,7 +173,7 @@ def save_events(solution: Solution, path: Path) -> None:
     Raises
     ------
     FileError
-        The file cannot be written; an older file of the name is kept.
+        The file cannot be written; an older file of the name is unchanged.
     """
     with replacing(path) as part, part.open("w", encoding="utf-8", newline="") as file:
         _write_events(solution, file)

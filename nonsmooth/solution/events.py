@@ -28,7 +28,7 @@ _LISTED = ("listed", "codes", "listed_impulse", "listed_memory")
 
 @final
 class _Column(functools.cached_property[NDArray[Any]]):
-    """A column of the events: it is read at its first use, and kept as an attribute of the events."""
+    """A column of the events: it is read at its first use, and is then an attribute of the events."""
 
     def __init__(self, description: str) -> None:
         super().__init__(lambda events: events.rows(self.attrname, 0, None))
