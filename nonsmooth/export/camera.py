@@ -1,4 +1,4 @@
-"""Camera: where a picture is seen from, without perspective, and what of the scene it holds."""
+"""Camera of a picture: direction of a parallel projection, and the part of the scene that is shown."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ VIEWS = {
 }
 """Directions from the scene to the eye, by their names."""
 _FAR = 6.0
-"""How large the way is, measured by what the bodies take up at a time, when the camera goes with them."""
+"""Extent of the whole motion, relative to the extent of the bodies at a time, above which the camera follows them."""
 _ROOM = 0.06
 """Margin on each side, relative to the larger extent."""
 
@@ -27,12 +27,12 @@ _ROOM = 0.06
 @final
 @dataclass(frozen=True, eq=False)
 class Camera:
-    """Directions of a picture, and the part of the plane that it shows at each time.
+    """Directions of a picture, and the part of the plane of projection that it shows at each time.
 
     Attributes
     ----------
     across, up, towards : array
-        To the right, upwards and to the eye, shape [3] each.
+        Unit vectors to the right, upwards and to the eye, shape [3] each.
     low, high : array
         Corners of the picture at each time, across and up [m], shape [n, 2].
     """
@@ -45,7 +45,10 @@ class Camera:
 
     @classmethod
     def of(cls, film: Film, view: str) -> Camera:
-        """Camera of one of the views: all that ever moves is seen; of a long way what is near the bodies."""
+        """Camera of one of the :data:`VIEWS`.
+
+        It shows the whole scene at all times.  If the bodies move far, it follows them.
+        """
         towards = np.array(VIEWS[view]) / np.linalg.norm(VIEWS[view])
         up = np.array([0.0, 1.0, 0.0]) if view == "top" else np.array([0.0, 0.0, 1.0])
         up = up - (up @ towards) * towards
@@ -65,7 +68,10 @@ class Camera:
 
 
 def _bounds(film: Film, flat: Floats, pieces: Sequence[DrawnMesh]) -> tuple[Floats, Floats]:
-    """Corners of what pieces take up at each time, shape [n, 2] each; of sheets at the first time."""
+    """Lower and upper corners of the rectangle around pieces at each time [m], shape [n, 2] each.
+
+    Sheets count at the first time only.
+    """
     low, high = np.full((len(film.times), 2), np.inf), np.full((len(film.times), 2), -np.inf)
     for i in range(len(film.times)):
         for piece in pieces:

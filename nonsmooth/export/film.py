@@ -1,4 +1,4 @@
-"""Film: what is drawn of a run, as meshes, and where each of them is at times."""
+"""Film of a run: meshes that are drawn, and the motion of the tracks that carry them."""
 
 from __future__ import annotations
 
@@ -21,30 +21,30 @@ if TYPE_CHECKING:
 _BODIES = ("#6fa8dc", "#f2b36b", "#7cc08f", "#d98fb8", "#b9a3e3", "#9fb8ad", "#d8c66a", "#8fc7d4")
 _HELD, _SHEET, _LINK, _JOINT = "#aab2bd", "#dfe4ea", "#5b6675", "#8c6d46"
 _ROUND, _TURNED = 100, 0.72
-"""Triangles from which on a solid gets a pattern that shows how it turns, and its shade."""
+"""Least number of triangles of a solid with a pattern, which shows its rotation, and the shade of the pattern."""
 _CELLS, _MOST_CELLS = 10, 40
-"""Cells along a sheet, and the most where the way is long beside the bodies."""
+"""Number of cells along a sheet, and its upper bound if the motion is long compared with the bodies."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class DrawnMesh:
-    """A mesh that a track carries.
+    """A mesh in one colour that a track carries.
 
     Attributes
     ----------
     name : str
-        Of the body, load or joint.
+        Name of the body, load or joint.
     body : int
-        Number of the body, -1 of a load or a joint.
+        Number of the body, -1 for a load or a joint.
     track : int
         Number of the track.
     mesh : ShadedMesh
-        In the axes of the track.
+        Mesh in the axes of the track.
     colour : str
-        As "#rrggbb".
+        Colour as "#rrggbb".
     sheet : bool
-        Whether it stands for a plane without end, and is seen from its upper side.
+        True if the mesh stands for an infinite plane, which is drawn if seen from its upper side.
     """
 
     name: str
@@ -58,22 +58,24 @@ class DrawnMesh:
 @final
 @dataclass(frozen=True, eq=False)
 class Film:
-    """Pieces, and tracks that carry them: those of the frames first, then of sheets, then of strokes.
+    """Meshes of a run, and tracks that carry them: tracks of frames first, then of sheets, then of strokes.
 
-    A point x of a track is at ``origin + axes @ (scale x)``, where ``scale`` stretches the first axis alone.
+    A sheet shows an infinite plane.  A stroke is a load, a joint or a link between two points.  A point x of a track is
+    at ``origin + axes @ (scale x)``; ``scale`` stretches only the first axis.
 
     Attributes
     ----------
     times : array
-        [s], shape [n].
+        Times [s], shape [n].
     origin, axes, scale : array
-        In [m], as columns, and pure numbers; shapes [n, n_tracks, 3], [n, n_tracks, 3, 3] and [n, n_tracks].
+        Origin [m], axes as columns, and stretch of each track; shapes [n, n_tracks, 3], [n, n_tracks, 3, 3] and
+        [n, n_tracks].
     pieces : tuple of DrawnMesh
-        What is drawn.
+        Meshes that are drawn.
     moving : tuple of int
-        Tracks of what is seen of moving bodies, and of strokes.
+        Tracks that carry meshes of moving bodies, and tracks of strokes.
     unit : float
-        The length that lines and arrows are measured by [m].
+        Length to which lines and arrows are proportional [m].
     """
 
     times: Floats
@@ -91,7 +93,7 @@ class Film:
         Raises
         ------
         InvalidInput
-            If nothing of the system can be seen.
+            The system has nothing that can be drawn.
         """
         scene, states = Scene.of(solution.system), solution.at(times)
         origin, axes = scene.places(times, states["q"], states["u"])
@@ -133,7 +135,7 @@ class Film:
         return cls(times, places, axes, scale, tuple(pieces), tuple(sorted(moving)), unit)
 
     def placed(self, piece: DrawnMesh, i: int) -> Floats:
-        """Vertices of a piece at the time of a number [m], shape [n, 3]."""
+        """Vertices of a piece at the time ``times[i]`` [m], shape [n, 3]."""
         stretched = piece.mesh.vertices * [self.scale[i, piece.track], 1.0, 1.0]
         return np.asarray(self.origin[i, piece.track] + stretched @ self.axes[i, piece.track].T)
 
@@ -145,7 +147,7 @@ def _colour(scene: Scene, body: int) -> str:
 
 
 def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
-    """Meshes of a look, each with True if it stands for a line."""
+    """Meshes of a look, each with True if it shows a line."""
     if len(look.triangles):
         middle = 0.5 * (look.vertices.min(axis=0) + look.vertices.max(axis=0))
         centre = look.vertices[look.triangles].mean(axis=1) - middle
@@ -162,9 +164,10 @@ def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
 def _sheet(
     part: FrameLook, origin: Floats, axes: Floats, low: Floats, high: Floats, unit: float
 ) -> tuple[Floats, ShadedMesh]:
-    """Place of a piece of a plane, and the piece; it stays where the bodies are when the plane slides in itself.
+    """Places of the rectangle that shows an infinite plane [m], shape [n, 3], and its mesh.
 
-    It goes as far as the bodies at the first time, seen along its normal, and some way on.
+    The rectangle stays under the bodies if the plane slides in itself.  It covers the box from ``low`` to ``high`` [m],
+    projected along the normal at the first time, with a margin.
     """
     normal, middle = axes[:, :, 2], 0.5 * (low + high)
     through = origin + part.look.vertices[0, 2] * normal

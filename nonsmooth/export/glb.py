@@ -24,26 +24,26 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _SEEN = 0.05
-"""How long an arrow is there, unless the next one comes before [s]."""
+"""Time for which an arrow is shown, unless the next one of the contact begins before [s]."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Arrows:
-    """The arrows of one contact: each holds from its time to the next one.
+    """Arrows of the impulses of one contact over time; an entry holds from its time to the time of the next.
 
     Attributes
     ----------
     contact : str
         Name of the contact.
     times : array
-        [s], shape [n].
+        Times [s], shape [n].
     origin : array
-        Where they begin [m], shape [n, 3].
+        Points at which the arrows begin [m], shape [n, 3].
     axes : array
-        The first one, a column, points along the arrow, shape [n, 3, 3].
+        Axes as columns, of which the first points along the arrow, shape [n, 3, 3].
     size : array
-        Impulse by that of the strongest impact of the run, 0 where there is no arrow, shape [n].
+        Impulse relative to the strongest impulse of the run, 0 if no arrow is shown, shape [n].
     """
 
     contact: str
@@ -55,7 +55,7 @@ class Arrows:
 
 def arrows(solution: Solution) -> Iterator[Arrows]:
     """Arrows of each contact that takes part in an impact: the impulses on the bodies that move."""
-    # also of an engine that records no contacts, and so no events
+    # `recorded` also accepts an engine that records no contacts; it then gives no arrows
     found = Impulses.recorded(HistoryRequest(solution, np.zeros(0)))
     side = sides(solution.system)[found.impulse_contact][:, None]
     push = side * (found.normal_impulse[:, None] * found.impulse_normal + found.friction_impulse)
@@ -64,7 +64,7 @@ def arrows(solution: Solution) -> Iterator[Arrows]:
     for contact in np.unique(found.impulse_contact[hits]).tolist():
         own = hits[found.impulse_contact[hits] == contact]
         begin = found.time[own]
-        # an arrow begins at its time and ends some time after, but not past the beginning of the next one
+        # an arrow begins at its time, and ends some time later or when the next one begins
         until = np.minimum(begin + _SEEN, np.append(begin[1:], np.inf))
         times = np.concatenate([solution.track.time[:1], np.column_stack([begin, until]).ravel()])
         strength = np.column_stack([size[own] / np.max(size[hits]), np.zeros(len(own))])
@@ -81,7 +81,7 @@ def arrows(solution: Solution) -> Iterator[Arrows]:
 
 _KNOTS = Rule("most times that are stored, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _IMPULSE, _ARM = "#d55e00", 1.6
-"""Colour of the arrows of impulses, and how long that of the strongest one is."""
+"""Colour of the arrows of impulses, and length of the arrow of the strongest, relative to the unit of the film."""
 
 
 @final
@@ -89,14 +89,14 @@ _IMPULSE, _ARM = "#d55e00", 1.6
 class Glb:
     """A GLB file (glTF 2.0): a node for each frame, with tracks of translation and rotation, and meshes below it.
 
-    Loads, joints and links of mechanisms have tracks of scale, too; so have arrows, one for each contact, which are as
-    long as its impulses and are there for 50 ms after an impact.  Times count from the beginning of the run and
-    are 32-bit numbers that increase strictly: of instants that are nearer to each other, the last one is kept.
+    Loads, joints and links of mechanisms have tracks of scale, too.  So has the arrow of each contact, whose length is
+    proportional to the impulse for 50 ms after an impact.  Times count from the beginning of the run.  They are 32-bit
+    floats that increase strictly; of instants with the same 32-bit time, only the last one is stored.
 
     Attributes
     ----------
     most_knots : int
-        At how many times, besides the instants of events, tracks have a key.
+        Largest number of times at which tracks have a key, in addition to the instants of events.
     """
 
     most_knots: int = 4000
@@ -138,7 +138,10 @@ def _packed(film: Film, keys: NDArray[np.float32], impulses: Iterable[Arrows]) -
 
 
 def quaternions(axes: Floats) -> Floats:
-    """Unit quaternions, scalar last, of axes of shape [n, m, 3, 3]; each is nearest to the one before it."""
+    """Unit quaternions, scalar last, shape [n, m, 4], of axes of shape [n, m, 3, 3].
+
+    Of the two quaternions of a rotation, each is the one that is nearer to the quaternion before it.
+    """
     from scipy.spatial.transform import Rotation
 
     found = np.asarray(Rotation.from_matrix(axes.reshape(-1, 3, 3)).as_quat()).reshape(*axes.shape[:2], 4)

@@ -1,4 +1,4 @@
-"""The parts of a glTF file: arrays one after another, nodes, meshes and tracks that tell of them."""
+"""Parts of a glTF file: a buffer of arrays, and the nodes, meshes and tracks that refer to them."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from nonsmooth.histories.arrays import Floats
 _FLOAT, _BYTE, _VERTICES = 5126, 5121, 34962
 _KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 _GAMMA = 2.4
-# glTF has y upwards
+# quaternion, scalar last, that turns z to y, because y is upwards in glTF
 _UPRIGHT = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
 
 
 @final
 @dataclass(frozen=True)
 class _Buffer:
-    """Arrays one after another, with what glTF tells of each."""
+    """Arrays one after another, with the view and the accessor of each in glTF."""
 
     blocks: list[bytes] = field(default_factory=list)
     views: list[dict[str, Any]] = field(default_factory=list)
@@ -43,7 +43,7 @@ class _Buffer:
 @final
 @dataclass(frozen=True)
 class Tree:
-    """Nodes, meshes and tracks of the file."""
+    """Nodes, meshes and tracks of a glTF file."""
 
     buffer: _Buffer = field(default_factory=_Buffer)
     nodes: list[dict[str, Any]] = field(default_factory=list)
@@ -58,7 +58,7 @@ class Tree:
         return len(self.nodes) - 1
 
     def mesh(self, mesh: ShadedMesh, colour: str) -> int:
-        """Add a mesh, once; return its number."""
+        """Add a mesh, unless the file has it already; return its number."""
         key = id(mesh), colour
         if key not in self.known:
             self.known[key] = len(self.meshes)
@@ -71,7 +71,7 @@ class Tree:
         return self.buffer.add(times, min=[float(times[0])], max=[float(times[-1])])
 
     def move(self, node: int, time: int, how: str, **tracks: Floats) -> None:
-        """Put a node where it is first, and add the tracks that change, by their names, shape [n, 3] or [n, 4]."""
+        """Set a node to the first values of its tracks, and add the tracks that change; shapes [n, 3] or [n, 4]."""
         for name, track in tracks.items():
             values = track.astype(np.float32)
             self.nodes[node][name] = values[0].tolist()
@@ -80,7 +80,7 @@ class Tree:
                 self.samplers.append({"input": time, "output": self.buffer.add(values), "interpolation": how})
 
     def packed(self, roots: list[int]) -> bytes:
-        """File with the nodes that are no other's children."""
+        """Bytes of the file; ``roots`` are the nodes without a parent."""
         top = self.node("run", rotation=_UPRIGHT, children=roots)
         blob = b"".join(self.buffer.blocks)
         told: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""Marks: contacts that stick or slip, and impacts, as moving pictures show them."""
+"""Marks in moving pictures: points of contacts that stick or slip, and of impacts."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ WORDS = ("stick", "slip", "impact")
 @final
 @dataclass(frozen=True, eq=False)
 class Marks:
-    """Marks at times.
+    """Points that are marked at each time.
 
     Attributes
     ----------
     places : tuple of tuple of array
-        Of each of the times, and of it for each of :data:`WORDS`, the points that are marked [m], shape [m, 3].
+        ``places[i][k]`` are the points of the kind ``WORDS[k]`` at the time i [m], shape [m, 3].
     """
 
     places: tuple[tuple[Floats, ...], ...]
 
     @classmethod
     def of(cls, solution: Solution, times: Floats, seen: float) -> Marks:
-        """Marks of a run at times [s], shape [n]; an impact is seen for so long [s].
+        """Marks of a run at times [s], shape [n]; an impact is marked for the duration ``seen`` [s].
 
-        There are none where the engine cannot be asked for forces.
+        There are no marks if the engine of the run cannot compute forces.
         """
         if not replay_of(solution).is_flow:
             return cls(len(times) * (len(WORDS) * (np.zeros((0, 3)),),))

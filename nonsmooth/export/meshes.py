@@ -1,4 +1,4 @@
-"""Meshes of what is drawn: bars, dots, pieces of planes; corners with normals."""
+"""Meshes for drawing: bars, arrows, dots and pieces of planes, and their normals."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 from nonsmooth.histories.arrays import Floats, Integers
 
 _SIDES, _RINGS = 12, 6
-"""Sides of a bar, and the parts of its length, so that pictures can sort it by depth."""
+"""Number of sides of a bar, and of parts of its length, so that pictures can sort the parts by depth."""
 _CREASE = np.cos(0.6)
-"""Faces that meet at a larger angle [rad] have an edge between them."""
+"""Cosine of the angle between faces, 0.6 rad, above which they have an edge between them."""
 
 
 @final
@@ -23,11 +23,11 @@ class ShadedMesh:
     Attributes
     ----------
     vertices : array
-        [m], shape [n, 3].
+        Vertices [m], shape [n, 3].
     triangles : array
         Numbers of three vertices, counter-clockwise seen from outside, shape [m, 3].
     shade : array
-        How bright each triangle is, 1 for the colour itself, shape [m].
+        Brightness of each triangle, 1 for the colour itself, shape [m].
     """
 
     vertices: Floats
@@ -36,7 +36,7 @@ class ShadedMesh:
 
     @classmethod
     def of(cls, vertices: Floats, triangles: Integers) -> ShadedMesh:
-        """Mesh of one shade."""
+        """Mesh with the shade 1 everywhere."""
         return cls(vertices, triangles, np.ones(len(triangles)))
 
 
@@ -57,7 +57,7 @@ def bar(first: Floats, last: Floats, radius: float) -> ShadedMesh:
 
 
 def arrow() -> ShadedMesh:
-    """Arrow of the length 1 along the first axis."""
+    """Arrow of length 1 from the origin along the first axis."""
     shaft, head = bar(np.zeros(3), np.array([0.75, 0.0, 0.0]), 0.03), bar(np.array([0.7, 0.0, 0.0]), np.eye(3)[0], 0.09)
     # the bar that is its head narrows to a point
     point = head.vertices * np.column_stack([np.ones(len(head.vertices)), *2 * [(1.0 - head.vertices[:, 0]) / 0.3]])
@@ -67,9 +67,9 @@ def arrow() -> ShadedMesh:
 
 
 def along_axes(ways: Floats) -> Floats:
-    """Axes, as columns, whose first runs along ways, shapes [n, 3, 3] and [n, 3].
+    """Axes as columns, shape [n, 3, 3]; the first axis has the direction of ``ways``, shape [n, 3].
 
-    They turn no more than the ways do; where one has no length, its axes are those of the world.
+    The axes turn no more than the directions do.  A way of length zero counts as the direction x.
     """
     length = np.linalg.norm(ways, axis=1, keepdims=True)
     first = np.where(length > 0.0, ways / np.where(length > 0.0, length, 1.0), [1.0, 0.0, 0.0])
@@ -82,7 +82,7 @@ def along_axes(ways: Floats) -> Floats:
 
 
 def dot(place: Floats, radius: float) -> ShadedMesh:
-    """Octahedron about a place [m], shape [3]."""
+    """Octahedron about a point [m], shape [3]."""
     corners = place + radius * np.concatenate([np.eye(3), -np.eye(3)])
     upper = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2)]
     lower = [(b, a, 5) for a, b, _ in upper]
@@ -102,16 +102,16 @@ def board(low: Floats, high: Floats, cell: float) -> ShadedMesh:
 
 
 def face_normals(corners: Floats) -> Floats:
-    """Unit normals of triangles with corners of shape [m, 3, 3]; zero where one has no area."""
+    """Unit normals of triangles with corners of shape [m, 3, 3]; zero for a triangle without area."""
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.linalg.norm(normal, axis=1, keepdims=True)
     return np.asarray(normal / np.where(size > 0.0, size, 1.0))
 
 
 def corner_normals(mesh: ShadedMesh) -> Floats:
-    """Unit normal at each corner of each triangle, shape [m, 3, 3]: round, but for edges and flat faces.
+    """Unit normal at each corner of each triangle, shape [m, 3, 3], for smooth shading.
 
-    It is the mean of the normals of the faces about the vertex that meet this one without an edge.
+    It is the mean of the normals of those faces at the vertex that meet the face of the triangle without an edge.
     """
     normals = face_normals(mesh.vertices[mesh.triangles])
     vertex, face = mesh.triangles.ravel(), np.repeat(np.arange(len(mesh.triangles)), 3)

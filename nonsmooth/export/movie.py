@@ -24,36 +24,36 @@ if TYPE_CHECKING:
 
 _RULES = {
     "speed": Rule("time of the run that passes in one second watched", "1", above=0.0),
-    # players of GIF show those that are shorter than 20 ms for 100 ms
+    # players of GIF show pictures with a duration below 20 ms for 100 ms
     "frames_per_second": Rule("number of pictures in one second watched", "1/s", above=0.0, maximum=50.0),
     "size": Rule("longer side of the pictures in pixels", "1", minimum=240.0, maximum=1920.0),
 }
 _MOST = 1000
-"""Pictures at most: all are kept until the file is written."""
+"""Largest number of pictures, because all are in memory until the file is written."""
 _SEEN = 0.12
-"""How long an impact is marked [s watched]."""
+"""Time for which an impact is marked [s watched]."""
 _DIGITS = np.array([1 << 16, 1 << 8, 1])
 _LOOKED_AT = 8
-"""In how many of its pictures the colours of a GIF are looked for."""
+"""Largest number of pictures from which the colours of a GIF are chosen."""
 
 
 @final
 @dataclass(frozen=True)
 class Movie:
-    """Moving pictures, without perspective: bodies shaded, contacts marked that stick or slip, and impacts.
+    """Moving pictures in parallel projection, with marks of contacts that stick or slip, and of impacts.
 
     Attributes
     ----------
     kind : str
         "gif", "webp", "png" or "mp4".
     view : str
-        Where it is seen from: "corner", "front" along y, "side" along -x or "top".
+        Direction of view: "corner", "front" along y, "side" along -x or "top".
     speed : float
         Time of the run that passes in one second watched [1].
     frames_per_second : float
         Pictures in one second watched [1/s].
     size : int
-        Longer side of what is drawn [pixels]; the other one is what the motion needs.
+        Longer side of the drawn scene [pixels]; the shorter side depends on the motion.
     """
 
     kind: str
@@ -115,7 +115,7 @@ class Movie:
 
 
 def _few_colours(pictures: list[Pixels]) -> list[Any]:
-    """Pictures with one palette for all: the colours that they have most of, and those of the marks."""
+    """Pictures with one palette for all: their most frequent colours, and the colours of the marks."""
     from PIL import Image
 
     looked_at = np.concatenate([one.reshape(-1, 3) for one in pictures[:: -(-len(pictures) // _LOOKED_AT)]])
@@ -127,7 +127,7 @@ def _few_colours(pictures: list[Pixels]) -> list[Any]:
     for picture in pictures:
         numbers, places = np.unique(picture @ _DIGITS, return_inverse=True)
         own = numbers[:, None] // _DIGITS % 256
-        # the nearest one has the least |p|^2 - 2 p x
+        # the nearest colour p of the palette to x has the least |p|^2 - 2 p x
         nearest = np.argmin(np.sum(palette**2, axis=1) - 2.0 * own @ palette.T, axis=1)
         image = Image.fromarray(nearest[places].reshape(picture.shape[:2]).astype(np.uint8))
         image.putpalette(palette.astype(int).ravel().tolist())

@@ -1,4 +1,4 @@
-"""Pictures of a film, drawn by matplotlib: what is behind first."""
+"""Pictures of a film, drawn by matplotlib from back to front."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ LOOKS: dict[str, dict[str, Any]] = {
     "slip": {"marker": "o", "color": "#e69f00"},
     "impact": {"marker": "*", "color": "#d55e00"},
 }
-"""Marks of contacts."""
+"""Marker and colour of each kind of mark."""
 _NARROWEST = 0.4
-"""Share of the longer side that the shorter one has at least."""
+"""Least length of the shorter side, relative to the longer side."""
 _HEAD, _LEAST = 26, 230
-"""Room for the words above and below, and across [pixels]."""
+"""Height of the margins for text above and below, and least width of a picture for the text [pixels]."""
 
 
 def require() -> None:
@@ -45,7 +45,10 @@ def require() -> None:
 
 
 def drawn(film: Film, marks: Marks, camera: Camera, size: int) -> Iterator[Pixels]:
-    """Pictures at the times, shape [height, width, 3]; both are even, and the longer one has the size."""
+    """Pictures at the times of a film, shape [height, width, 3]; height and width are even.
+
+    The longer side of the drawn scene has ``size`` pixels.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.collections import PolyCollection
     from matplotlib.figure import Figure
@@ -95,7 +98,7 @@ def _dots(figure: Figure, axes: Axes, marks: Marks) -> dict[str, Any]:
 
 
 def _faces(film: Film, camera: Camera, i: int) -> tuple[Floats, Floats]:
-    """Triangles that face the eye, those behind first, and their colours, shapes [m, 3, 3] and [m, 3]."""
+    """Triangles that face the eye, from back to front, and their colours, shapes [m, 3, 3] and [m, 3]."""
     sheets = [piece for piece in film.pieces if piece.sheet]
     solids = [piece for piece in film.pieces if not piece.sheet]
     placed = [film.placed(piece, i)[piece.mesh.triangles] for piece in solids]

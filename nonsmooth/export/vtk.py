@@ -24,14 +24,15 @@ _NAMES = {np.dtype("<f4"): "Float32", np.dtype("<i4"): "Int32"}
 @final
 @dataclass(frozen=True)
 class Vtk:
-    """A PVD file, and a folder of that name and "_vtp" beside it with a VTP file for each time.
+    """A file NAME.pvd, and next to it a folder NAME_vtp with a VTP file for each time.
 
-    Each has the surfaces of all that is seen, and of each triangle the number of its body, -1 of loads and joints.
+    A VTP file has the surfaces of bodies, loads and joints.  For each triangle it has the number of the body, -1 for a
+    load or a joint.
 
     Attributes
     ----------
     count : int
-        How many times, equally far apart from the beginning to the end.
+        Number of times, equally spaced from the beginning to the end of the run.
     """
 
     count: int = 201
@@ -40,7 +41,7 @@ class Vtk:
         check_number("export: count", self.count, _COUNT)
 
     def write(self, solution: Solution, path: Path) -> None:
-        """Write the files of a run; older ones stay until all are written."""
+        """Write the files of a run; older files remain until all are written."""
         times = np.linspace(float(solution.track.time[0]), solution.t_end, int(self.count))
         film, folder = Film.of(solution, times), path.with_name(f"{path.stem}_vtp")
         width = len(str(len(times) - 1))

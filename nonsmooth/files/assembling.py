@@ -1,4 +1,4 @@
-"""From tables to a system, in the order in which a user would write it in Python."""
+"""Building of a system from the tables of a file, in the order in which a user would declare it in Python."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _PLACES = ("touching", "at_height", "resting")
 
 
 def system(tables: TomlTable, path: Path, gate: Gate) -> System:
-    """System of the tables of a file, whose names a gate lets pass.
+    """System from the tables of a file; the gate decides which classes and functions the names may mean.
 
     Raises
     ------
     InvalidInput
-        If anything breaks a rule.
+        The tables break a rule.
     """
     reader = _Reader(path, gate, tables.get("laws", {}), {})
     starts = {}
@@ -70,7 +70,7 @@ def system(tables: TomlTable, path: Path, gate: Gate) -> System:
         made_guard = component(f"{path}: guards[{i}]", own, Guard, gate)
         with naming(f"{path}: guards[{i}]"):
             made_system.guard(made_guard, name=name)
-    for later in (False, True):  # what is put onto other bodies comes when those are in their places
+    for later in (False, True):  # a start with "place" puts a body onto others, so these are placed first
         for name, start in starts.items():
             if not isinstance(start, dict):
                 raise InvalidInput(f"{path}: bodies.{name}.start", "must be a table", start, "See Body.state.")

@@ -1,4 +1,4 @@
-"""Components as tables: any frozen dataclass with parameters, by its installed name, and back."""
+"""Conversion of components to tables and back; a component is a frozen dataclass with an installed name."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from nonsmooth.plugins import registry
 
 _BASES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 TYPE = "type"
-"""The key that says of which class a component is."""
+"""Key of a table that names the class of the component."""
 
 TomlTable = dict[str, Any]
 
@@ -34,15 +34,15 @@ def table_of(component: Any, thing: str, declared: Any = None) -> TomlTable:
     component : object
         A dataclass.
     thing : str
-        What it is, for messages ("bodies.ball").
+        Name of the component in messages, such as "bodies.ball".
     declared : type, optional
-        The class that a reader expects; where that is the component's own, the table does not say it.
+        Class that a reader expects; the table leaves it out if it is the class of the component.
 
     Raises
     ------
     InvalidInput
-        If its class is not installed, or it holds a function that nobody can import or another object that no file
-        can hold.
+        The class is not installed, or a value is a function that cannot be imported or another object that a file
+        cannot contain.
     """
     owner: Any = type(component)
     table: TomlTable = {}
@@ -73,7 +73,7 @@ def table_of(component: Any, thing: str, declared: Any = None) -> TomlTable:
 @functools.cache
 def hints_of(owner: Any) -> Mapping[str, Any]:
     """Type hints of a component's parameters."""
-    # each of them is compiled from its text: half of the time of a system from a file
+    # cached, because hints are compiled from text: without the cache, half of the time of reading a system
     return typing.get_type_hints(owner)
 
 
@@ -100,25 +100,25 @@ def _plain(value: Any, thing: str, hint: Any) -> Any:
 
 
 def component(thing: str, value: Any, base: type, gate: Gate) -> Any:
-    """Component that a table, or the name of a class with defaults, describes.
+    """Component from its table, or from the name of a class whose parameters all have defaults.
 
     Parameters
     ----------
     thing : str
-        Where it stands, for messages.
+        Place in the file, for messages.
     value : dict or str
-        The table, with the key ``type``; or what that key would say.
+        The table, with the key ``type``; or the value of that key alone.
     base : type
-        The interface that it must implement.
+        Interface that the component must implement.
     gate : Gate
-        What its names may mean.
+        Decides which classes and functions the names may mean.
 
     Raises
     ------
     InvalidInput
-        If a class or a key is unknown, a value is missing or breaks a rule.
+        A class or a key is unknown, or a value is missing or breaks a rule.
     PluginError
-        If the class cannot be loaded.
+        The class cannot be loaded.
     """
     table = {TYPE: value} if isinstance(value, str) else value
     if not isinstance(table, dict):
@@ -141,7 +141,7 @@ def component(thing: str, value: Any, base: type, gate: Gate) -> Any:
 
 
 def _helper(thing: str, base: type, table: TomlTable, gate: Gate) -> Any:
-    """Object of one of several classes that have no installed names: their names are those of Python."""
+    """Component of a helper class, which has no installed name but a name in Python, ``module:Class``."""
     word = table.get(TYPE)
     if not named.is_name(word):
         raise InvalidInput(f"{thing}.{TYPE}", "must be the name of a class", word, 'For example "bodies:PointFrame".')
@@ -189,7 +189,7 @@ def _value(thing: str, value: Any, hint: Any, gate: Gate) -> Any:
 
 @contextlib.contextmanager
 def naming(thing: str) -> Iterator[None]:
-    """Put where something stands before the message of what is wrong with it."""
+    """Put the place in a file, ``thing``, before the messages of errors."""
     try:
         yield
     except InvalidInput as error:
@@ -197,7 +197,7 @@ def naming(thing: str) -> Iterator[None]:
 
 
 def _options(hint: Any) -> tuple[Any, ...]:
-    """Types that a hint allows, None apart."""
+    """Types that a hint allows, without None."""
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
         return tuple(one for one in typing.get_args(hint) if one is not type(None))
     return (hint,)
@@ -223,7 +223,7 @@ def _abstract(owner: type) -> bool:
 
 
 def _component_class(hint: Any) -> Any:
-    """Class of components that a hint allows, None where it allows none."""
+    """Class of components that a hint allows, None if it allows no component."""
     for one in _options(hint):
         if isinstance(one, type) and (issubclass(one, _BASES) or dataclasses.is_dataclass(one)):
             return one
@@ -231,13 +231,13 @@ def _component_class(hint: Any) -> Any:
 
 
 def _own_class(hint: Any) -> Any:
-    """Class that a reader takes where a table does not say any."""
+    """Class that a reader takes if a table names no class; None if the hint allows several."""
     owner = _component_class(hint)
     return owner if _concrete(owner) else None
 
 
 def group_of(hint: Any) -> str:
-    """Group of the installed names of components that a hint or its elements allow, "" without any."""
+    """Group of the installed names of components that a hint or its elements allow, "" if they allow no component."""
     known = (*_options(hint), *(one for option in _options(hint) for one in typing.get_args(option)))
     base = next((one for one in known if isinstance(one, type) and issubclass(one, _BASES)), None)
     return "" if base is None else next(name for name, bases in registry.GROUPS.items() if issubclass(base, bases))

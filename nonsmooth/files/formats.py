@@ -1,4 +1,4 @@
-"""Formats of scenario files by the ending of the name: a reader and a writer of the same tables."""
+"""Formats of scenario files, chosen by the suffix of the name; each has a reader and a writer of the same tables."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class FileFormat:
     name : str
         Name of the format.
     parse : callable
-        From text to tables. It raises ValueError with the place of a mistake.
+        Function from text to tables. It raises ValueError with the place of a mistake.
     write : callable
-        From tables to text.
+        Function from tables to text.
     """
 
     name: str
@@ -39,7 +39,9 @@ _WIDTH = 100
 
 
 def text_of(tables: Mapping[str, Any]) -> str:
-    """TOML text of tables: plain values first, then a section for each table, and for each table of a table of tables.
+    """TOML text of tables: plain values first, then a section for each table.
+
+    A table that contains only tables, such as ``bodies``, becomes a section for each of them.
 
     Parameters
     ----------
@@ -97,7 +99,7 @@ def _key(name: str) -> str:
 _TOML, _YAML = FileFormat("TOML", tomllib.loads, text_of), FileFormat("YAML", yaml_text.tables_of, yaml_text.text_of)
 _FORMATS = {".toml": _TOML, ".yaml": _YAML, ".yml": _YAML}
 SUFFIXES = tuple(_FORMATS)
-"""Endings of the names of scenario files."""
+"""Suffixes of scenario files."""
 
 
 def of(path: Path) -> FileFormat:
@@ -106,7 +108,7 @@ def of(path: Path) -> FileFormat:
     Raises
     ------
     InvalidInput
-        If its name has another ending.
+        The name of the file has another suffix.
     """
     if path.suffix not in _FORMATS:
         remedy = "Scenario files are TOML or YAML; rename one that is: JSON text is YAML, too."

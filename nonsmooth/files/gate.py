@@ -1,9 +1,9 @@
 """The gate for names in files: which class or function a word of a file may mean.
 
-A file of another person is data until the user says that it is trusted.  Of an untrusted one a word may name what an
-installed package has registered by an entry point, and, where a component holds a function or a helper class, what
-stands in the package of such an entry point.  All else would run code because a file names it: it is refused before
-anything is imported.
+A file of another person is data until the user trusts it.  A word of an untrusted file may name a component that an
+installed package has registered by an entry point.  A word for a function or a helper class may name a module of the
+packages with such entry points.  Any other word would run code because a file names it.  It is refused before anything
+is imported.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ class Gate:
     Attributes
     ----------
     folder : Path
-        Where paths of Python files start.
+        Folder that paths of Python files are relative to.
     trusted : bool
-        Whether the file may name Python files and anything that can be imported.
+        True if the file may name Python files and anything that can be imported.
     """
 
     folder: Path = Path()
@@ -47,22 +47,22 @@ class Gate:
         Parameters
         ----------
         thing : str
-            Where the word stands, for messages.
+            Place of the word in the file, for messages.
         group : str
             Group of the installed names.
         base : type
-            The interface that it must implement.
+            Interface that the class must implement.
         word : str
-            An installed name; of a trusted file also FILE.py:CLASS.
+            An installed name; in a trusted file also FILE.py:CLASS.
 
         Raises
         ------
         UnknownName
-            If nothing is installed under that name, or the file has no such class.
+            No class is installed under that name, or the Python file has no such class.
         InvalidInput
-            If the word leads to code of a file that is not trusted, or to none.
+            The word names code and the file is not trusted, or the Python file does not exist.
         PluginError
-            If it cannot be loaded.
+            The class cannot be loaded.
         """
         if not self.trusted and word not in registry.names(group) and any(sign in word for sign in _CODE):
             raise InvalidInput(thing, _RULE, word, _REMEDY)
@@ -77,7 +77,7 @@ class Gate:
         """Plain function ``module:function``; errors as :meth:`component`."""
         self._check(thing, word)
         found = named.function(thing, word)
-        # a module may show a function that it has from elsewhere
+        # the module may have imported the function from another module
         self._check(thing, f"{found.__module__}:{found.__qualname__}")
         return found
 
@@ -92,4 +92,4 @@ class Gate:
 
 
 TRUSTED = Gate(trusted=True)
-"""For words that the user has typed."""
+"""Gate for words that the user has typed."""

@@ -16,16 +16,16 @@ _REMEDY = "Define it with a name of its own in a module of a package, not in a f
 
 
 def name_of(thing: str, value: Any) -> str:
-    """Name under which others find a function or class.
+    """Name by which a function or class can be imported, ``module:qualified.name``.
 
     Raises
     ------
     InvalidInput
-        If it has none: it is a lambda, defined in a function or in a script, or its module is not on the path.
+        It is a lambda, defined in a function or in a script, or its module is not on the path.
     """
     module, name = value.__module__, value.__qualname__
     word = f"{module}:{name}"
-    # a module may be there although nobody could import it: a script, or a file that was run by its path
+    # a loaded module need not be importable: it may be a script, or a file that was run by its path
     on_path = module != "__main__" and PathFinder.find_spec(module.partition(".")[0]) is not None
     if not (on_path and _NAME.fullmatch(word) and _found(module, name) is value):
         raise InvalidInput(thing, "must be importable by its name to be written to a file", word, _REMEDY)
@@ -40,21 +40,21 @@ def _found(module: str, name: str) -> Any:
 
 
 def is_name(word: Any) -> bool:
-    """True if a word has the form of such a name."""
+    """True if a word has the form ``module:qualified.name``."""
     return isinstance(word, str) and _NAME.fullmatch(word) is not None
 
 
 def find(thing: str, word: str) -> Any:
-    """Function or class of a name.
+    """Function or class of a name, ``module:qualified.name``.
 
     Raises
     ------
     InvalidInput
-        If it has another form.
+        The word has another form.
     PluginError
-        If its module cannot be imported.
+        The module cannot be imported.
     UnknownName
-        If the module has nothing of that name.
+        The module has no such name.
     """
     match = _NAME.fullmatch(word)
     if match is None:
@@ -73,7 +73,7 @@ def find(thing: str, word: str) -> Any:
 
 
 def function(thing: str, word: str) -> Any:
-    """Plain Python function of a name; errors as :func:`find`, or InvalidInput if it is none."""
+    """Plain Python function of a name; errors as :func:`find`, or InvalidInput for another object."""
     found = find(thing, word)
     if not inspect.isfunction(found):
         raise InvalidInput(thing, "must name a plain Python function", word, f"It is {found!r}.")

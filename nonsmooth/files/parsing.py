@@ -1,4 +1,4 @@
-"""Files to tables, checks of tables, and changes of single values."""
+"""Reading of files into tables, checks of tables, and changes of single values."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def parse(path: Path) -> TomlTable:
     Raises
     ------
     InvalidInput
-        If it cannot be read or is no text of the format that its name ends in.
+        The file cannot be read, or its text is not of the format of its suffix.
     MissingPackagesError
-        If its format needs a package that is not installed.
+        The format needs a package that is not installed.
     """
     form = formats.of(path)
     try:
@@ -40,12 +40,12 @@ def parse(path: Path) -> TomlTable:
 
 
 def changed(tables: TomlTable, changes: Mapping[str, Any], path: Path) -> TomlTable:
-    """Tables with new values at some dotted keys. Numbers in a key count through arrays, from 0.
+    """Copy of tables with new values at some dotted keys; a number in a key is an index of an array, from 0.
 
     Raises
     ------
     InvalidInput
-        If a key leads nowhere.
+        A key leads to a table or an element that does not exist.
     """
     made: Any = copy.deepcopy(tables)
     for key, one in changes.items():
@@ -71,7 +71,7 @@ def _inside(place: Any, step: str, key: str, path: Path) -> Any:
 
 
 def value(text: str) -> Any:
-    """Value of a text as TOML; the text itself if it is no value."""
+    """Value of a text as TOML; the text itself if it is not a TOML value."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except ValueError:
@@ -79,7 +79,7 @@ def value(text: str) -> Any:
 
 
 def check_keys(thing: str, table: Any, known: Collection[str], required: Sequence[str] = ()) -> None:
-    """Raise InvalidInput if an object is no table, a required key is missing, or a key is unknown."""
+    """Raise InvalidInput if an object is not a table, a required key is missing, or a key is unknown."""
     if not isinstance(table, dict):
         raise InvalidInput(thing, "must be a table", table, f"Its keys are {', '.join(known)}.")
     for key in table:
@@ -91,7 +91,7 @@ def check_keys(thing: str, table: Any, known: Collection[str], required: Sequenc
 
 
 def tables_in(thing: str, value: Any) -> list[dict[str, Any]]:
-    """An array of tables. Raise InvalidInput for anything else."""
+    """Check an array of tables and return it; raise InvalidInput for anything else."""
     if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
         raise InvalidInput(
             thing, "must be an array of tables", value, f"Write [[{thing.rpartition(' ')[2]}]] above each."
@@ -100,7 +100,7 @@ def tables_in(thing: str, value: Any) -> list[dict[str, Any]]:
 
 
 def number(thing: str, value: Any, unit: str, positive: bool = False) -> float:
-    """A finite number. Raise InvalidInput for anything else, and for a number that must be positive and is not."""
+    """Check a finite number, and that it is positive if required; return it as a float or raise InvalidInput."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{unit}].")
     if positive and value <= 0.0:
@@ -109,7 +109,7 @@ def number(thing: str, value: Any, unit: str, positive: bool = False) -> float:
 
 
 def words(thing: str, value: Any, n: int | None = None) -> list[str]:
-    """A list of names, ``n`` of them if it is given. Raise InvalidInput for anything else."""
+    """Check a list of names, with ``n`` names if that is given; return it or raise InvalidInput."""
     right = isinstance(value, list) and all(isinstance(one, str) for one in value)
     if not right or (n is not None and len(value) != n):
         count = "" if n is None else f"{n} "

@@ -1,4 +1,4 @@
-"""From a file to a system."""
+"""Reading of scenario files: a file becomes a system, with its engine and times."""
 
 from __future__ import annotations
 
@@ -48,15 +48,15 @@ class Setup:
     path : Path
         The file.
     title : str
-        One line that says what it is.
+        Title, one line.
     t_end, sample_interval : float or None
-        End time and time between samples [s], as far as the file says them.
+        End time and time between samples [s], None if the file does not give them.
     engine : Engine
-        What is to run it.
+        Engine for the run.
     system : System
-        Bodies, contacts, starts.
+        The system, with its starts.
     changes : mapping of str
-        What was changed of the file, by key.
+        Values that were changed after the file was read, by dotted key.
     """
 
     path: Path
@@ -75,16 +75,16 @@ class Setup:
 
     @property
     def numbers(self) -> Mapping[str, tuple[float, Rule]]:
-        """All numbers of the file by dotted key, and what is known of each."""
+        """All numbers of the file by dotted key, each with its rule."""
         return numbers(self._tables, self._gate)
 
     def varied(self, changes: Mapping[str, Any]) -> Setup:
-        """The same with some values changed, by dotted key.
+        """Setup of the same file with some values changed, by dotted key.
 
         Raises
         ------
         InvalidInput, PluginError
-            As :func:`load_system`, or if a key leads nowhere.
+            As of :func:`load_system`.  Also: a key leads to a table or an element that does not exist.
         """
         return _setup(self.path, self._tables, {**self.changes, **changes}, self._gate)
 
@@ -97,7 +97,7 @@ def load_system(path: str | Path, *, trust: bool = False) -> Setup:
     path : str or Path
         The file.
     trust : bool, optional
-        Whether the file may name code that is no installed plug-in: classes of Python files, functions and classes of
+        True if the file may name code other than installed plug-ins: classes of Python files, functions and classes of
         any module that can be imported.  They run with the rights of the user.
 
     Returns
@@ -108,33 +108,33 @@ def load_system(path: str | Path, *, trust: bool = False) -> Setup:
     Raises
     ------
     InvalidInput
-        If there is no such file, it is no TOML or YAML, or anything in it breaks a rule: file, key, rule, value and
-        remedy are named.
+        The file does not exist, is not TOML or YAML, or breaks a rule.  The message names file, key, rule, value and
+        remedy.
     PluginError
-        If a class that it names cannot be loaded.
+        A class that the file names cannot be loaded.
     """
     return read(path_of("load_system: path", path), trust)
 
 
 def read(path: Path, trust: bool, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
-    """TOML text of a file with some of its values changed, by dotted key ("bodies.ball.radius").
+    """Setup of a file with some of its values changed, by dotted key ("bodies.ball.radius"); new values are TOML text.
 
     Raises
     ------
     InvalidInput, PluginError
-        As :func:`load_system`, or if a key to be changed leads nowhere.
+        As of :func:`load_system`.  Also: a key leads to a table or an element that does not exist.
     """
     gate = Gate(path.parent, trust)
     return _setup(path, parse(path), {key: value(text) for key, text in changes.items()}, gate)
 
 
 def setup_of(system: System, t_end: float) -> Setup:
-    """TOML text of a system that runs until an end time [s].
+    """Setup of a system that runs until an end time [s], as if it was read from a file.
 
     Raises
     ------
     InvalidInput
-        If a component cannot be written; it is named.
+        A component cannot be written to a file; the message names it.
     """
     return _setup(Path("system"), tables_of(system, t_end=t_end), {}, TRUSTED)
 
@@ -155,23 +155,23 @@ def _setup(path: Path, said: TomlTable, changes: Mapping[str, Any], gate: Gate) 
 
 
 def engine_of(thing: str, table: Any, gate: Gate) -> Engine:
-    """Engine of a table, the event-driven one where it says none; errors as :func:`load_system`."""
+    """Engine from a table, the event-driven engine if the table names no class; errors as of :func:`load_system`."""
     is_default = isinstance(table, dict) and TYPE not in table
     made: Engine = component(thing, table, EventDriven if is_default else Engine, gate)
     return made
 
 
 _GROUPS = {"contacts": "laws", "materials": "laws", "engine": "engines"}
-"""Where classes of the components of a section are listed, if not under its own name."""
+"""Section of a file -> group of the installed names in it, if the two names differ."""
 _UNITS = {"t_end": "s", "sample_interval": "s", "gravity": "m/s^2"}
 _UNKNOWN = "SI"
-"""Unit of what is no parameter of a class, as the words of a start: they are in SI units."""
+"""Unit of a number that is not a parameter of a class, such as a number of a start."""
 
 
 def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
     """All numbers by dotted key, "bodies.ball.radius", each with its rule.
 
-    Elements of arrays count from 0; the gate says what classes the names mean.
+    Elements of arrays count from 0; the gate decides which classes the names may mean.
     """
     return dict(_numbers(tables, (), None, gate))
 
@@ -179,7 +179,7 @@ def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
 def _numbers(
     place: Any, way: tuple[str, ...], rule: Rule | None, gate: Gate, group: str = ""
 ) -> Iterator[tuple[str, tuple[float, Rule]]]:
-    """Walk through tables; ``group`` lists the classes of the components that are looked for, "" where none are."""
+    """Walk through tables; ``group`` is the group of the installed names of their components, "" without components."""
     if isinstance(place, dict):
         owner = _class(place, group, gate)
         declared: Mapping[str, Any] = {} if owner is None else rules(owner)
@@ -198,7 +198,7 @@ def _numbers(
 
 
 def _class(table: TomlTable, group: str, gate: Gate) -> Any:
-    """Class that the table of a component names, None where it is no such table."""
+    """Class that the table of a component names, None if it is not the table of a component."""
     word = table.get(TYPE)
     if group not in registry.GROUPS or not isinstance(word, str):
         return None

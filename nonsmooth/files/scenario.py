@@ -1,4 +1,4 @@
-"""A file as a scenario, for the command line."""
+"""Scenario of a file, for the command line."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SAMPLES = 2000
 @final
 @dataclass(frozen=True)
 class FileScenario(Scenario):
-    """The system of a file; it has no coordinates and no figures of its own."""
+    """Scenario of the system of a file, without further coordinates and figures."""
 
     title: ClassVar[str] = "A scenario file"
 
@@ -27,12 +27,12 @@ class FileScenario(Scenario):
 
     @classmethod
     def of(cls, system: System, t_end: float) -> FileScenario:
-        """Scenario of a system, whose numbers can be varied as those of its file.
+        """Scenario of a system, whose numbers can be varied as if it was read from a file.
 
         Raises
         ------
         InvalidInput
-            If a component cannot be written to a file; it is named.
+            A component cannot be written to a file; the message names it.
         """
         return cls(setup_of(system, t_end))
 
@@ -44,44 +44,44 @@ class FileScenario(Scenario):
 
     @property
     def t_end(self) -> float:
-        """As the file says [s]."""
+        """End time of the file [s]; 0 if the file has none."""
         return float(self.setup.t_end or 0.0)
 
     @property
     def sample_interval(self) -> float:
-        """As the file says, a two-thousandth of the run by default [s]."""
+        """Time between samples of the file [s], by default a two-thousandth of the end time."""
         return self.setup.sample_interval or self.t_end / _SAMPLES
 
     def build(self) -> System:
-        """System of the file."""
+        """System of the file, built anew."""
         return self.setup.build()
 
     def resolved(self) -> Mapping[str, Any]:
-        """Title, times, and what was set on the command line."""
+        """Title, times, and the values that were set on the command line."""
         said = {"title": self.setup.title, "t_end": self.t_end, "sample_interval": self.sample_interval}
         return {**self.setup.changes, **said}
 
     @property
     def name(self) -> str:
-        """The file."""
+        """Path of the file."""
         return str(self.setup.path)
 
     @property
     def varies(self) -> Mapping[str, Rule]:
-        """All numbers, by dotted key."""
+        """Rules of all numbers of the file, by dotted key."""
         return {key: rule for key, (_, rule) in self.setup.numbers.items()}
 
     @property
     def values(self) -> Mapping[str, Any]:
-        """All numbers, by dotted key."""
+        """Values of all numbers of the file, by dotted key."""
         return {key: number for key, (number, _) in self.setup.numbers.items()}
 
     def varied(self, **changes: Any) -> FileScenario:
-        """The same with some numbers changed."""
+        """Scenario of the same file with some numbers changed, by dotted key."""
         return FileScenario(self.setup.varied(changes))
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """None, because the results have q and u themselves."""
+        """No further coordinates, because the results have q and u."""
         return {}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
@@ -98,10 +98,10 @@ class FileScenario(Scenario):
         return ()
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """None."""
+        """No figures."""
         return {}
 
     @classmethod
     def gallery(cls, progress: Any) -> Mapping[str, Any]:
-        """None."""
+        """No published figures."""
         return {}

@@ -1,4 +1,4 @@
-"""From a system to a file."""
+"""Writing of systems to scenario files."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def save_system(
 ) -> None:
     """Write a system to a TOML or YAML file that :func:`load_system` and ``nonsmooth run`` read.
 
-    Numbers come back to the last bit, so that a run from the file is the same run.
+    Numbers are read back to the last bit, so that a run from the file is the same run.
 
     Parameters
     ----------
@@ -38,18 +38,18 @@ def save_system(
     t_end, sample_interval : float, optional
         End time and time between samples [s].
     engine : Engine, optional
-        What is to run it; the defaults are not written.
+        Engine for the run; its defaults are not written.
     title : str
-        One line that says what it is.
+        Title, one line.
 
     Raises
     ------
     InvalidInput
-        If the name ends in none of these, or a component cannot be written; it is named, and no file is written.
+        The name has another suffix, or a component cannot be written; the message names it, and no file is written.
     MissingPackagesError
-        If the file is YAML and PyYAML is not installed.
+        The file is YAML, and PyYAML is not installed.
     FileError
-        If the file cannot be written.
+        The file cannot be written.
     """
     file = path_of("save_system: path", path)
     form = formats.of(file)
@@ -66,7 +66,7 @@ def text_of_system(system: System, *, t_end: float, engine: Engine | None, title
     Raises
     ------
     InvalidInput
-        If a component cannot be written; it is named.
+        A component cannot be written; the message names it.
     """
     return formats.of(Path("system.toml")).write(tables_of(system, t_end=t_end, engine=engine, title=title))
 
@@ -84,7 +84,7 @@ def tables_of(
     Raises
     ------
     InvalidInput
-        If a component cannot be written; it is named.
+        A component cannot be written, or a time is not finite; the message names it.
     """
     tables: TomlTable = {"title": title} if title else {}
     times = {"t_end": t_end, "sample_interval": sample_interval}
@@ -114,7 +114,7 @@ def tables_of(
 
 
 class _Laws:
-    """The laws met so far: equal ones are written once, under a name."""
+    """Tables of the laws of a system so far; equal laws are written once, under a name."""
 
     def __init__(self) -> None:
         self.tables: TomlTable = {}
@@ -126,7 +126,7 @@ class _Laws:
                 return name
         table = table_of(law, thing)
         name = str(table[TYPE])
-        if len(table) > 1:  # one without parameters goes by its installed name
+        if len(table) > 1:  # a law without parameters is written as its installed name
             name = _free(name, self.tables)
             self.tables[name] = table
         self._met.append((law, name))

@@ -19,7 +19,7 @@ _PLAIN = {
     ),
     "null": (r"null|Null|NULL|~|", ["n", "N", "~", ""]),
 }
-"""What stands without quotation marks and is no word, and the letters that it begins with."""
+"""Values without quotation marks that are not words, by kind: their pattern, and the letters they begin with."""
 
 
 @functools.cache
@@ -32,7 +32,7 @@ def _yaml() -> Any:
 
 @functools.cache
 def _classes() -> tuple[Any, Any]:
-    """Reader and writer."""
+    """Classes of the reader and the writer, with the plain values of YAML 1.2."""
     yaml = _yaml()
     safe_loader: Any = yaml.SafeLoader
     safe_dumper: Any = yaml.SafeDumper
@@ -57,14 +57,14 @@ def _classes() -> tuple[Any, Any]:
     for name, (pattern, first) in _PLAIN.items():
         resolver = f"tag:yaml.org,2002:{name}", re.compile(f"(?:{pattern})$"), list(first)
         Loader.add_implicit_resolver(*resolver)
-        # besides its own, so that no reader takes a word for a number
+        # in addition to the resolvers of YAML 1.1, so that no reader of either version takes a word for a number
         Dumper.add_implicit_resolver(*resolver)
     Dumper.add_representer(str, _represent)
     return Loader, Dumper
 
 
 def _represent(dumper: Any, word: str) -> Any:
-    # the writer leaves these line breaks as they are in other quotation marks, and the reader folds them
+    # only double quotation marks escape these line breaks; in others, the reader would fold them
     style = '"' if any(letter in word for letter in "\x85\u2028\u2029") else None
     return dumper.represent_scalar("tag:yaml.org,2002:str", word, style=style)
 
@@ -75,9 +75,9 @@ def tables_of(text: str) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If it is no YAML, has a key twice, or is no table.
+        The text is not YAML, has a key twice, or is not a table.
     MissingPackagesError
-        If PyYAML is not installed.
+        PyYAML is not installed.
     """
     yaml = _yaml()
     try:
@@ -95,7 +95,7 @@ def text_of(tables: Mapping[str, Any]) -> str:
     Raises
     ------
     MissingPackagesError
-        If PyYAML is not installed.
+        PyYAML is not installed.
     """
     text = _yaml().dump(
         dict(tables), Dumper=_classes()[1], sort_keys=False, allow_unicode=True, default_flow_style=None, width=120

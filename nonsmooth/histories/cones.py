@@ -37,7 +37,7 @@ def beyond_cones(
     friction : array
         Friction, in the same unit, shape [m, 3], or along two tangents, shape [m, 2].
     speed : array
-        Slip speed of the coefficient [m/s], shape [m]; NaN for the largest coefficient of all speeds.
+        Slip speed at which the coefficient is evaluated [m/s], shape [m]; NaN takes the largest of all speeds.
 
     Returns
     -------
@@ -61,7 +61,7 @@ def beyond_cones(
 
 
 def _largest_of_instants(normal: Floats, first: Integers) -> Floats:
-    """Largest magnitude of the normal forces at the instant of each entry, shape [m]; ``first`` as above."""
+    """Largest magnitude of the normal forces at the instant of each entry; ``first`` as in :func:`beyond_cones`."""
     counts = np.diff(first)
     starts = first[:-1][counts > 0]
     most = np.maximum.reduceat(np.abs(normal), starts) if len(starts) else np.zeros(0)

@@ -1,7 +1,7 @@
 """Contacts over time: gaps and velocities of all contacts, and forces of the closed contacts.
 
-Forces are solved for at the times at which a contact is closed.  They are kept as entries, one for each closed contact
-and time, and spread over all contacts at the end.
+Forces are solved for at the times at which a contact is closed.  They are stored as entries, one for each closed
+contact and time, and become arrays over all contacts at the end.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class NearContacts:
 
     @classmethod
     def of(cls, request: HistoryRequest) -> NearContacts:
-        """Evaluate the contacts near each other at the times of a request."""
+        """Evaluate the contacts whose bodies are near each other, at the times of a request."""
         memory, contact, chosen = request.replay.laid.memory, owners.ContactRecord, request.contacts
         table = np.empty((3, len(request.times), len(chosen)))
         here = np.empty((3, len(request.solution.system.contacts)))
@@ -106,7 +106,7 @@ class ClosedContacts:
 
     @classmethod
     def of(cls, request: HistoryRequest) -> ClosedContacts:
-        """Evaluate the closed contacts of all times of a request; the entries have all contacts, chosen or not."""
+        """Evaluate the closed contacts of all times of a request; the entries include contacts that are not chosen."""
         replay, row = request.replay, request.times
         read, at = _ClosedReader(replay.laid), replay.closed(row)
         found = len(row) * [read.none]
@@ -126,14 +126,18 @@ class ClosedContacts:
     def beyond_cone(self) -> NDArray[np.bool_]:
         """True for entries outside of their friction cone, at the present slip speed of sliding contacts; shape [m].
 
-        If a run averages forces over a span, the forces at an instant within the span need not lie in the cone.
+        Forces of the time-stepping fallback are means over a span.  At an instant within the span, they need not lie in
+        the cone.
         """
         speed = np.where(self.mode == Mode.SLIDE, np.linalg.norm(self.slip_velocity, axis=1), np.nan)
         contacts = self.request.solution.system.contacts
         return beyond_cones(contacts, self.contact, self.first, self.normal_force, self.friction_force, speed)
 
     def spread(self, values: NDArray[Any], *, if_open: float) -> NDArray[Any]:
-        """Values of the entries, shape [m, ...], over all times and contacts, shape [n, n_contacts, ...]."""
+        """Array over times and chosen contacts, shape [n, n_contacts, ...], from values of the entries, shape [m, ...].
+
+        Its value is ``if_open`` while a contact is open.
+        """
         # a contact may be chosen twice
         chosen, columns = np.unique(self.request.contacts, return_inverse=True)
         place = np.full(len(self.request.solution.system.contacts), -1)
@@ -147,7 +151,7 @@ class ClosedContacts:
 def _slips(memory: Any, slots: Integers | slice) -> Floats:
     """Slip velocities of active contacts along two unit tangents [m/s], shape [n, 2].
 
-    The two axes of anisotropic friction are no unit vectors; such a contact has its slip along tangents apart.
+    The axes of anisotropic friction are not unit vectors, so such a contact also stores its slip along unit tangents.
     """
     contact = owners.ContactRecord
     oriented = memory[contact.is_anisotropic][slots, None] == 1
@@ -164,7 +168,10 @@ class _ClosedReader:
         self._memory, self._n = laid.memory, int(laid.memory[owners.ModelNumbers.n_slots])
 
     def __call__(self) -> tuple[Integers, Floats]:
-        """Number and mode of each closed contact, and its twenty floats, in the order of the numbers."""
+        """Number and mode of each closed contact, shape [m, 2], and its floats, shape [m, 20], by ascending number.
+
+        The floats are gap, points, normal, normal force, friction force, friction moment and slip velocity.
+        """
         memory, contact, n = self._memory, owners.ContactRecord, self._n
         slots = memory[owners.Island.grouped][: int(memory[owners.Island.n_grouped])]
         if len(slots) == 0:

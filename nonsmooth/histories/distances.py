@@ -1,4 +1,4 @@
-"""The distance of two bodies over a run."""
+"""Distance between two bodies over a run."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _ARRAYS = (
 def distances(
     solution: Solution, first: Body | str, second: Body | str, times: ArrayLike | None = None, *, by: str | None = None
 ) -> History:
-    """Distance of two bodies over a run: gap with bounds [m], nearest points [m], normal, and the method.
+    """Distance between two bodies over a run: gap with bounds [m], nearest points [m], normal, and the method.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def distances(
     Raises
     ------
     InvalidInput, NoDistance, MissingPackagesError
-        As of :func:`nonsmooth.distance`; or the system has no such body, or a time is outside of the run.
+        As of :func:`nonsmooth.distance`.  Also: the system has no such body, or a time is outside of the run.
     """
     system = solution.system
     numbers = numbers_of(_WHERE, system, ["body"], [first, second])["body"]

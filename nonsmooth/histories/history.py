@@ -36,8 +36,8 @@ class LabelledArray:
     values : array
         Numbers or words.
     attributes : mapping
-        What it is, ``long_name``, its unit, ``units``, and other attributes of the CF conventions.  Without ``units``
-        another array has the unit of each column, or the unit depends on a law.
+        Description (``long_name``), unit (``units``), and other attributes of the CF conventions.  ``units`` is missing
+        if another array has the unit of each column, or if the unit depends on a law.
     """
 
     name: str
@@ -88,7 +88,10 @@ class History(Mapping[str, NDArray[Any]]):
     def of(
         cls, time: Floats, arrays: tuple[LabelledArray, ...], labels: Mapping[str, tuple[str, ...]], **more: Any
     ) -> History:
-        """History of arrays without the axis of time among their dimensions; keeps the labels of their axes only."""
+        """History of arrays whose dimensions leave out the axis of time.
+
+        Labels of axes that no array has are dropped.
+        """
         used = dict.fromkeys(axis for one in arrays for axis in one.dimensions)
         known = {**FIXED_LABELS, **labels}
         return cls(time, arrays, {axis: known[axis] for axis in used if axis in known}, **more)
@@ -127,7 +130,7 @@ class History(Mapping[str, NDArray[Any]]):
 
     @property
     def _first(self) -> tuple[str, ...]:
-        """Name of the first axis, none at a single time."""
+        """Name of the first axis as a tuple, empty at a single time."""
         return (self.over,) * self.time.ndim
 
     def __repr__(self) -> str:
@@ -174,7 +177,7 @@ def to_dataset(
 
 
 def spoken(time: Floats, over: str) -> str:
-    """Times as text: the time, or the number of entries along the first axis, the least and the greatest time."""
+    """Times as text: a single time, or the number of entries along the first axis with the least and greatest time."""
     if time.ndim == 0:
         return f"t = {time:.9g} s"
     return f"{len(time)} {over}s, {time.min():.9g} to {time.max():.9g} s" if len(time) > 0 else f"no {over}s"

@@ -1,4 +1,4 @@
-"""Impulses: the impulses of contacts in the events of a run, with their points and directions."""
+"""Impulses of contacts in the events of a run, with their points and directions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from nonsmooth.histories.request import HistoryRequest
 @final
 @dataclass(frozen=True)
 class Impulses:
-    """Impulses of the contacts of all events, one entry for each contact that an event lists, in their order.
+    """Impulses of all events, one entry for each contact that an event lists, in the order of ``events.listed``.
 
     Impulses act on the second body of the contact, in world axes.  The first body has the opposite impulse.
 
@@ -59,7 +59,7 @@ class Impulses:
 
     @classmethod
     def recorded(cls, request: HistoryRequest) -> Impulses:
-        """Impulses that the engine recorded, none of an engine that records no contacts."""
+        """Impulses that the engine recorded; no entries if the engine records no contacts."""
         events, replay = request.solution.events, request.replay
         n, memory = len(events.listed), replay.laid.memory
         points, axes = np.full((n, 2, 3), np.nan), np.full((n, 3, 3), np.nan)

@@ -1,4 +1,4 @@
-"""Reading of histories: the variables asked for, from as few passes over the run as possible."""
+"""Reading of histories: evaluates the requested variables in as few passes over the run as possible."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _WHERE = "Solution.history"
 _KINDS = {"contact": "contact", "frame": "body", "coordinate": "body", "velocity": "body", "joint": "joint"}
-"""Kind of the parts that an axis lists or belongs to."""
+"""Axis -> kind of the parts of the system that it belongs to."""
 
 
 def read_history(

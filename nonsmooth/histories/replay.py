@@ -1,7 +1,7 @@
-"""StateReplay: the model of a run, put at the state that the run had at any time.
+"""Replay of a run: its model, set to the state at any time of the run.
 
-A run stores its states at samples and events. A state between two of them is found by the engine itself: it starts from
-the stored state before and follows the flow to the time asked for. Forces and gaps are then read from its memory.
+A run stores its states at samples and events. For a state between two of them, the engine integrates from the stored
+state before to the requested time. Forces and gaps are then read from the memory of the model.
 """
 
 from __future__ import annotations
@@ -53,12 +53,14 @@ def replay_of(solution: Solution) -> StateReplay:
 
 
 def check_recorded(where: str, what: str, system: System, engine: Engine) -> None:
-    """Check that an engine records modes and impulses of contacts; without records zeros would mean open contacts.
+    """Check that an engine records modes and impulses of contacts.
+
+    Without records, zeros would wrongly mean open contacts.
 
     Raises
     ------
     InvalidInput
-        The system has contacts, and the engine records none of their modes and impulses.
+        The system has contacts, but the engine does not record their modes and impulses.
     """
     if system.contacts and not engine.records_contacts:
         raise InvalidInput(
@@ -71,7 +73,7 @@ def check_recorded(where: str, what: str, system: System, engine: Engine) -> Non
 
 @final
 class StateReplay:
-    """The stored states of a run in the order of time, and a model that follows the flow from them.
+    """Stored states of a run in the order of time, and a model that integrates from them to other times.
 
     If several states are stored for one time, the state after the last event counts.
     """
@@ -89,13 +91,13 @@ class StateReplay:
         self._booked = np.concatenate([track.booked, events.booked])[order]
         self._event = np.cumsum(kinds[order] == _EVENT) - 1
         self._event_row = np.flatnonzero(kinds[order] == _EVENT)
-        # the event whose modes the model has, -2 for none
+        # number of the event whose modes the model has; -2 if it has the modes of no event
         self._put_event = -2
         self._alone = threading.Lock()
 
     @functools.cached_property
     def laid(self) -> LaidOut:
-        """The model.
+        """Model of the system, made at the first use.
 
         Raises
         ------
@@ -111,7 +113,7 @@ class StateReplay:
 
     @property
     def is_flow(self) -> bool:
-        """True if the engine can be followed between stored states, and gives forces."""
+        """True if forces, and states between the stored ones, can be computed."""
         recorded = self._engine.records_contacts or not self._system.contacts
         return recorded and self._engine.uses_flow
 
@@ -131,7 +133,7 @@ class StateReplay:
         return np.flatnonzero(np.isin(self._event[self._row(times)], closing))
 
     def states(self, times: Floats) -> Floats:
-        """Integrated states: q, u, energy accounts and inner states of laws, shape [n, n_y]."""
+        """Integrated states at times: q, u, energy accounts and inner states of laws, shape [n, n_y]."""
         rows = self._row(times)
         found = self._y[rows]
         between = np.flatnonzero(self._time[rows] < times)
@@ -147,18 +149,18 @@ class StateReplay:
     def visit(self, times: Floats, look: Callable[[int], None], *, forces: bool = True) -> None:
         """Call ``look(i)`` while the model has the state at ``times[i]``, in the order of time.
 
-        With ``forces`` bodies, closed contacts and joints are evaluated before each call.
+        With ``forces``, bodies, closed contacts and joints are evaluated before each call.
 
         Raises
         ------
         InvalidInput
-            The engine gives no forces, or cannot be followed between stored states.
+            Forces, or states between the stored ones, are needed, but :attr:`is_flow` is False.
         RunFailed
-            The flow from a stored state fails.
+            The integration from a stored state fails.
         """
         rows, here = self._row(times), -1
         if forces and self._system.contacts:
-            # also if no recorded contact is closed, because such an engine may record none
+            # also if no recorded contact is closed, because an engine without forces may record no contacts
             self._check_flow("with its forces")
         if len(times) == 0:
             return
@@ -168,7 +170,7 @@ class StateReplay:
             return
         self._check_flow("between its samples" if between else "with its forces")
         memory = self.laid.memory
-        # an earlier visit may have been interrupted
+        # clear the flags of an earlier visit that was interrupted
         memory[owners.Request.is_interrupted], memory[owners.Run.failure] = 0, Status.RUNNING
         with self._alone, self.laid.watch as watch:
             for i in np.argsort(times, kind="stable").tolist():
@@ -183,14 +185,14 @@ class StateReplay:
                 look(i)
 
     def visit_near(self, times: Floats, states: Floats, look: Callable[[int], None]) -> None:
-        """Call ``look(i)`` while the contacts near each other at ``times[i]`` are listed and evaluated.
+        """Call ``look(i)`` while the contacts of near bodies at ``times[i]`` are listed and evaluated.
 
-        ``states`` are those of :meth:`states` at the times. Errors as of :meth:`visit` without forces.
+        ``states`` is the result of :meth:`states` at the times.
         """
         memory = self.laid.memory
         y = memory[owners.Island.y][: self.laid.n_y]
         with self._alone:
-            # the list is made for each time, so it is not the list after an event
+            # the neighbour list is made anew for each time, so it is no longer the list after an event
             self._put_event = -2
             for i, row in enumerate(self._row(times).tolist()):
                 memory[owners.Island.time], y[:] = times[i], states[i]
@@ -221,7 +223,7 @@ class StateReplay:
         return np.searchsorted(self._time, times, side="right") - 1
 
     def _put(self, row: int) -> None:
-        """Put the model at a stored state, with the modes after the last event before it."""
+        """Set the model to a stored state, with the modes after the last event before it."""
         event = int(self._event[row])
         if event != self._put_event:
             self._put_event = -2
@@ -239,7 +241,7 @@ class StateReplay:
         memory[owners.Island.y][:] = self._y[row]
 
     def _put_modes(self, event: int) -> None:
-        """List the contacts that are near, and close those that an event left closed, with their directions of slip."""
+        """Make the neighbour list, and close the contacts that were closed after an event, with slip directions."""
         memory, events, n = self.laid.memory, self._events, self._events.n_contacts
         contact = owners.ContactRecord
         listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
@@ -250,7 +252,7 @@ class StateReplay:
         averaged[numbers] = kept[:, _AVERAGED]
         memory.declared(contact.direction)[numbers] = kept[:, _DIRECTION:_RATE]
         memory.declared(contact.closing_rate)[numbers] = kept[:, _RATE]
-        # open contacts search for their features again; closed contacts have those of the event
+        # open contacts search for their features again; closed contacts get the features after the event
         places = memory.declared(contact.features)
         memory.floats[places[places > 0]] = 0.0
         for number, features in zip(numbers.tolist(), kept[:, _FEATURES:], strict=True):

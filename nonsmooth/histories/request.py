@@ -1,4 +1,4 @@
-"""HistoryRequest: the run, the times and the parts of the system that a history is asked for."""
+"""Request for a history: the run, the times, and the parts of the system."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class HistoryRequest:
     times : array
         Times within the run [s], in any order, shape [n].
     chosen : mapping of str to sequence of int
-        Numbers of the chosen parts by their kind, "contact", "body" or "joint"; a kind that is not there is complete.
+        Numbers of the chosen parts by their kind, "contact", "body" or "joint"; a missing kind means all of its parts.
     """
 
     solution: Solution
@@ -46,27 +46,27 @@ class HistoryRequest:
     chosen: Mapping[str, Sequence[int]] = field(default_factory=dict)
 
     def numbers(self, kind: str) -> Sequence[int]:
-        """Numbers of the parts of a kind."""
+        """Numbers of the chosen parts of a kind, "contact", "body" or "joint"."""
         return self.chosen[kind] if kind in self.chosen else range(len(_parts(self.solution.system, kind)))
 
     @property
     def replay(self) -> StateReplay:
-        """The model of the run, which can be put at any time of it."""
+        """Replay of the run, which sets its model to the state at any time."""
         return replay_of(self.solution)
 
     @functools.cached_property
     def y(self) -> Floats:
-        """All that is integrated: q, u, energy accounts, inner states of laws; shape [n, n_y]."""
+        """Integrated states at the times: q, u, energy accounts, inner states of laws; shape [n, n_y]."""
         return self.replay.states(self.times)
 
     @property
     def contacts(self) -> Integers:
-        """Numbers of the contacts."""
+        """Numbers of the chosen contacts."""
         return np.array(self.numbers("contact"), dtype=np.int64)
 
     @property
     def bodies(self) -> list[Body]:
-        """The bodies."""
+        """The chosen bodies."""
         return [self.solution.system.bodies[number] for number in self.numbers("body")]
 
     def columns(self, of: str) -> Integers:
@@ -105,7 +105,7 @@ def read_times(where: str, solution: Solution, times: ArrayLike | None) -> Float
 def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | None) -> dict[str, Sequence[int]]:
     """Numbers of the chosen parts of a system by their kind, "contact", "body" or "joint".
 
-    Each part counts for its own kind.  A kind of which no part is chosen is complete, unless the choice is empty.
+    If no part of a kind is chosen, all parts of that kind are returned.  An empty sequence chooses no parts at all.
 
     Parameters
     ----------
@@ -116,14 +116,14 @@ def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | Non
     kinds : sequence of str
         Kinds that may be chosen.
     of : Parts, optional
-        The chosen parts; a number counts for the only kind.
+        The chosen parts; numbers are allowed if there is a single kind.
 
     Raises
     ------
     UnknownName
         No part of these kinds has this name.
     InvalidInput
-        An object is no part of the system, a number is too large, or the kind of a number is not clear.
+        An object is not a part of the system, a number is out of range, or the kind of a number is not clear.
     """
     known = {kind: _parts(system, kind) for kind in kinds}
     chosen: dict[str, list[int]] = {kind: [] for kind in kinds}

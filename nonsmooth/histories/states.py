@@ -1,4 +1,4 @@
-"""States, modes, motion of frames, energies, and forces of joints: the readings apart from those of contacts."""
+"""Readings of a run apart from contacts: states, modes, motion of frames, energies, and forces of joints."""
 
 from __future__ import annotations
 
@@ -113,27 +113,27 @@ class Frames:
         return cls(np.concatenate(parts, axis=1))
 
     def part(self, first: int) -> Floats:
-        """Three numbers of each frame, shape [n, n_frames, 3]."""
+        """Three numbers of each frame from column ``first`` on, shape [n, n_frames, 3]."""
         return self.motion[:, :, first : first + 3]
 
     @property
     def position(self) -> Floats:
-        """Origins [m]."""
+        """Origins of the frames [m], shape [n, n_frames, 3]."""
         return self.part(POSITION)
 
     @property
     def rotation(self) -> Floats:
-        """Axes as columns, shape [n, n_frames, 3, 3]."""
+        """Axes of the frames as columns, shape [n, n_frames, 3, 3]."""
         return self.motion[:, :, ROTATION : ROTATION + 9].reshape(*self.motion.shape[:2], 3, 3)
 
     @property
     def velocity(self) -> Floats:
-        """Velocities of the origins [m/s]."""
+        """Velocities of the origins [m/s], shape [n, n_frames, 3]."""
         return self.part(VELOCITY)
 
     @property
     def angular_velocity(self) -> Floats:
-        """Angular velocities [rad/s]."""
+        """Angular velocities of the frames [rad/s], shape [n, n_frames, 3]."""
         return self.part(SPIN)
 
 
@@ -207,8 +207,8 @@ class Energies:
 class Joints:
     """Forces and moments of joints on their second bodies, in world axes.
 
-    The joints are those of ``System.joint``.  Forces inside a mechanism of generalised coordinates are never solved
-    for.  Of redundant rows of a joint, one has the whole force.
+    The joints are those of ``System.joint``.  Forces inside a mechanism of generalised coordinates are not computed.
+    If rows of a joint are redundant, one of them has the whole force.
 
     Attributes
     ----------
@@ -250,16 +250,16 @@ class _JointReader:
     along: Floats
 
     def __call__(self) -> tuple[Floats, Floats, Floats]:
-        """Point, force and moment."""
+        """Point [m], force [N] and moment [N m], shape [3] each."""
         axes, moments, points = (self.rows[:, at : at + 3] for at in (AXIS, MOMENT, POINT_B))
-        # a row of angles has neither axis nor point
+        # a row that holds an angle has a zero axis and no point
         holding = np.flatnonzero(np.any(axes != 0.0, axis=1))
         point = points[holding[0]] if len(holding) > 0 else self.origin
         return point, self.along @ axes, self.along @ (moments + np.cross(points - point, axes))
 
 
 def _readers(laid: LaidOut) -> list[_JointReader]:
-    """Readers of the joints in the order of the system; the engine has them articulation by articulation."""
+    """Readers of the joints in the order of the system; the engine stores them articulation by articulation."""
     memory, floats, joint = laid.memory, laid.memory.floats, owners.JointRecord
     found: dict[int, _JointReader] = {}
     number = 0

@@ -3,8 +3,8 @@
 To add a variable, add a row.  `Solution.history`, the message on an unknown name, `to_xarray`, the export of tables and
 ``print(variables())`` take it from here.
 
-A reading evaluates the run at all times asked for, in one pass, and the variables that share it take their arrays from
-it.  Its attributes are the numbers that a new variable can be made of:
+A reading evaluates the run at all requested times in one pass.  The variables that share a reading take their arrays
+from it.  A new variable can be computed from the attributes of a reading:
 
 - :class:`~nonsmooth.histories.states.States`: q, u and inner states of laws;
 - :class:`~nonsmooth.histories.states.Modes`: modes of contacts;
@@ -42,18 +42,18 @@ class Variable:
     Attributes
     ----------
     name : str
-        Name by which it is asked for.
+        Name of the variable in :meth:`nonsmooth.Solution.history`.
     unit : str
         SI unit, "1" for a pure number, or "" if each column has a unit of its own.
     axes : tuple of str
         Axes behind the axis of time.  "contact" and "joint" are the chosen contacts and joints, "frame", "coordinate"
-        and "velocity" those of the chosen bodies, "axis" is x, y, z, and "side" the first and the second body.
+        and "velocity" belong to the chosen bodies, "axis" is x, y, z, and "side" the first and the second body.
     description : str
         The quantity in words.
     reading : callable
-        ``of`` of a reading: evaluates the run at the times of a request.
+        Method ``of`` of a class of readings, which evaluates the run at the times of a request.
     values : callable
-        Takes the reading to an array with the axis of time, shape [n, ...], and then those of ``axes``.
+        Function of the reading.  Its array has the axis of time first, shape [n, ...], and then ``axes``.
     over : str
         First axis, "time", or "impulse" for variables of the impulses of events.
     """
@@ -74,12 +74,12 @@ class Variable:
 
 
 def _row(name: str, unit: str, axes: tuple[str, ...], description: str, reading: Any, over: str = "time") -> Variable:
-    """Row of an array that a reading has under the name of the variable."""
+    """Row of a variable that a reading has as an attribute of the same name."""
     return Variable(name, unit, axes, description, reading.of, attrgetter(name), over)
 
 
 def _closed(name: str, unit: str, axes: tuple[str, ...], description: str, if_open: float) -> Variable:
-    """Row of an array of the closed contacts."""
+    """Row of an attribute of :class:`ClosedContacts`; its value is ``if_open`` while a contact is open."""
     return Variable(
         name,
         unit,

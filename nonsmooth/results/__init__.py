@@ -1,1 +1,1 @@
-"""Results on disk while a run goes on: what the folder holds, how it grows, how it is opened again."""
+"""Results of a run on disk: content of the folder, writing during the run, and opening."""

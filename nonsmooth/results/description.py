@@ -1,6 +1,6 @@
 """Description of a run in its folder: attributes, the engine, the system as a text, and the file of a state.
 
-A state is an npz file: arrays of numbers, of which nothing is executed when it is read.
+A state is an npz file with arrays of numbers. Reading it executes no code of the file.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _ARRAYS = tuple(field.name for field in dataclasses.fields(State) if field.name 
 
 
 def state_bytes(state: State) -> bytes:
-    """State, with what it needs to go on, as the content of a file."""
+    """Content of a state file: the state, and the data that continue its run."""
     arrays: dict[str, Any] = {name: np.asarray(getattr(state, name)) for name in _ARRAYS}
     arrays["energy"] = np.array(dataclasses.astuple(state.energy))
     if state.continuation is not None:
@@ -42,12 +42,12 @@ def state_bytes(state: State) -> bytes:
 
 
 def state_from(content: bytes, thing: str) -> State:
-    """State out of the content of a file, which messages call ``thing``.
+    """State from the content of a state file, which messages call ``thing``.
 
     Raises
     ------
     InvalidInput
-        If it is none.
+        The content is damaged, or not that of a state file.
     """
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as file:
@@ -58,19 +58,19 @@ def state_from(content: bytes, thing: str) -> State:
         if "model" in arrays:
             difference = Difference.unpacked(arrays["difference"].tobytes())
             state = state.with_continuation(Continuation(str(arrays["model"]), difference, int(arrays["told"])))
-    except Exception as error:  # whatever a file of another content makes the readers raise
+    except Exception as error:  # damaged content can raise any error in the readers
         raise InvalidInput(thing, "must hold a state", f"{type(error).__name__}: {error}", "It is damaged.") from error
     return state
 
 
 UNFINISHED = "unfinished"
-"""Status of a run that goes on, or was cut off."""
+"""Status of a run that is under way, or was cut off."""
 MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on with it"
 """Message of an unfinished run."""
 
 
 def attributes_of(output: Output, engine: Engine, request: RunRequest) -> dict[str, Any]:
-    """Attributes of the folder of a run that begins."""
+    """Attributes of the folder of results at the beginning of a run."""
     known = versions()
     return {
         "Conventions": "CF-1.11",
@@ -92,7 +92,10 @@ def attributes_of(output: Output, engine: Engine, request: RunRequest) -> dict[s
 
 
 def _table(engine: Engine) -> TomlTable:
-    """Engine as a table; one that no file can name by its class in Python, and its options as words."""
+    """Table of an engine: its installed name and options.
+
+    If a file cannot name the engine, the table has its class in Python, and its options as text.
+    """
     try:
         return table_of(engine, "engine")
     except InvalidInput:
@@ -101,16 +104,16 @@ def _table(engine: Engine) -> TomlTable:
 
 
 def named_elsewhere(table: TomlTable) -> bool:
-    """True if the table of an engine names a class in Python, which is not an installed one."""
+    """True if the table of an engine names a class in Python and not an installed engine."""
     return ":" in str(table.get(TYPE))
 
 
 def system_variable(
     system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]
 ) -> LabelledArray:
-    """System as a scenario file; where it cannot be one, an attribute says why.
+    """Text of the system as a scenario file, "" if a file cannot hold it; ``system_missing`` then gives the reason.
 
-    An engine that no file can name costs its own table only: an attribute has what it was.
+    An engine that a file cannot name is left out of the text.  The attribute ``engine`` of the folder describes it.
     """
     named = None if named_elsewhere(_table(engine)) else engine
     try:
@@ -121,6 +124,6 @@ def system_variable(
 
 
 def energies(state: State) -> dict[str, float]:
-    """Account of energy [J], as far as JSON has its numbers."""
+    """Energy account [J] and its residual, without infinite and undefined values, for which JSON has no numbers."""
     account = {**vars(state.energy), "energy_residual": state.energy.residual}
     return {name: value for name, value in account.items() if math.isfinite(value)}

@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class Unavailable(Engine):
-    """Takes the place of an engine that is not installed: samples and events are known, the run cannot continue.
+    """Placeholder for an engine that is not installed: samples and events are known, but the run cannot continue.
 
     Attributes
     ----------
     described : dict
-        Class and options of the engine, as the folder has them.
+        Class and options of the engine, as the folder stores them.
     recorded_contacts : bool
         True if the events hold modes and impulses.
     """
@@ -42,18 +42,18 @@ class Unavailable(Engine):
 
     @property
     def records_contacts(self) -> bool:
-        """As the engine that ran."""
+        """True if the engine that ran recorded contacts."""
         return self.recorded_contacts
 
     def check(self, system: System) -> None:
-        """Accept any system, because nothing runs."""
+        """Accept any system, because this engine never runs."""
 
     def counts(self, n_slots: int) -> Mapping[str, int]:
-        """None, because nothing runs."""
+        """No counts, because this engine never runs."""
         return {}
 
     def settings(self, time_scale: float) -> Mapping[str, float]:
-        """None, because nothing runs."""
+        """No settings, because this engine never runs."""
         return {}
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> NoReturn:
@@ -62,7 +62,7 @@ class Unavailable(Engine):
 
 
 _NONE: dict[str, Any] = {"limits": {}}
-"""Counters of a run that is unfinished, where 0 is none."""
+"""Counters of an unfinished run that are not numbers; all others are 0."""
 
 
 def open_solution(
@@ -72,32 +72,32 @@ def open_solution(
     engine: Engine | None = None,
     trust: bool = False,
 ) -> Solution:
-    """Solution in a folder of results, also one that is unfinished.
+    """Open the solution in a folder of results, of a finished or an unfinished run.
 
     Parameters
     ----------
     output : Output, Path or str
         The folder.
     system : System, optional
-        What ran; by default it is built from what the folder says of it.  A class that is not installed, such as a law
-        of a script, is beyond what a folder can say.
+        System that ran; by default it is built from the scenario file in the folder.  That file is missing if a class
+        of the system is not installed, such as a law of a script.
     engine : Engine, optional
-        What integrated it; by default that which the folder names.  Where that is not installed, the run is known at
-        its samples and events only.
+        Engine that ran; by default the engine that the folder names.  If that is not installed, the run is known at its
+        samples and events only.
     trust : bool, optional
-        Whether the folder may name code that is no installed plug-in, as for :func:`nonsmooth.load_system`.
+        True if the folder may name code other than installed plug-ins, as for :func:`nonsmooth.load_system`.
 
     Returns
     -------
     Solution
-        Its status is "unfinished" where the run goes on or was cut off.
+        Its status is "unfinished" if the run is under way or was cut off.
 
     Raises
     ------
     InvalidInput
-        If there is no solution, or it cannot say how its system is built.
+        The folder has no solution, or it has no scenario file and `system` was not given.
     PluginError
-        If a class that the system needs cannot be loaded.
+        A class that the system needs cannot be loaded.
     """
     where = Output.to(output)
     folder = SolutionFolder.opened(where)
@@ -114,14 +114,14 @@ def open_solution(
 
 
 def stored_setup(output: Output, folder: SolutionFolder, trust: bool) -> Setup:
-    """System of a folder of results, built from what it says of it.
+    """Setup of a run, built from the scenario file in its folder of results.
 
     Raises
     ------
     InvalidInput
-        If it does not say it, or names code and is not trusted.
+        The folder has no scenario file, or the file names code and is not trusted.
     PluginError
-        If a class that it names cannot be loaded.
+        A class that the file names cannot be loaded.
     """
     text = folder.system_text()
     if not text:
@@ -140,20 +140,21 @@ def stored_setup(output: Output, folder: SolutionFolder, trust: bool) -> Setup:
 
 
 def _engine_or_its_name(output: Output, folder: SolutionFolder, trust: bool) -> Engine:
+    """Engine that ran, or its placeholder if the folder names a class in Python."""
     table = folder.said("engine")
     recorded = bool(folder.attributes.get("records_contacts", 0))
     return Unavailable(table, recorded) if named_elsewhere(table) else stored_engine(output, folder, trust)
 
 
 def stored_engine(output: Output, folder: SolutionFolder, trust: bool) -> Engine:
-    """Engine that ran, as the folder says it.
+    """Engine that ran, built from its table in the folder.
 
     Raises
     ------
     InvalidInput
-        If it does not say it, or names code and is not trusted.
+        The folder does not describe the engine, or names code that is not trusted.
     PluginError
-        If its class cannot be loaded.
+        The class of the engine cannot be loaded.
     """
     thing, table = f"{output.solution}: engine", folder.said("engine")
     if named_elsewhere(table):

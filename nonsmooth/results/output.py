@@ -1,4 +1,4 @@
-"""Output: the folder of the results of a run, with their origin."""
+"""Output of a run: the folder of its results, and their origin."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import NonsmoothWarning
 
 SOLUTION = "solution.zarr"
-"""The folder of arrays within that of the results."""
+"""Name of the folder of arrays, within the folder of results."""
 
 
 @final
 @dataclass(frozen=True)
 class Output:
-    """Where the results of a run go.
+    """Folder for the results of a run, with the origin of the run.
 
     Parameters
     ----------
     folder : Path
         The folder of the results; the solution is in ``solution.zarr`` there.
     title : str
-        One line that says what it is.
+        Title of the run, one line.
     request : mapping
-        The words by which the command line was asked for the scenario, its parameters and laws; empty elsewhere.
+        Arguments of the command line for scenario, parameters and laws; empty for a run that a script started.
     parameters : mapping
-        All parameters of the scenario, as JSON has them.
+        All parameters of the scenario, as values of JSON.
     overwrite : bool
-        Whether a run that has ended there is replaced.
+        True if the results of a finished run in the folder are replaced.
     """
 
     folder: Path
@@ -49,12 +49,12 @@ class Output:
 
     @classmethod
     def to(cls, where: Output | Path | str) -> Output:
-        """Output that is meant by it or by its folder.
+        """Output for a folder; an Output is returned unchanged.
 
         Raises
         ------
         InvalidInput
-            If it is no folder, or a text without a letter.
+            `where` is not a path, is empty, or is a path that this machine cannot have.
         """
         return where if isinstance(where, cls) else cls(path_of("folder of results", where))
 
@@ -70,7 +70,7 @@ class OtherVersions(NonsmoothWarning):
 
 @functools.cache
 def versions() -> Mapping[str, str]:
-    """Versions on which the last bits of a run hang."""
+    """Versions of the software, and the machine, on which the last bits of a run depend."""
     found = {
         "nonsmooth": version("nonsmooth"),
         "python": platform.python_version(),
@@ -79,7 +79,7 @@ def versions() -> Mapping[str, str]:
         "engine": "plain",
     }
     if not PLAIN:
-        # the plain half does not import numba
+        # in plain Python (NONSMOOTH_PLAIN=1), numba is not imported
         from nonsmooth.engine.native.folders import build_name
 
         found |= {"numba": version("numba"), "engine": build_name()}

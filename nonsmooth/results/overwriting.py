@@ -20,7 +20,7 @@ def arrays_of_run(path: Path) -> ArrayFolder:
 
 
 def _status(path: Path) -> str | None:
-    """Status of the run in a folder of arrays, None if there is no run that can be opened."""
+    """Status of the run in a folder of arrays, None if no run can be opened there."""
     try:
         return str(arrays_of_run(path).attributes.get("status"))
     except InvalidInput:
@@ -28,7 +28,7 @@ def _status(path: Path) -> str | None:
 
 
 def check_free(output: Output) -> None:
-    """Raise InvalidInput if a run that was cut off can be resumed in a folder, which new results would replace."""
+    """Raise InvalidInput if a folder has a run that is under way or can be resumed; new results would replace it."""
     if _status(output.solution) == UNFINISHED:
         raise InvalidInput(
             str(output.folder),
@@ -39,7 +39,7 @@ def check_free(output: Output) -> None:
 
 
 def check_replaceable(output: Output) -> None:
-    """Raise InvalidInput as :func:`check_free`, or if a run has ended there that the output must not replace."""
+    """Raise InvalidInput as :func:`check_free`, or if a run has ended there and ``output.overwrite`` is False."""
     check_free(output)
     if not output.overwrite and _status(output.solution) is not None:
         rule, remedy = "must be a folder that is empty or new", "Another run has ended there meanwhile: name another."
@@ -52,16 +52,16 @@ def check_ours(path: Path) -> None:
     Raises
     ------
     InvalidInput
-        If it holds anything else.
+        The path is a link or a file, or the folder has other content.
     FileError
-        If it cannot be read.
+        The folder cannot be read.
     """
     if path.is_symlink() or (path.exists() and not path.is_dir()):
         what = "a link" if path.is_symlink() else "a file"
         raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
     with writing(path):
         names = sorted(one.name for one in path.iterdir()) if path.exists() else []
-    # a folder of arrays without a mark has at most a lock yet
+    # before a folder of arrays is marked, it has at most the folder of the lock
     if names not in ([], [WRITER]) and not is_marked(path):
         raise InvalidInput(
             str(path),
@@ -72,12 +72,14 @@ def check_ours(path: Path) -> None:
 
 
 def empty(path: Path, states: Iterable[str]) -> None:
-    """Remove all but the lock and the mark; the metadata first, without which the rest is no solution.
+    """Empty a folder of arrays, except for the lock and the mark; ``states`` are the state files next to the lock.
+
+    The metadata are removed first, because without them no reader takes the rest for a solution.
 
     Raises
     ------
     FileError
-        If a file cannot be removed.
+        A file cannot be removed.
     """
     with writing(path):
         (path / "zarr.json").unlink(missing_ok=True)

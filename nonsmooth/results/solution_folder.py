@@ -1,4 +1,4 @@
-"""SolutionFolder: the solution of a run on disk, which grows with the run, and the state from which it is resumed."""
+"""The solution of a run on disk, which grows with the run, and the state from which the run is resumed."""
 
 from __future__ import annotations
 
@@ -53,22 +53,23 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 _STATES = (f"{WRITER}/state-0.npz", f"{WRITER}/state-1.npz")
-"""Files of the state, used in turns: the file that the last commit names is not touched."""
+"""Files of the state, used in turns: the file that the last commit names is not overwritten."""
 _LAST = f"{WRITER}/state-end.npz"
+"""File of the state at the end of the run."""
 _OWN = "scenario_coordinates"
 """Attribute with the names of the arrays that the scenario adds."""
 _LENGTHS = {"time": "time", "event": "event_time", "listing": "listed_contact"}
-"""An array over each of the dimensions that grow."""
+"""Dimension that grows -> array whose length is the length of the dimension."""
 
 
 @contextlib.contextmanager
 def naming_damage(thing: str) -> Iterator[None]:
-    """Raise InvalidInput with the name of the thing in place of the errors of a reader of damaged content.
+    """Turn the errors of readers of damaged content into InvalidInput, which names the ``thing``.
 
     Raises
     ------
     InvalidInput
-        If a value is missing or of another kind.
+        A value is missing or of another kind.
     """
     try:
         yield
@@ -107,15 +108,15 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If a run was cut off there, or writes there, or the folder is none of a run.
+            A run was cut off in the folder or writes to it, or the folder was not made by a run.
         FileError
-            If it cannot be written.
+            The folder cannot be written to.
         """
         path = output.solution
         # first without the lock, for which a process that has just ended would have to wait
         check_ours(path)
         check_replaceable(output)
-        # from here on nobody else writes there: results of another run that has begun meanwhile are not removed
+        # check again under the lock, so that the results of a run that has begun meanwhile are not removed
         lock = locked(path)
         try:
             check_replaceable(output)
@@ -146,7 +147,7 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If there is none, another version wrote it, or it is damaged.
+            The folder has no solution, another version wrote it, or it is damaged.
         """
         arrays, remedy = arrays_of_run(output.solution), "Name a folder that `run` wrote."
         for name in ("coordinate", "velocity", *_LENGTHS.values()):
@@ -163,21 +164,21 @@ class SolutionFolder:
 
     @classmethod
     def held(cls, output: Output) -> SolutionFolder:
-        """Open the folder of a run to write to it; nobody else does until it is closed.
+        """Open the folder of a run to write to it; no other process can write until :meth:`close`.
 
         Raises
         ------
         InvalidInput
-            If there is none, it holds a link, or another run writes there.
+            The folder has no solution, has a link, or another run writes to it.
         FileError
-            If it cannot be written to.
+            The folder cannot be written to.
         """
-        # a folder without a run gets no lock
+        # opened first, so that a folder without a run gets no lock
         cls.opened(output)
         check_no_links(output.solution)
         lock = locked(output.solution)
         try:
-            # the results that another run has written before it released the lock count
+            # opened again, because another run may have written before it released the lock
             return cls.opened(output, lock)
         except BaseException:
             lock.release()
@@ -190,7 +191,7 @@ class SolutionFolder:
 
     @property
     def place(self) -> Path:
-        """The folder of the results, in which the folder of the arrays is."""
+        """The folder of the results, which contains the folder of the arrays."""
         return self._arrays.path.parent
 
     @property
@@ -199,12 +200,12 @@ class SolutionFolder:
         return str(self.attributes.get("status"))
 
     def said(self, name: str, kind: type = dict) -> Any:
-        """An attribute that holds more than a number or a word: a table or, if ``kind`` says so, a list.
+        """An attribute that is stored as JSON: a table, or another ``kind``, such as a list.
 
         Raises
         ------
         InvalidInput
-            If it is missing, or of another kind.
+            The attribute is missing, or of another kind.
         """
         thing = f"{self._arrays.path}: {name}"
         try:
@@ -229,13 +230,14 @@ class SolutionFolder:
         return stored_events(read, lengths["event"], arrays.layout("contact").shape[0])
 
     def stored(self) -> tuple[Events, Callable[[], Floats]]:
-        """Events that are committed now, and a function that reads the samples that are; later ones do not count."""
+        """Events committed so far, and a function that reads the samples committed so far, without later ones."""
         return self.events(), partial(self.rows, self._lengths["time"])
 
     def rows(self, n: int | None = None) -> Floats:
         """The first ``n`` samples, by default all that are committed.
 
-        They are time, q, u, accounts, inner states of laws, booked energies, shape [n, 1 + n_y + 4].
+        A row has time [s], q, u, energy accounts [J], inner states of laws, and energies accounted at events [J]; shape
+        [n, 1 + n_y + 4].
         """
         parts = [self._arrays.read(name, 0, self._lengths["time"] if n is None else n) for name in SAMPLES]
         return np.column_stack(parts) if len(parts[0]) else np.zeros((0, 1 + sum(p.shape[1] for p in parts[1:])))
@@ -251,7 +253,7 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If one is missing, or no number.
+            An argument is missing, or is not a number.
         """
         found = self.attributes
         with naming_damage(f"{self._arrays.path}: arguments of the run"):
@@ -280,12 +282,12 @@ class SolutionFolder:
             )
 
     def state_at_checkpoint(self) -> State:
-        """State of the run at its last checkpoint. The folder stays as it is.
+        """State of the run at its last checkpoint. The folder does not change.
 
         Raises
         ------
         InvalidInput
-            If there is none.
+            The folder has no checkpoint.
         """
         return self._state("checkpoint", self.said("checkpoint"), _STATES)
 
@@ -295,7 +297,7 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If there is none.
+            The folder has no checkpoint.
         """
         checkpoint = self.said("checkpoint")
         for coordinate in str(self.attributes.pop(_OWN, "")).split():
@@ -308,36 +310,36 @@ class SolutionFolder:
         self._safe = True
 
     def append(self, events: Events, rows: Floats, state: State, wall: float) -> None:
-        """Append the results since the last time, with the state from which the run is resumed.
+        """Append the results since the last call, with the state from which the run is resumed.
 
         Parameters
         ----------
         events : Events
-            Further events.
+            Events since the last call.
         rows : array
-            Further samples, as :meth:`rows` returns them.
+            Samples since the last call, in the form of :meth:`rows`.
         state : State
-            State of the run after these and before any other.
+            State of the run after these results, from which it is resumed.
         wall : float
             Wall time of the run [s].
 
         Raises
         ------
         FileError
-            If they cannot be written; the earlier results stay as they were.
+            The results cannot be written; the earlier results are unchanged.
         """
         self._safe = True
         self.begin(events, rows, state, wall)
 
     def begin(self, events: Events, rows: Floats, state: State, wall: float) -> None:
-        """Write where a run begins or resumes, as :meth:`append` does.
+        """Write the state from which a run begins or resumes, with the arguments of :meth:`append`.
 
-        A run that is shorter than the first commit interval does not wait for the disk.
+        A run that begins does not wait for the disk, so a run that is shorter than the commit interval never waits.
 
         Raises
         ------
         FileError
-            If it cannot be written.
+            The state cannot be written.
         """
         lengths = self._write(events, rows)
         self._put_state(_STATES[self._state_file() == _STATES[0]], state)
@@ -352,7 +354,7 @@ class SolutionFolder:
         Raises
         ------
         FileError
-            If they cannot be written; the earlier results stay as they were.
+            The results cannot be written; the earlier results are unchanged.
         """
         lengths = self._write(events, rows)
         self._put_state(_LAST, solution.state)
@@ -378,9 +380,9 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If a name cannot be that of a folder, or is taken, or an array is not of numbers.
+            A name cannot be the name of a folder or is taken, or the values are not numbers.
         FileError
-            If they cannot be written.
+            The coordinates cannot be written.
         """
         own = self.attributes.get(_OWN, "").split()
         taken = sorted(coordinates.keys() & (self._arrays.names - {*own}))
@@ -403,7 +405,7 @@ class SolutionFolder:
             self._lock.release()
 
     def _write(self, events: Events, rows: Floats) -> dict[str, int]:
-        """Put events and samples behind the committed ones; the lengths with them."""
+        """Write events and samples after the committed ones; return the new length of each dimension that grows."""
         lengths = dict(self._lengths)
         for one in _variables(events, rows, self._n_q, self._n_u):
             dimension = one.dimensions[0]
@@ -442,7 +444,7 @@ class SolutionFolder:
 
 
 def _variables(events: Events, rows: Floats, n_q: int, n_u: int) -> list[LabelledArray]:
-    """Events and samples as arrays."""
+    """Events and samples as labelled arrays."""
     n_states = rows.shape[1] - 1 - n_q - n_u - N_ACCOUNTS - BOOKED
     t, q, u, *rest = np.split(rows, np.cumsum([1, n_q, n_u, N_ACCOUNTS, n_states]), axis=1)
     return [*of_samples(t[:, 0], q, u, *rest), *of_all_of_events(events)]

@@ -1,6 +1,6 @@
-"""Checks of a solution beyond its energy account: contacts without a check of bodies, cones, and friction that gains.
+"""Findings about a solution: contacts without an overlap check, impulses outside of cones, energy from friction.
 
-A suspect run is told by :mod:`nonsmooth.solution.suspicion`.  These findings need not mean that a run is wrong.
+They need not mean that a run is wrong.  The checks that make a run suspect are in :mod:`nonsmooth.solution.suspicion`.
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ _FRICTION = 2
 
 
 def contacts_without_body_check(solution: Solution) -> tuple[str, ...]:
-    """Names of the contacts whose bodies are not checked for overlap; only their own gap shows it.
+    """Names of the contacts whose bodies are not checked for overlap.
 
-    Two bodies are checked as a whole if all of their shapes have convex parts.
+    Bodies are checked if all of their shapes have convex parts.  Without the check, only the gap of the contact shows
+    an overlap.
     """
     return tuple(unchecked_contacts(solution.system.contacts))
 
@@ -33,7 +34,8 @@ def contacts_without_body_check(solution: Solution) -> tuple[str, ...]:
 def impulses_beyond_cone(solution: Solution) -> NDArray[np.bool_]:
     """True for impulses outside of their friction cones, shape [m], in the order of ``events.listed``.
 
-    Impulses within the cones give the same motion: of redundant contacts, one may have too large a part.
+    The distribution of impulses over redundant contacts is not unique, and one contact may have too large a part.
+    Impulses within the cones then give the same motion.
     """
     events = solution.events
     normal, friction = events.listed_impulse[:, 0], events.listed_impulse[:, 1:]
@@ -44,16 +46,16 @@ def impulses_beyond_cone(solution: Solution) -> NDArray[np.bool_]:
 def friction_gain(solution: Solution) -> float:
     """Energy that sustained friction added over a run [J]: the sum of all decreases of the integrated friction loss.
 
-    The loss is compared from each sample or event to the next.  Averaged forces can add energy: their friction is
-    constant over a span, while the slip may turn.  Laws that store energy in a contact, such as bristles, return it.
-    Impacts are left out, because some impact laws add energy by their definition.  Events are read block by block, as
-    those of a long run are in its output folder and would not fit into memory.
+    The loss is compared from each sample or event to the next.  The time-stepping fallback can add energy: its friction
+    is constant over a span, while the slip may turn.  Laws that store energy in a contact, such as bristles, return it.
+    Impacts are left out, because some impact laws add energy by their definition.  Events are read block by block,
+    because the events of a long run would not fit into memory.
     """
     track = solution.track
     gain, last, n_samples, booked, time = 0.0, np.zeros(0), 0, 0.0, track.time[:-1]
     for block in solution.events.blocks():
         place = track.y.shape[1] - block.integrated.shape[1] + FRICTION_LOSS
-        # samples before the last event of the block; samples at the time of events are after these
+        # samples before the last event of the block; a sample at the time of an event comes after the event
         stop = int(np.searchsorted(time, block.time[-1])) if len(block) else 0
         order = np.argsort(np.concatenate([block.time, time[n_samples:stop]]), kind="stable")
         loss = np.concatenate([block.integrated[:, FRICTION_LOSS], track.y[n_samples:stop, place]])[order]
@@ -70,7 +72,7 @@ def _decrease(last: Floats, loss: Floats) -> float:
 
 
 def findings(solution: Solution) -> str:
-    """Findings of all checks in words, each after a comma; "" without any."""
+    """Text with the findings of all checks, each after a comma; "" without findings."""
     unchecked = len(contacts_without_body_check(solution))
     outside, gain = int(np.count_nonzero(impulses_beyond_cone(solution))), friction_gain(solution)
     found = [f", {unchecked} contacts whose bodies are not checked for overlap"] if unchecked else []

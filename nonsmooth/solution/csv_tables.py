@@ -1,4 +1,4 @@
-"""CSV: a table of a history, with a row for each time, or of the events of a run."""
+"""Tables as CSV: a history with a row for each time, or the events of a run with a row for each event."""
 
 from __future__ import annotations
 
@@ -29,19 +29,19 @@ if TYPE_CHECKING:
 
 @runtime_checkable
 class Series(Protocol):
-    """Anything over time that has a dataset: states, poses, energies, contact forces, one contact, and so on."""
+    """Quantities over time that can become a dataset, such as a :class:`nonsmooth.histories.history.History`."""
 
     def to_xarray(self) -> xarray.Dataset:
-        """Dataset with the time [s] as an axis or as a number."""
+        """Dataset with the coordinate "time" [s]: an axis, or a number at a single time."""
 
 
 def table(series: Series) -> str:
-    """Table with a row for each time; over each column stand name, labels and unit.
+    """CSV text with a row for each time; the head of each column has its name, labels and unit.
 
     Raises
     ------
     InvalidInput
-        If the series has no times.
+        The series is not over time.
     """
     data = series.to_xarray()
     if "time" not in data.coords or "event" in data.sizes:
@@ -54,7 +54,7 @@ def table(series: Series) -> str:
         axes = [str(axis) for axis in variable.dims if axis != "time"]
         values = variable.transpose("time", *axes).to_numpy()
         places = itertools.product(*(range(data.sizes[axis]) for axis in axes))
-        # a run that was cut off at once has no rows
+        # the shape is explicit, because a run that was cut off at once has no rows
         for column, place in zip(values.reshape(len(values), math.prod(values.shape[1:])).T, places, strict=True):
             labels = [_label(data, axis, i) for axis, i in zip(axes, place, strict=True)]
             units = [str(data[f"{axis}_units"].to_numpy()[i]) for axis, i in zip(axes, place, strict=True)
@@ -93,7 +93,7 @@ def _forces(solution: Solution) -> History:
 
 
 def events_table(solution: Solution) -> str:
-    """Events as a table, a row each.
+    """CSV text of the events of a run, with a row for each event.
 
     The column "modes" lists the contacts whose bits (closed, approaching, slipping) the event changes, with their bits
     before, during and after it: "ball - plate 000 110 101; ...".
@@ -104,7 +104,7 @@ def events_table(solution: Solution) -> str:
 
 
 def _write_events(solution: Solution, file: TextIO) -> None:
-    """Write the table block by block, because the events of a long run do not fit into memory."""
+    """Write the table of events block by block, because the events of a long run do not fit into memory."""
     names, guards, rows = solution.system.names.contacts, solution.system.names.guards, csv.writer(file)
     rows.writerow(_HEAD)
     for events in solution.events.blocks():
@@ -132,13 +132,13 @@ SERIES: Mapping[str, Callable[[Solution], str]] = {
     "joints": lambda solution: table(solution.history("joint_point", "joint_force", "joint_moment")),
     "events": events_table,
 }
-"""Tables of every run by name."""
+"""Name of a series -> function that computes its table of a run, as CSV text."""
 
 
 @final
 @dataclass(frozen=True)
 class Csv:
-    """A table with name and unit above each column.
+    """Options of a CSV file: the table of a run that it holds.
 
     Attributes
     ----------
@@ -161,7 +161,7 @@ class Csv:
             raise UnknownName("export: series", self.series, SERIES)
 
     def write(self, solution: Solution, path: Path) -> None:
-        """Write the file of a run."""
+        """Write the table of a run to a file."""
         text = SERIES[self.series](solution) if isinstance(self.series, str) else table(self.series)
         with replacing(path) as part:
             part.write_bytes(text.encode("utf-8"))
@@ -173,7 +173,7 @@ def save_events(solution: Solution, path: Path) -> None:
     Raises
     ------
     FileError
-        The file cannot be written; an older file of the name is kept.
+        The file cannot be written; an older file of the name is unchanged.
     """
     with replacing(path) as part, part.open("w", encoding="utf-8", newline="") as file:
         _write_events(solution, file)

@@ -21,15 +21,16 @@ Array: TypeAlias = NDArray[np.float64]
 Point: TypeAlias = tuple[float, float]
 
 _WIDE = 1.25
-"""Stretch of the layout along the page, along which the words are written."""
+"""Horizontal stretch of the layout, because mode words are written horizontally."""
 _STARTS, _ROUNDS = 16, 300
+"""Number of initial layouts, and of iterations from each."""
 
 
 def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
-    """Places of the modes whose distances approximate the numbers of transitions between them.
+    """Places of the modes in the plane; distances approximate the least numbers of transitions between modes.
 
-    The weighted squares of the differences are minimised by majorisation (de Leeuw), from modes on a circle in several
-    orders.  The result with the fewest crossing lines is taken.
+    The sum of the weighted squares of the differences is minimised by majorisation (de Leeuw).  Initial layouts are
+    modes on a circle in several orders.  The result with the fewest crossing lines is taken.
     """
     visits = graph.visits
     modes = sorted(graph.shares, key=lambda m: (m in graph.passing, m != graph.start, -graph.shares[m], -visits[m]))
@@ -39,7 +40,7 @@ def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
     random = np.random.default_rng(n)
     trials = [_relaxed(steps, random.permutation(n).astype(float)) for _ in range(_STARTS)]
     points = min(trials, key=lambda trial: (_crossings(trial, lines), _stress(trial, steps)))
-    # the longest extent lies along the page, and the start to the left
+    # turn the longest extent to the horizontal, and the start to the left
     points = points - points.mean(axis=0)
     points = points @ np.linalg.svd(points, full_matrices=False)[2].T if n > 1 else points
     points[:, 0] *= -1.0 if points[modes.index(graph.start), 0] > 0.0 else 1.0
@@ -47,6 +48,7 @@ def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
 
 
 def _relaxed(steps: Array, order: Array) -> Array:
+    """Places after majorisation, shape [n, 2], from modes on a circle in an order."""
     n = len(steps)
     weights = np.divide(1.0, steps**2, out=np.zeros_like(steps), where=steps > 0.0)
     inverse = np.linalg.pinv(np.diag(weights.sum(axis=1)) - weights)
@@ -60,6 +62,7 @@ def _relaxed(steps: Array, order: Array) -> Array:
 
 
 def _stress(points: Array, steps: Array) -> float:
+    """Sum of the squares of the differences between distances and numbers of transitions, relative to these."""
     apart = np.linalg.norm(points[:, None] - points[None], axis=2)
     return float(np.sum(np.divide(apart - steps, steps, out=np.zeros_like(steps), where=steps > 0.0) ** 2))
 
@@ -78,7 +81,10 @@ def _crossings(points: Array, lines: Sequence[tuple[int, int]]) -> int:
 
 
 def _steps_between(modes: Sequence[ContactModes], graph: TransitionGraph) -> Array:
-    """Least number of transitions between modes, in either direction, shape [n, n]; unconnected: one more than any."""
+    """Least number of transitions between modes, in either direction, shape [n, n].
+
+    Modes without a connection get the largest of these numbers plus one.
+    """
     n = len(modes)
     steps = np.full((n, n), np.inf)
     np.fill_diagonal(steps, 0.0)
@@ -94,7 +100,7 @@ def _steps_between(modes: Sequence[ContactModes], graph: TransitionGraph) -> Arr
 
 _MOST_MODES = 14
 _LONGEST_WORD, _FEW = 16, 8
-"""Longest mode word in a node, and largest number of nodes with words; other nodes are numbered and listed."""
+"""Longest mode word in a node [characters], and largest number of nodes with words; beyond, nodes are numbered."""
 _MOST_CONTACTS = 14
 """Largest number of contacts with readable mode words; modes of more contacts are grouped."""
 _LONGEST_LINE = 110
@@ -104,7 +110,7 @@ _COLOURS = (
     "#000000", "#d55e00", "#0072b2", "#009e73", "#e69f00", "#aa3377", "#56b4e9", "#999999", "#6b4c1e", "#f0e442",
     "#99cc00", "#882255", "#44aa99", "#332288", "#ddcc77",
 )  # fmt: skip
-"""Colour of each cause; letters tell similar colours apart."""
+"""Colour of each cause; letters at the arrows distinguish similar colours."""
 _LETTERS = "abcdefghijklmno"
 _BEND = 0.16
 
@@ -120,7 +126,7 @@ def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
     graph : TransitionGraph
         The graph.
     most : int
-        Largest number of modes, or groups, that are drawn; the title has the number of the others.
+        Largest number of modes, or groups, that are drawn; the title gives the number of those left out.
     """
     from matplotlib.figure import Figure
 
@@ -174,7 +180,7 @@ def _caption(graph: TransitionGraph, many: bool) -> str:
 
 
 def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGraph) -> str:
-    # an impact has two transitions, into it and out of it
+    # count an impact once: one transition leads into it, another out of it
     changes = sum(n for (one, _, _), n in graph.counts.items() if one not in graph.passing)
     title = f"Modes of the run: {len(graph.shares)} visited, {changes} transition{'s' * (changes != 1)}"
     what = "modes"
@@ -192,7 +198,7 @@ def _draw_nodes(
     numbered: bool,
     inch: float,
 ) -> dict[ContactModes, Any]:
-    """Draw the nodes; ``inch`` is the number of units of the places in an inch."""
+    """Draw the nodes; ``inch`` is the length of an inch in the units of the places."""
     from matplotlib.patches import Ellipse
 
     nodes = {}
@@ -241,7 +247,7 @@ def _draw_edges(
             zorder=2,
         )  # fmt: skip
         axis.add_patch(arrow)
-        # the vertex of the arc: half the bend beside the middle of the chord
+        # label at the vertex of the arc, half of the bend away from the middle of the chord
         x, y = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
         x, y = x + 0.5 * bend * (end[1] - start[1]), y - 0.5 * bend * (end[0] - start[0])
         if one == other:

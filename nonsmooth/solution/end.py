@@ -1,4 +1,4 @@
-"""Request of a run, its arguments, and its end: state, counters, status, and the measures of the engine."""
+"""Arguments of a run, and its end: state, counters, status, and the measures of the engine."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from nonsmooth.solution.state import State
 class RunRequest:
     """End and samples of a run: the arguments that its steps and samples depend on, apart from its start.
 
-    They are no part of a state, because a run may continue to another end time. The folder of a run keeps them, so that
-    a run that was cut off can be resumed.
+    A state does not contain them, because a run may continue to another end time. The folder of a run stores them, so
+    that a run that was cut off can be resumed.
 
     Attributes
     ----------
@@ -62,15 +62,15 @@ class Counters:
     Attributes
     ----------
     steps, rejected : int
-        Accepted and rejected steps of the flow.
+        Accepted and rejected steps of the motion between events.
     impacts, impact_steps : int
         Impacts and the steps taken inside them.
     limits : mapping of str to int
-        How many steps were limited by what (:data:`nonsmooth.engine.memory.modes.LIMITS`).
+        Number of steps by the reason that limited their length (:data:`nonsmooth.engine.memory.modes.LIMITS`).
     gap_looks : int
-        How often open gaps had to be looked at within a step to prove that they stay open.
+        Number of evaluations of gaps within a step, in search of the time at which a gap closes.
     listings : int
-        How often the contacts that are near each other were listed anew.
+        Number of times that the neighbour list was made.
     wall_seconds : float
         Wall time of the engine [s].
     """
@@ -106,9 +106,9 @@ class End:
     status, message : str
         Why the run ended, as a word of :class:`RunStatus` and as a sentence.
     cause : str
-        Name of the cause that the engine itself declares, "" without one.
+        Name of the cause, if it is one that the engine declares (``Engine.causes``), else "".
     verdict : mapping of Measure to float
-        The numbers by which the engine judges the run.
+        Numbers by which the engine judges the run.
     """
 
     state: State
@@ -124,5 +124,5 @@ class End:
 
     @property
     def measured(self) -> dict[str, float]:
-        """The verdict by the names of its measures."""
+        """Numbers of the verdict by the names of their measures."""
         return {measure.name: value for measure, value in self.verdict.items()}

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class EnergyAccount:
-    """Where the energy went [J].
+    """Energies at the start and the end of a run, works and losses [J].
 
     Attributes
     ----------
     kinetic_start, potential_start, kinetic_end, potential_end : float
         Energies of the free bodies.
     driven_work : float
-        Work that the driven bodies did on the others.
+        Work of the driven bodies on the other bodies.
     restitution_loss, friction_loss, closing_loss : float
         Losses in impacts, to friction in impacts and sustained slip, and in closing steps and projections.
     load_work : float
@@ -57,10 +57,10 @@ class EnergyAccount:
 
     @property
     def scale(self) -> float:
-        """The energy exchanged [J].
+        """Energy that an unexplained change is compared with [J].
 
-        Where next to none is, the kinetic energy takes its place, as in free tumbling, or a millionth of the
-        potential energy, as at rest.
+        It is the largest of three: the energy exchanged, the kinetic energy, which counts in free tumbling, and a
+        millionth of the potential energy, which counts at rest.
         """
         kinetic = max(self.kinetic_start, self.kinetic_end)
         potential = max(abs(self.potential_start), abs(self.potential_end))

@@ -17,9 +17,9 @@ from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, C
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 ReadRows: TypeAlias = Callable[[str, int, int | None], NDArray[Any]]
-"""Reads rows from one to another of a column by its name; the stop None is the end."""
+"""``read(name, start, stop)`` gives the rows from ``start`` to ``stop`` of a column; the stop None is its end."""
 _BLOCK = 2**14
-"""Events of a block that is read at once."""
+"""Number of events that are read at once, so that a long run does not fill the memory."""
 ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 """Columns of the energies of an event [J]."""
 _LISTED = ("listed", "codes", "listed_impulse", "listed_memory")
@@ -28,7 +28,7 @@ _LISTED = ("listed", "codes", "listed_impulse", "listed_memory")
 
 @final
 class _Column(functools.cached_property[NDArray[Any]]):
-    """A column of the events: it is read at its first use, and kept as an attribute of the events."""
+    """A column of the events: it is read at its first use, and is then an attribute of the events."""
 
     def __init__(self, description: str) -> None:
         super().__init__(lambda events: events.rows(self.attrname, 0, None))
@@ -96,7 +96,7 @@ class Events:
         return Events.held, (self.n_contacts, {name: getattr(self, name) for name in COLUMNS})
 
     def rows(self, name: str, start: int, stop: int | None) -> NDArray[Any]:
-        """Rows of a column from one to another; the column is not kept."""
+        """Rows from ``start`` to ``stop`` of a column; they do not become an attribute."""
         # a column that was used before is an attribute
         used = vars(self).get(name)
         return self._read(name, start, stop) if used is None else np.asarray(used[start:stop])
@@ -120,7 +120,7 @@ class Events:
         row = floats[start[:, None] + np.arange(width)]
         parts = np.cumsum([EVENT_HEAD, n_q, n_u, n_u, n_y - n_q - n_u])
         time_and_energies, q, u_before, u_after, integrated, booked = np.split(row, parts, axis=1)
-        # entry j of the list of event e stands j places behind that event's head
+        # entry j of the list of an event is j places behind the head of the event
         event = np.repeat(np.arange(len(head)), np.diff(first))
         j = np.arange(int(first[-1])) - first[event]
         pair = head[event] + CODE_HEAD + 2 * j
@@ -143,7 +143,7 @@ class Events:
         return cls.held(n_contacts, columns)
 
     def blocks(self) -> Iterator[Events]:
-        """These events in blocks, one after another, at least one: of a long run only one block is in memory."""
+        """Iterate over the events in blocks, at least one; only one block of a long run is in memory."""
         n = len(self)
         if n <= _BLOCK:
             yield self
@@ -152,7 +152,7 @@ class Events:
             yield self._block(start, min(start + _BLOCK, n))
 
     def _block(self, start: int, stop: int) -> Events:
-        """The events from one to another."""
+        """The events from ``start`` to ``stop``."""
         first = self.first[start : stop + 1]
         listed = int(first[0]), int(first[-1])
 
@@ -198,12 +198,12 @@ class Events:
 
     @functools.cached_property
     def during(self) -> Integers:
-        """The bits during the event; they differ from ``before`` in an impact, where they show who collides."""
+        """The bits during the event; in an impact they differ from ``before`` and show the contacts that collide."""
         return self._bits(DURING)
 
     @functools.cached_property
     def after(self) -> Integers:
-        """The bits after the event."""
+        """The bits per contact after the event, shape [n, n_contacts]."""
         return self._bits(AFTER)
 
     @functools.cached_property
@@ -214,7 +214,10 @@ class Events:
         return impulse
 
     def codes_after(self, numbers: Integers) -> Integers:
-        """Bits after events by number, shape [n, n_contacts]; before the first, -1, no contact is closed."""
+        """Bits per contact after the events with these numbers, shape [n, n_contacts].
+
+        The number -1 stands for the time before the first event; its bits are zero.
+        """
         before_all = np.zeros((1, self.n_contacts), np.int64)
         return np.concatenate([self.after, before_all])[numbers]
 
@@ -227,7 +230,7 @@ class Events:
         return self._n
 
     def causes(self) -> list[str]:
-        """Causes in words."""
+        """Cause of each event as text, such as "impact"."""
         return [CAUSES[code] for code in self.cause]
 
     def triggers(self, contacts: Sequence[str], guards: Sequence[str]) -> list[str]:
@@ -243,7 +246,7 @@ class Events:
     def intervals(self) -> dict[str, int]:
         """Numbers of events by the decade of the time since the event before [s].
 
-        "1e-05" stands for 1e-5 s and more, below 1e-4 s, and "0" for the same instant.
+        The key "1e-05" counts times from 1e-5 s to below 1e-4 s, the key "0" events at the same instant.
         """
         passed = np.diff(self.time)
         decades = np.floor(np.log10(passed[passed > 0.0])).astype(int)
@@ -265,4 +268,4 @@ class Events:
 
 
 COLUMNS = tuple(name for name, value in vars(Events).items() if isinstance(value, _Column))
-"""Names of the columns."""
+"""Names of the columns of :class:`Events`."""

@@ -1,4 +1,4 @@
-"""Exports: a run as files of another format, which the suffix of a path names."""
+"""Exports: a run as files of another format, chosen by the suffix of the path."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 class ExportFormat(Protocol):
-    """Options of a format, which write a run."""
+    """A format with its options, which writes a run."""
 
     def write(self, solution: Solution, path: Path) -> None:
-        """Write the run to a path; each file is written aside and then renamed, so that an older one is not lost."""
+        """Write the run to a path; each file is written under another name first, so that an older one is not lost."""
 
 
 FORMATS: Mapping[str, Callable[..., ExportFormat]] = {
@@ -36,7 +36,7 @@ FORMATS: Mapping[str, Callable[..., ExportFormat]] = {
     ".mp4": partial(Movie, "mp4"),
     ".csv": Csv,
 }
-"""Formats by their suffixes, made from their options."""
+"""Suffix -> function that makes the format from its options."""
 
 
 def exporter(path: Path | str, **options: Any) -> Callable[[Solution], Path]:

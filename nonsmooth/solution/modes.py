@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 ContactModes: TypeAlias = tuple[tuple[int, int], ...]
-"""(contact, bits of Eq. (29)) of every contact that is not open, in order: short for systems of many contacts."""
+"""Mode of a system: pairs (contact, bits of Eq. (29)) of the contacts whose bits are not all zero, in order."""
 _CLOSED, _APPROACHING, _SLIPPING = 1, 2, 4
 """Bits of Eq. (29)."""
 
@@ -84,7 +84,7 @@ class TransitionGraph:
     shares : mapping of ContactModes to float
         Share of the time spent in each mode, 0 in impacts.
     passing : frozenset of ContactModes
-        Modes within impacts only.
+        Modes that occur within impacts only.
     counts : mapping of (ContactModes, ContactModes, str) to int
         Number of transitions from one mode to another by a cause.
     """
@@ -180,10 +180,11 @@ def _mode(events: Events, event: int, shift: int) -> ContactModes:
 
 
 def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes, str]]:
-    """Graph of kinds of modes, for systems of many contacts, and the name of each kind.
+    """Group the modes of a system of many contacts: graph of the groups, and the name of each group.
 
-    A kind has 0, 1, 2, 3 to 4, 5 to 8, ... closed contacts, of which none, some or all slip; a kind of impacts has as
-    many that strike.  Its mode of the longest duration represents it.  Transitions within a kind are left out.
+    Modes of a group have the same range of closed contacts (0, 1, 2, 3 to 4, 5 to 8, ...), of which none, some or all
+    slip.  Impacts are grouped by the range of contacts that strike.  The start, or else the mode with the largest share
+    of the time, represents its group.  Transitions within a group are left out.
     """
     called = {mode: _kind(mode, passing=mode in graph.passing) for mode in graph.shares}
     ranked = sorted(graph.shares, key=lambda mode: (mode != graph.start, -graph.shares[mode]))
@@ -213,7 +214,7 @@ def _kind(mode: ContactModes, *, passing: bool) -> str:
 
 
 def _range(n: int) -> str:
-    """Range of doubling that has a number: "0", "1", "2", "3-4", "5-8", ..."""
+    """Range that contains a number, of ranges that double in length: "0", "1", "2", "3-4", "5-8", ..."""
     if n <= 2:
         return str(n)
     top = 1 << (n - 1).bit_length()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 MOST_KNOTS = 4000
-"""Times besides the instants of events, by default."""
+"""Default of the largest number of times at which a page has the bodies, in addition to the instants of events."""
 
 
 def write(solution: Solution, path: Path | str, title: str, most_knots: int) -> Path:
@@ -29,19 +29,19 @@ def write(solution: Solution, path: Path | str, title: str, most_knots: int) -> 
 
 
 def show(solution: Solution, title: str, most_knots: int) -> tuple[Path, bool]:
-    """Write the page of a run to a file of its own; return where it is, and whether a browser was found to open it."""
+    """Write the page of a run to a new temporary file and open it; return its path, and True if a browser was found."""
     folder = Path(tempfile.mkdtemp(prefix="nonsmooth-"))
     path = write(solution, folder / "run.html", title, most_knots)
     return path, webbrowser.open(path.as_uri())
 
 
 def not_opened(path: Path) -> str:
-    """Message for a page without a browser, as on a machine without a display."""
+    """Message if no browser was found, as on a machine without a display."""
     return f"no browser was found; open this file: {path}"
 
 
 def framed(solution: Solution) -> str:
-    """Page of a run within a frame, as notebooks show it."""
+    """HTML of a frame with the page of a run, for notebooks."""
     text = html.escape(page(solution, "", MOST_KNOTS))
     words = 'sandbox="allow-scripts" title="a run of nonsmooth" style="width:100%;height:600px;border:0"'
     return f'<iframe srcdoc="{text}" {words}></iframe>'

@@ -1,4 +1,4 @@
-"""Recorded: samples and events of a run as the engine left them. Track: its stored states."""
+"""Records of a run: its samples and events as the engine recorded them, and its stored states."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class Recorded:
     Attributes
     ----------
     rows : array
-        Samples: time [s], all that is integrated, and the energies accounted at events so far [J]; shape
+        Samples: time [s], integrated state, and the energies accounted at events so far [J]; shape
         [n, 1 + n_y + 4].
     engine : Engine
         The engine that integrated the run.
     floats, integers : array
         Events in the engine's buffers.
     sizes : tuple of int
-        Numbers of contacts, coordinates, velocities, and of all that is integrated.
+        Numbers of contacts, coordinates, velocities, and entries of the integrated state.
     earlier : Events or None
         Events of an earlier part of the run.
     """
@@ -71,7 +71,7 @@ class Track:
     time : array
         Times [s], shape [n].
     y : array
-        All that is integrated: coordinates, velocities, energies, inner states of laws; shape [n, n_y].
+        Integrated states: coordinates, velocities, energies, inner states of laws; shape [n, n_y].
     booked : array
         Energies accounted at events so far [J]: work of driven bodies, losses by restitution, friction and closing;
         shape [n, 4].
@@ -96,7 +96,10 @@ class Track:
 
 
 def row_of(state: State) -> Floats:
-    """A state as a sample; all of its energies count as accounted at events, except those that are only integrated."""
+    """Row of a state in the form of a sample, shape [1 + n_y + 4].
+
+    A state has only sums of the work of driven bodies and of the friction loss.  They count as accounted at events.
+    """
     account = state.energy
     integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work
     booked = account.driven_work, account.restitution_loss, account.friction_loss, account.closing_loss

@@ -41,7 +41,7 @@ class Solution:
     recorded : Recorded
         Samples and events as the engine recorded them.
     ending : EndSource
-        Reads :attr:`end` when it is first needed.  The engine makes it, as it makes the solution.
+        Source from which :attr:`end` is read when it is first needed.
     """
 
     system: System
@@ -49,7 +49,7 @@ class Solution:
     ending: EndSource
 
     def __reduce__(self) -> tuple[Callable[..., Solution], tuple[Any, ...]]:
-        """Copy the end, without the memory of the model from which it is read."""
+        """Pickle the end itself, without the memory of the model from which it is read."""
         return Solution, (self.system, self.recorded, self.end)
 
     @property
@@ -69,7 +69,7 @@ class Solution:
         return self.recorded.rows[:, first : first + len(self.state.u)]
 
     def of(self, body: Body | str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Samples of q and u of a body or its name, shapes [n, body.n_q] and [n, body.n_u]."""
+        """Samples of q and u of a body, given itself or by name; shapes [n, body.n_q] and [n, body.n_u]."""
         from nonsmooth.histories.request import numbers_of
 
         (number,) = numbers_of("Solution.of", self.system, ["body"], [body])["body"]
@@ -85,8 +85,8 @@ class Solution:
     def history(self, *names: str | Variable, times: ArrayLike | None = None, of: Parts | None = None) -> History:
         """Quantities over time: ``solution.history("gap", "normal_force")["gap"]`` is an array [n, n_contacts].
 
-        At the instant of an event it is the state after the last event there.  Between stored states, the engine
-        follows the flow from the one before, with the tolerances of the run.
+        At the time of an event, the values are those after the last event there.  Between stored states, the engine
+        integrates from the stored state before, with the tolerances of the run.
 
         Parameters
         ----------
@@ -124,7 +124,7 @@ class Solution:
 
     @property
     def message(self) -> str:
-        """Why the run ended, and what is suspect."""
+        """Why the run ended, and which check failed."""
         return self.end.message
 
     @property
@@ -155,7 +155,7 @@ class Solution:
     @functools.cached_property
     def end(self) -> End:
         """End of the run: state, counters, status and verdict of the engine."""
-        # reading the state takes as long as a run of some microseconds, and many runs of a study need samples only
+        # read on use: it takes as long as a run of some microseconds, and many studies need samples only
         return self.ending.read()
 
     @functools.cached_property
@@ -205,7 +205,7 @@ class Solution:
         return to_dataset(self)
 
     def __repr__(self) -> str:
-        """How it ended, how much it holds, and what the checks found."""
+        """Status, end time, message, numbers of samples and events, energy residual, and findings of the checks."""
         from nonsmooth.solution.checks import findings
 
         return (

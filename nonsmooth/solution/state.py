@@ -35,7 +35,8 @@ class Continuation:
     model : str
         Digest of the model that ran.
     difference : Difference
-        Content of the memory at a checkpoint a few steps before the end, which does not depend on the end time.
+        Difference between the memory at a checkpoint and the memory before any run.  The checkpoint is a few steps
+        before the end, where the content does not depend on the end time.
     n_known_events : int
         Number of events after the checkpoint. The continued run repeats them, and they are recorded already.
     """
@@ -48,36 +49,36 @@ class Continuation:
 @final
 @dataclass(frozen=True, eq=False)
 class State:
-    """State of a run at a time.
+    """State of a run at a time, from which a run continues or starts.
 
-    A state that a run left goes on as if that run had not stopped, on the same model.  One that was made otherwise,
-    also by :func:`dataclasses.replace`, and any on a model with other numbers, is a start: what touches is found anew,
-    and so is the way of slip that an oriented law takes its contacts to face: from the slip where they slide, from the
-    force that the first instant solves for where they stick.
+    A state that a run left continues that run on the same model, as if it had not stopped.  Any other state starts a
+    run: a state made by :meth:`at` or changed by :func:`dataclasses.replace`, and any state on a model with other
+    numbers.  A start finds the contacts that touch anew, and the side from which anisotropic friction is opposed: from
+    the slip of sliding contacts, from the force of the first instant of sticking contacts.
 
     Attributes
     ----------
     time : float
-        [s].
+        Time [s].
     q, u : array
         Coordinates and velocities of all bodies, shapes [n_q] and [n_u].
     modes : array
-        Of every contact, 0 open, 1 stick, 2 slide, shape [n_contacts].  Those that are not open stay closed, whatever
-        is left of their gaps, unless they separate.
+        Mode of every contact, 0 open, 1 stick, 2 slide, shape [n_contacts].  A closed contact stays closed until it
+        separates, even if its gap is not zero.
     slip_directions : array
         Unit vectors in the tangent planes, shape [n_contacts, 2].
     closing_rates : array
-        Rates at which compliant contacts closed last [m/s], shape [n_contacts].
+        Approach speed at which each compliant contact closed last [m/s], shape [n_contacts].
     features : array
-        What a search for features left in its contacts, zero where that is nothing, shape [n_contacts, 3].
+        Features in contact, for contacts that search for them, else zero; shape [n_contacts, 3].
     law_states : array
         Inner states of friction and traction laws, contact by contact, shape [n_states].
     guards_spent : array
-        1 for a guard that has fired here and is not to fire again at once, shape [n_guards].
+        1 for a guard that fired at this time and must not fire again at once, shape [n_guards].
     energy : EnergyAccount
-        The account up to here, which goes on with the run; a start begins a new one.
+        Energy account up to this time.  A run that continues adds to it; a start begins a new account.
     continuation : Continuation or None
-        What makes a run go on as if it had not stopped.
+        Data that continue the run as if it had not stopped; None for a start.
     """
 
     time: float
@@ -90,11 +91,11 @@ class State:
     law_states: Floats
     guards_spent: Integers
     energy: EnergyAccount
-    # no argument: whatever is replaced in a state, this does not belong to the new one
+    # no argument of the constructor, so that a state changed by dataclasses.replace has none
     continuation: Continuation | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
-        # what goes on with a run is not changed by changing the arrays here
+        # read-only, because a change of these arrays would not change the run that continues
         for name in _ARRAYS:
             value = np.array(getattr(self, name))
             value.flags.writeable = False
@@ -102,21 +103,21 @@ class State:
 
     @classmethod
     def at(cls, system: System, time: float = 0.0, q: ArrayLike | None = None, u: ArrayLike | None = None) -> State:
-        """Start with no contact closed yet: those that touch close in the first instant of the run.
+        """State for a start, with all contacts open; contacts that touch close in the first instant of the run.
 
         Parameters
         ----------
         system : System
             The system.
         time : float
-            [s].
+            Time [s].
         q, u : array, optional
             Coordinates and velocities of all bodies, in the order of the system; by default as they were placed.
 
         Raises
         ------
         InvalidInput
-            If it is no system, or a number is none.
+            `system` is not a System, the time is not finite, or `q` or `u` is not an array of numbers.
         """
         check_kind("State.at: system", system, System, "Make it by nonsmooth.System([...]).")
         if not is_finite(time):
@@ -145,7 +146,7 @@ class State:
         return f"State(t = {self.time:.9g} s: {size})"
 
     def with_continuation(self, continuation: Continuation) -> State:
-        """Same state, from which the run goes on; for the engine that left it."""
+        """Set the data that continue the run, and return this state; called before the state is used elsewhere."""
         object.__setattr__(self, "continuation", continuation)
         return self
 

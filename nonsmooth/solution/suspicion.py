@@ -13,14 +13,14 @@ from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
-"""Largest sum of residuals of steps and impacts that tolerances explain, in tolerances; or one for each step."""
+"""Residual of the energy account that tolerances explain in any run, relative to the tolerance of a step."""
 _MOST = 1e-3
-"""Part of the energy exchanged by which no account may be open, however many steps there were."""
+"""Largest unexplained energy of a run of any number of steps, relative to the energy exchanged."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
 _OF_IMPACTS = 0.1
-"""Part of the tolerance of impacts that adds up like that of steps."""
+"""Part of the tolerance of impacts that counts as the tolerance of a step."""
 _ROUND_OFF = 1e-12
-"""Part of the potential energy that its difference does not tell from none."""
+"""Round-off in a difference of potential energies, relative to the potential energy."""
 
 
 def suspicions(
@@ -37,16 +37,34 @@ def suspicions(
     floor: float,
     span: Callable[[], str],
 ) -> str:
-    """Sentence about the check that a run fails, "" if it passes all.
+    """Sentences about the checks that a run fails, with a remedy; "" if it passes all.
 
-    ``engine`` is what integrated it; what it promises takes the place of what tolerances explain.
-    ``worst_event`` has time [s], energy [J] and share of what is explained, ``jump`` time [s] of the last spring that
-    began inside of a body and the energy [J] that springs gained so; ``rubbed`` is what friction brought in where no
-    law stores it [J]; ``bodies`` are those of the system by name;
-    ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number; ``scale`` is
-    the kinetic energy of velocities as large as their scales [J], ``floor`` an energy of which the bodies exchange a
-    part where they hardly move, as weight times size [J].  ``span`` returns a sentence on when an open account of the
-    run came about.
+    Parameters
+    ----------
+    engine : Engine
+        Engine of the run.  If it promises a residual, the account is compared with that, else with the tolerances.
+    worst_event : tuple of float
+        Event with the largest residual: time [s], residual [J], and its ratio to the residual that tolerances explain.
+    jump : tuple of float
+        Last time at which a spring began inside of a body [s], and the energy that springs gained by that [J].
+    rubbed : float
+        Energy that friction added [J]; 0 if a law of the system can store energy.
+    energy : EnergyAccount
+        Energy account of the run.
+    bodies : mapping of str to Body
+        Bodies of the system by name.
+    samples : tuple of array
+        Times [s] and coordinates of the samples.
+    tolerances : tuple of float
+        Relative tolerances of a step and of an impact.
+    steps : int
+        Number of steps.
+    scale : float
+        Kinetic energy of velocities as large as their scales [J].
+    floor : float
+        Weight times size of the bodies [J].  A residual is compared with it if bodies hardly move.
+    span : callable
+        Returns a sentence about the time in which the energy account became open.
     """
     promised, name = engine.promised_residual, type(engine).__name__
     if promised is None:
@@ -57,7 +75,7 @@ def suspicions(
     given = pushed(rubbed, energy, floor)
     found = open_event(*worst_event), account, given, long_quaternion(bodies, *samples, off)
     said = "; ".join(filter(None, (jumped(*jump, energy, floor), *found)))
-    # what springs gain in jumps names a remedy of its own
+    # the sentence about jumps has its own remedy
     more = span() if account else "", remedy if any(found) else ""
     return " ".join(filter(None, (f"{said}.", *more))) if said else ""
 
@@ -69,9 +87,9 @@ def _remedy_of(engine: Engine) -> str:
 
 
 def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: float = 0.0) -> str:
-    """Sentence about the energy account of a run by an engine that promises a residual, "" if it is closed.
+    """Sentence about an energy account that breaks the promise of the engine, "" if the promise is kept.
 
-    The residual counts in parts of what is exchanged, or of ``floor`` [J] where that is more.
+    ``promised`` is the largest residual relative to the scale of the account, or to ``floor`` [J] if that is larger.
     """
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
     if energy.unexplained <= promised * max(energy.scale, floor) + _ROUND_OFF * potential:
@@ -83,7 +101,7 @@ def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: flo
 
 
 def open_event(time: float, energy: float, share: float) -> str:
-    """Sentence about the event with the largest residual: ``share`` of the residual that tolerances explain, or ""."""
+    """Sentence about the event with the largest residual, "" if tolerances explain it: ``share`` is at most 1."""
     if share <= 1.0:
         return ""
     return (
@@ -93,7 +111,7 @@ def open_event(time: float, energy: float, share: float) -> str:
 
 
 def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
-    """Sentence about springs that began inside of bodies and gained an energy [J], or ""."""
+    """Sentence about springs that began inside of bodies and so gained an energy [J], "" if it is negligible."""
     if gained <= _MOST * max(energy.scale, floor):
         return ""
     return (
@@ -103,7 +121,7 @@ def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0
 
 
 def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
-    """Sentence about friction that added an energy [J], or ""."""
+    """Sentence about friction that added an energy [J], "" if it is negligible."""
     if gained <= _MOST * max(energy.scale, floor):
         return ""
     return (
@@ -112,11 +130,11 @@ def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
 
 
 def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0, floor: float = 0.0) -> str:
-    """Sentence about the energy account of a run of a number of steps of a relative tolerance, or "".
+    """Sentence about an energy account that is open by more than the tolerances explain, else "".
 
-    Of slow motion the tolerance is a part of the scale of velocities, which have the kinetic energy ``scale`` [J].  In
-    all no more is explained than a thousandth of what is exchanged, or of ``floor`` [J] where that is more; an engine
-    with larger tolerances promises less, a thousand of them.
+    A step may add one relative tolerance to the residual; any run may have a thousand.  In slow motion, tolerances are
+    relative to the scale of velocities, which has the kinetic energy ``scale`` [J].  At most a thousandth of the scale
+    of the account is explained, or of ``floor`` [J] if that is larger; at tolerances above 1e-6, a thousand tolerances.
     """
     slow = steps * tolerance * math.sqrt(energy.scale * scale)
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
@@ -134,7 +152,7 @@ def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float =
 def long_quaternion(
     bodies: Mapping[str, Body], t: NDArray[np.float64], q: NDArray[np.float64], explained: float
 ) -> str:
-    """Sentence about the quaternion whose length differs most from 1 at the samples, "" if round-off explains it."""
+    """Sentence about the quaternion whose length differs most from 1 at the samples, "" if by ``explained`` at most."""
     most, found, first = explained, "", 0
     for name, body in bodies.items():
         if body.quaternion >= 0 and len(t) > 0:

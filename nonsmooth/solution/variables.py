@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 GROWING = ("time", "event", "listing")
-"""Dimensions along which results grow: samples, events, and the contacts listed with them one after another."""
+"""Dimensions along which results grow: samples, events, and the contacts listed with events, one after another."""
 _ACCOUNT = {
     "units": "J",
     "long_name": "energies since the start",
@@ -91,7 +91,7 @@ def of_system(system: System) -> list[LabelledArray]:
 
 
 def of_memory() -> list[LabelledArray]:
-    """Names and units of the state that a contact keeps."""
+    """Names and units of the columns of ``Events.listed_memory``, as labelled arrays."""
     names, units = zip(*_MEMORY, strict=True)
     return [
         _words("of_memory", "of_memory", names, "state that a contact keeps"),
@@ -113,7 +113,7 @@ SAMPLES = tuple(name for name, *_ in _SAMPLES)
 
 
 def of_samples(*values: Floats) -> list[LabelledArray]:
-    """Samples: the first arrays of :data:`SAMPLES`, with these values."""
+    """Labelled arrays of the samples from values in the order of :data:`SAMPLES`, of which the last may be missing."""
     return [LabelledArray(name, over, array, more) for (name, over, more), array in zip(_SAMPLES, values, strict=False)]
 
 
@@ -131,7 +131,7 @@ class _StoredArray:
     attributes : mapping
         Description, unit and other attributes.
     values : callable
-        Takes events to the array.
+        Function that computes the array from events.
     column : str
         Column of the events that it holds, "" if it holds a part or a function of a column.
     kind : type
@@ -160,7 +160,7 @@ def _column(
 
 
 def _mode(name: str, shift: int) -> _StoredArray:
-    """Row of the modes of the contacts listed with events, whose bits ``Events.codes`` has."""
+    """Row of the mode bits of the contacts listed with events, a part of ``Events.codes``."""
     attributes = {**described(f"mode of the contact {name.removeprefix('mode_')} the event", "1"), **_MODE}
     return _StoredArray(name, ("listing",), attributes, lambda events: events.codes >> shift & CODE, kind=np.uint8)
 
@@ -184,7 +184,7 @@ _EVENTS = (
     *(_mode(name, shift) for name, shift in _SHIFTS.items()),
     _column("impulse", "listing direction", "listed_impulse", "impulse of the contact in the event", "N s"),
 )
-"""Arrays of events.  The contacts listed with them are a contiguous ragged array: ``event_size`` of each event."""
+"""Arrays of events.  The contacts listed with them are a ragged array: event i has ``event_size[i]`` rows of it."""
 _CONTINUED = (
     _StoredArray("event_account", ("event", "of_account"), _ACCOUNT, lambda events: events.integrated[:, :N_ACCOUNTS]),
     _StoredArray(
@@ -195,7 +195,7 @@ _CONTINUED = (
         "listed_memory", "listing of_memory", "listed_memory", "state that a contact keeps, see of_memory_units", ""
     ),
 )
-"""Arrays of events that only a run which is continued needs."""
+"""Further arrays of events, which are needed only to continue a run."""
 _OF_COLUMN = {row.column: row for row in (*_EVENTS, *_CONTINUED) if row.column}
 
 
@@ -210,7 +210,7 @@ def of_all_of_events(events: Events) -> list[LabelledArray]:
 
 
 def stored_events(read: ReadRows, n: int, n_contacts: int) -> Events:
-    """Events out of their stored arrays; each column is read when it is needed.
+    """Events from their stored arrays; each column is read when it is needed.
 
     Parameters
     ----------

@@ -1,19 +1,19 @@
-"""ArrayFolder: arrays in a folder in the Zarr 3 format, written so that a commit is there as a whole or not at all.
+"""Arrays in a folder in the Zarr 3 format, written so that a commit takes effect as a whole or not at all.
 
-What is committed survives the death of the process and, if the commit was a safe one, a power cut:
+A commit survives the death of the process and, if it is a safe one, a power cut:
 
-1. New chunks and other files are written, and waited for until they are on the disk.  A chunk that replaces an earlier
-   one, as the last chunk of an array that has grown, is written beside it and then takes its name.
-2. The folders in which a file got its name are waited for.
-3. One more file is written in the same way, which makes all of that count: the metadata of the group, with the lengths
+1. New chunks and other files are written and synced to the disk.  A chunk that replaces an earlier one, such as the
+   last chunk of an array that has grown, is written under another name and then renamed.
+2. The folders of these files are synced.
+3. One more file is written in the same way, which makes the commit valid: the metadata of the group, with the lengths
    of all arrays, or the chunk of a study's status.
 
-So a process that dies leaves files that do not count: a whole chunk beyond the length of its array, or a part of one
-under its final name.  They are ignored by readers and written anew.  Nothing that an earlier commit needs changes: a
-new last chunk begins with the rows of the earlier one.  A commit that is not safe does not wait for the disk.
+A process that dies before step 3 leaves files that readers ignore and that the next commit replaces: a chunk beyond the
+length of its array, or a part of it.  The earlier commit stays valid, because a new last chunk begins with the rows of
+the earlier one.  A commit that is not safe does not sync.
 
-Each chunk has a checksum (CRC32C), and so have the metadata (CRC-32, the attribute "checksum"), so that a bit that
-changes on the disk is noticed before anything is done with it.
+Each chunk has a checksum (CRC32C), and so has the metadata (CRC-32, the attribute "checksum").  A bit that changes on
+the disk is therefore noticed before the content is used.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ from nonsmooth.storage.files import FileError, content_of, part_of, sync, writin
 from nonsmooth.storage.lock import WRITER
 
 FORMAT_VERSION = 1
-"""Version of the format of a folder.  nonsmooth 0.1 wrote none."""
+"""Version of the format of a folder.  Folders of nonsmooth 0.1 have none."""
 _GROUP = "zarr.json"
 _ENTRIES = 2**14
-"""Numbers of a chunk of an array that grows: its last chunk is written anew with every commit."""
+"""Numbers in a chunk of an array that grows; small, because every commit writes the last chunk anew."""
 _AT_ONCE = 16
-"""Files for which the disk is waited for at once."""
+"""Number of files that are synced to the disk at the same time, which takes about as long as one file."""
 _NAME = re.compile(r"[^\s./\\][^/\\]*")
 _DAMAGED = "It is damaged: take it from a copy, or run again."
 
@@ -57,7 +57,7 @@ class ArrayFolder:
     path : Path
         The folder.
     attributes : dict
-        Attributes of the group, as JSON has them.  Changes become those of the folder with the next commit.
+        Attributes of the group, values of JSON.  Changes are written with the next commit.
     """
 
     def __init__(self, path: Path, attributes: dict[str, Any]) -> None:
@@ -67,12 +67,14 @@ class ArrayFolder:
 
     @classmethod
     def opened(cls, path: Path, rule: str, remedy: str) -> ArrayFolder:
-        """Open a folder as its last commit left it; ``rule`` and ``remedy`` are those of a folder of something else.
+        """Open a folder as its last commit left it.
+
+        ``rule`` and ``remedy`` are parts of the message about a folder with other content.
 
         Raises
         ------
         InvalidInput
-            If there is none, another version wrote it, or it is damaged.
+            There is no folder of arrays, another version wrote it, or it is damaged.
         """
         try:
             content = json.loads(content_of(path / _GROUP))
@@ -85,7 +87,7 @@ class ArrayFolder:
             attributes = dict(content["attributes"])
             checksum, version = attributes.pop("checksum", None), attributes.pop("format_version", None)
             if checksum != _checksum(content):
-                # versions before and after this one may have none, or another one
+                # other versions may have another checksum, or no checksum
                 _check_version(path, version if isinstance(version, int) else 0)
                 raise ValueError("the checksum is not that of what was written")
             _check_version(path, version)
@@ -109,7 +111,7 @@ class ArrayFolder:
         Raises
         ------
         InvalidInput
-            If there is no array of that name.
+            There is no array of that name.
         """
         if name not in self._arrays:
             raise InvalidInput(f"{self.path}: {name}", "must be there", None, _DAMAGED)
@@ -121,7 +123,7 @@ class ArrayFolder:
         Raises
         ------
         InvalidInput
-            If its name cannot be that of a folder.
+            The name cannot be the name of a folder.
         """
         self._arrays[_checked(name)] = layout
 
@@ -130,12 +132,12 @@ class ArrayFolder:
     ) -> None:
         """Add an array with values, or replace the array of that name.
 
-        An array that grows has chunks of a fixed number of rows; another one has a single chunk.
+        An array that grows has chunks of a fixed number of rows; other arrays have a single chunk.
 
         Raises
         ------
         InvalidInput
-            If its name cannot be that of a folder.
+            The name cannot be the name of a folder.
         """
         values = np.asarray(values)
         is_text = values.dtype.kind == "U"
@@ -147,9 +149,9 @@ class ArrayFolder:
         self.write(name, 0, values)
 
     def write(self, name: str, start: int, rows: NDArray[Any]) -> None:
-        """Put rows into an array from row ``start`` on; they count with the next commit.
+        """Write rows into an array from row ``start`` on; they take effect with the next commit.
 
-        They are whole chunks or the last rows of the array.
+        The rows must end at the end of a chunk, or be the last rows of the array.
         """
         layout = self.layout(name)
         if not layout.shape:
@@ -161,19 +163,19 @@ class ArrayFolder:
             low, high = max(start, first), min(end, first + layout.chunk)
             content = rows[low - start : high - start]
             if len(content) < layout.chunk:
-                # an earlier commit wrote the rows of the chunk before these
+                # the chunk begins with rows that were written earlier
                 content = self.chunk(name, number) if low > first else layout.blank()
                 content[low - first : high - first] = rows[low - start : high - start]
             self._waiting[self._place(name, number)] = layout.encoded(content.astype(layout.numbers, copy=False))
         self._arrays[name] = replace(layout, shape=(max(end, *layout.shape[:1]), *rows.shape[1:]))
 
     def read(self, name: str, start: int = 0, stop: int | None = None) -> NDArray[Any]:
-        """Rows of an array that is written, all by default.
+        """Rows from ``start`` to ``stop`` of an array, by default all.
 
         Raises
         ------
         InvalidInput
-            If there is no such array, or a chunk is not there or damaged.
+            There is no such array, or a chunk is missing or damaged.
         """
         layout = self.layout(name)
         if not layout.shape:
@@ -191,7 +193,7 @@ class ArrayFolder:
         Raises
         ------
         InvalidInput
-            If it is not there or damaged.
+            The chunk is missing or damaged.
         """
         layout, path = self.layout(name), self._place(name, number)
         try:
@@ -210,7 +212,7 @@ class ArrayFolder:
                 self._arrays[name] = replace(one, shape=(min(length, one.shape[0]), *one.shape[1:]))
 
     def remove(self, name: str) -> None:
-        """Remove an array; its files go at once.  A name of no array removes nothing."""
+        """Remove an array and, at once, its files; do nothing if there is no array of that name."""
         if self._arrays.pop(name, None) is not None:
             shutil.rmtree(self.path / name, ignore_errors=True)
 
@@ -219,33 +221,33 @@ class ArrayFolder:
         self._waiting[self.path / name] = content
 
     def commit(self, *, safely: bool) -> None:
-        """Make all that was written since the last commit count; ``safely`` waits for the disk.
+        """Commit all that was written since the last commit; with ``safely``, wait until it is on the disk.
 
         Raises
         ------
         FileError
-            If that is not possible; then the last commit counts.
+            Writing fails; the last commit then stays valid.
         """
         self.flush(safely)
         self.file(_GROUP, self._group())
         self.flush(safely, counts=True)
 
     def mark(self) -> None:
-        """Note at once that nonsmooth has made the folder, so that it may be emptied even before the first commit.
+        """Mark the folder at once as made by nonsmooth, so that it may be emptied even before the first commit.
 
         Raises
         ------
         FileError
-            If that is not possible.
+            The mark cannot be written.
         """
         self.file(f"{WRITER}/{_GROUP}", _MARK)
         self.flush(safely=False)
 
     def flush(self, safely: bool, *, counts: bool = False) -> None:
-        """Write the files that were put since the last time; errors as :meth:`commit`.
+        """Write the files that wait since the last call; errors as :meth:`commit`.
 
-        If a file makes others count, or replaces one that counts, it is written beside its place first.  Any other
-        gets its name at once, because to rename a file makes the system wait for the disk.
+        A file that makes a commit valid (``counts``), or replaces another, is written under another name and renamed.
+        Other files get their name at once, because a rename makes the system wait for the disk.
         """
         files, self._waiting = self._waiting, {}
         parts = {path: part_of(path) if counts or path.exists() else path for path in files}
@@ -268,11 +270,11 @@ class ArrayFolder:
             raise
 
     def _sync(self, paths: Iterable[Path]) -> None:
-        """Wait until files or folders are on the disk, for several at once, which takes about as long as one."""
+        """Wait until files or folders are on the disk; several at once take about as long as one."""
         try:
             with ThreadPoolExecutor(_AT_ONCE) as pool:
                 list(pool.map(sync, paths))
-        except RuntimeError as error:  # no thread can be started, as if memory has run out
+        except RuntimeError as error:  # no thread can be started, for example if memory has run out
             raise FileError(self.path, OSError(errno.EAGAIN, f"{error}")) from error
 
     def _group(self) -> bytes:
@@ -288,12 +290,12 @@ class ArrayFolder:
         return _json({**content, "attributes": {**attributes, "checksum": _checksum(content)}})
 
     def spell_out(self, names: Iterable[str]) -> None:
-        """Write the metadata of some arrays by themselves as well, for readers that look there.
+        """Write the metadata of some arrays into their own folders too, for readers that do not use those of the group.
 
         Raises
         ------
         FileError
-            If that is not possible.
+            The metadata cannot be written.
         """
         for name in names:
             self.file(f"{name}/{_GROUP}", _json(self._arrays[name].metadata()))
@@ -305,11 +307,11 @@ def _json(content: Mapping[str, Any]) -> bytes:
 
 
 _MARK = _json({"zarr_format": 3, "node_type": "group", "attributes": {"title": "lock and states of nonsmooth"}})
-"""Metadata of the folder of the writer, by which a folder is known as one that nonsmooth has made."""
+"""Metadata of the folder of the writer; their presence shows that nonsmooth made the folder of arrays."""
 
 
 def is_marked(path: Path) -> bool:
-    """True if nonsmooth has made a folder of arrays."""
+    """True if a folder has the mark that nonsmooth made it."""
     try:
         return content_of(path / WRITER / _GROUP) == _MARK
     except OSError:
@@ -317,12 +319,12 @@ def is_marked(path: Path) -> bool:
 
 
 def _checked(name: str) -> str:
-    """Name of an array, which is that of its folder.
+    """Check the name of an array, which its folder gets too, and return it.
 
     Raises
     ------
     InvalidInput
-        If it cannot be that of a folder, or is that of the writer's own folder.
+        The name cannot be the name of a folder, or it is the name of the folder of the writer.
     """
     if not _NAME.fullmatch(name) or name == WRITER:
         rule = "must have a name that a folder can have, of letters, digits and underscores"
@@ -331,7 +333,7 @@ def _checked(name: str) -> str:
 
 
 def _check_version(path: Path, version: int) -> None:
-    """Raise InvalidInput if another version of nonsmooth wrote the folder; 0 is that of nonsmooth 0.1."""
+    """Raise InvalidInput if another version of nonsmooth wrote the folder; 0 means nonsmooth 0.1."""
     if version == FORMAT_VERSION:
         return
     if version > FORMAT_VERSION:

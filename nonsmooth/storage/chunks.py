@@ -1,7 +1,7 @@
 """Arrays as Zarr 3 describes them, and their chunks: Blosc with LZ4, or text, then a CRC32C checksum.
 
-zarr reads what is written here.  It does not write it, because it takes half a millisecond of asyncio for each chunk
-and each array, ten times as long as the codecs, and twice a second there are forty of them.  The codecs are those that
+The package zarr reads these files, but does not write them here: it needs half a millisecond of asyncio for each chunk
+and each array, ten times as long as the codecs.  A run writes forty chunks twice a second.  The codecs are those that
 zarr itself calls.
 """
 
@@ -20,7 +20,7 @@ _LEVEL, _SHUFFLE = 5, 1
 _CHECKSUM = 4
 """Size of a CRC32C [bytes]."""
 _SIZE, _LENGTH = slice(4, 8), slice(12, 16)
-"""Where the header of Blosc has the sizes of a chunk unpacked and packed [bytes]."""
+"""Parts of the header of Blosc with the sizes of a chunk, unpacked and packed [bytes]."""
 TEXT = "string"
 """Type of an array of texts of any length."""
 
@@ -39,9 +39,9 @@ class ArrayLayout:
     shape : tuple of int
         Lengths of the axes.
     chunk : int
-        Rows of a chunk, which are indices of the first axis.
+        Number of rows of a chunk, along the first axis.
     fill : float or str
-        Value of the chunks that are not there.
+        Value of entries that were never written.
     attributes : mapping
         Unit and description.
     """
@@ -55,12 +55,12 @@ class ArrayLayout:
 
     @classmethod
     def of(cls, metadata: Mapping[str, Any]) -> ArrayLayout:
-        """Layout that has these Zarr metadata.
+        """Layout of an array from its Zarr metadata.
 
         Raises
         ------
         ValueError, KeyError, TypeError, AttributeError
-            If they are not of an array that is written here.
+            The metadata are not of an array that this module can write.
         """
         fill, chunks = metadata["fill_value"], metadata["chunk_grid"]["configuration"]["chunk_shape"]
         found = cls(
@@ -77,7 +77,7 @@ class ArrayLayout:
         return found
 
     def metadata(self) -> dict[str, Any]:
-        """Zarr metadata of the array, as JSON has them."""
+        """Zarr metadata of the array, values of JSON."""
         if self.dtype == TEXT:
             codecs: list[dict[str, Any]] = [{"name": "vlen-utf8", "configuration": {}}]
         else:
@@ -128,12 +128,12 @@ class ArrayLayout:
         return content + checksum.to_bytes(_CHECKSUM, "little")
 
     def decoded(self, content: bytes) -> NDArray[Any]:
-        """Chunk of which these are the bytes.
+        """Chunk from its bytes.
 
         Raises
         ------
         ValueError
-            If they are damaged, or of another chunk.
+            The bytes are damaged, or of another chunk.
         """
         import google_crc32c
         from numcodecs.blosc import Blosc
@@ -144,7 +144,7 @@ class ArrayLayout:
             raise ValueError("the checksum is not that of what was written")
         if self.dtype == TEXT:
             return np.asarray(VLenUTF8().decode(packed)).reshape(shape)
-        # checked before it is unpacked: a few bytes may become all of the memory, and Blosc reads as many as they say
+        # Blosc trusts the sizes in the header: wrong ones could fill the memory, or make it read beyond the content
         found = tuple(int.from_bytes(packed[part], "little") for part in (_SIZE, _LENGTH))
         if found != (size := math.prod(shape) * self.numbers.itemsize, len(packed)):
             raise ValueError(f"it has {found[0]} bytes packed to {found[1]}, and not {size} packed to {len(packed)}")

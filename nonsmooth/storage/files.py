@@ -39,7 +39,7 @@ def writing(path: Path) -> Iterator[None]:
     Raises
     ------
     FileError
-        If a file cannot be written.
+        The file cannot be written.
     """
     try:
         yield
@@ -50,12 +50,12 @@ def writing(path: Path) -> Iterator[None]:
 
 
 def prepare(folder: Path) -> None:
-    """Create a folder and try to write into it, so that a wrong path is found before a run and not after it.
+    """Create a folder and try to write into it, so that a wrong path is found before the run.
 
     Raises
     ------
     InvalidInput
-        If the folder cannot be created or written to.
+        The folder cannot be created or written to.
     """
     try:
         if folder.exists() and not folder.is_dir():
@@ -74,7 +74,7 @@ def content_of(path: Path) -> bytes:
     Raises
     ------
     OSError
-        If it cannot be read, or is a pipe or a device, whose content has no end.
+        The file cannot be read, or it is a pipe or a device, whose content has no end.
     """
     mode = path.stat().st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
@@ -83,7 +83,7 @@ def content_of(path: Path) -> bytes:
 
 
 def part_of(path: Path) -> Path:
-    """Path beside a file or folder to which its new content is written; a link there is removed."""
+    """Temporary path next to a file or folder, for its new content; a link at that path is removed."""
     part = path.with_name(f".{path.name}.part")
     if part.is_symlink():
         part.unlink()
@@ -96,9 +96,9 @@ def sync(path: Path) -> None:
     Raises
     ------
     FileError
-        If they cannot be written.
+        The content or the names cannot be written.
     """
-    if path.is_dir() and os.name != "posix":  # elsewhere a folder cannot be opened
+    if path.is_dir() and os.name != "posix":  # only POSIX systems can open a folder
         return
     with writing(path):
         file = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
@@ -110,14 +110,14 @@ def sync(path: Path) -> None:
 
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Path to write a file or a folder to; it becomes ``path`` when all of it is on the disk.
+    """Temporary path for a file or a folder, which is renamed to ``path`` when all of its content is on the disk.
 
-    Until then an older file or folder of that name stays as it was, however the process ends.
+    Until then an older file or folder of that name is unchanged, however the process ends.
 
     Raises
     ------
     FileError
-        If writing fails, or a folder has the name of the file.
+        Writing fails, or a folder has the name of the file.
     """
     with writing(path):
         part = part_of(path)

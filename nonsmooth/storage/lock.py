@@ -1,4 +1,4 @@
-"""A folder has one writer at a time, who writes to nothing outside of it."""
+"""Locks of folders: a folder has one writer at a time, and links to other places are refused."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ if TYPE_CHECKING:
     from filelock import BaseFileLock
 
 WRITER = "writer"
-"""Name of the folder for files of the process that writes: the lock, and the states from which a run is resumed."""
+"""Name of the folder for files of the writing process: the lock, and the states from which a run is resumed."""
 LOCK = f"{WRITER}/.lock"
-"""File by which a folder is locked. It stays; the lock ends with the process that holds it."""
+"""Lock file of a folder. It is never removed; the lock ends with the process that owns it."""
 
 
 def locked(folder: Path) -> BaseFileLock:
-    """Lock of a folder, which is made if it is not there; ``release()`` returns it.
+    """Lock a folder, which is created if it is missing; ``release()`` of the result unlocks it.
 
     Raises
     ------
     InvalidInput
-        If another run writes there, or a link has the name of the lock.
+        Another run writes to the folder, or the lock file is a link.
     FileError
-        If the folder cannot be written to.
+        The folder cannot be written to.
     """
     # imported on use: most runs write no folder
     from filelock import FileLock, Timeout
 
-    # a thread other than the one that took the lock may return it
+    # another thread than the one that acquired the lock may release it
     lock = FileLock(folder / LOCK, blocking=False, thread_local=False)
     try:
         (folder / LOCK).parent.mkdir(parents=True, exist_ok=True)
@@ -53,7 +53,7 @@ def check_no_links(folder: Path) -> None:
     Raises
     ------
     InvalidInput
-        If the folder is a link, or holds one.
+        The folder is a link, or contains a link.
     """
     inside = (Path(place) / name for place, folders, files in os.walk(folder) for name in (*folders, *files))
     for path in (folder, *inside):
