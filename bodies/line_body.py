@@ -15,7 +15,7 @@ from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 from .blocks import places_behind_frame, pose_of, write_pose
-from .values import Word, check_carried, read_start, unit_quaternion, unit_vector, vector
+from .values import Word, check_carried, direction, read_start, unit_quaternion, vector
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
 _RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=1, n_u=1)
@@ -77,7 +77,7 @@ class LineBody(Body):
 
     def _check(self) -> None:
         values = {
-            "direction": unit_vector("LineBody.direction", self.direction),
+            "direction": direction("LineBody.direction", self.direction),
             "origin": vector("LineBody.origin", self.origin, 3, "m"),
             "orientation": unit_quaternion("LineBody.orientation", self.orientation),
         }

@@ -38,9 +38,9 @@ def vector(thing: str, value: Any, size: int, unit: str) -> Vector:
         raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{unit}].") from None
 
 
-def unit_vector(thing: str, value: Any) -> Vector:
-    """Return ``value`` as three floats of unit length, normalised; raise InvalidInput if they are not."""
-    return np.array(vectors.unit_vector(thing, value))
+def direction(thing: str, value: Any) -> Vector:
+    """Return the unit vector along ``value``, shape [3]; raise InvalidInput if it is zero or not three floats."""
+    return np.array(vectors.direction(thing, value))
 
 
 def unit_quaternion(thing: str, value: Any) -> Vector:

@@ -31,6 +31,10 @@ class InvalidInput(NonsmoothError, ValueError):
         self.thing, self.rule, self.value, self.remedy = thing, rule, value, remedy
         super().__init__(f"{thing} {rule}, but it is {_shortened(repr(value))}. {remedy}")
 
+    def within(self, place: str) -> InvalidInput:
+        """Error of the same kind that says where the thing is, such as a file and a key."""
+        return InvalidInput(f"{place}: {self.thing}", self.rule, self.value, self.remedy)
+
 
 class MissingArgument(InvalidInput):
     """An argument of a component that has no default and was not given.
@@ -46,6 +50,10 @@ class MissingArgument(InvalidInput):
     def __init__(self, thing: str, remedy: str) -> None:
         super().__init__(thing, "must be given", None, remedy)
         self.args = (f"{thing} must be given. {remedy}",)
+
+    def within(self, place: str) -> MissingArgument:
+        """Error that also says where the thing is."""
+        return MissingArgument(f"{place}: {self.thing}", self.remedy)
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -89,9 +97,14 @@ class UnknownName(InvalidInput):
             hint = f"Did you mean {near!r}? " if near else ""
         listing = _listed(known) if known else "none"
         super().__init__(kind, "must be a known one", name, f"{hint}Known: {listing}. {remedy}".rstrip())
+        self._known, self._other, self._remedy = known, other, remedy
         place, mark, what = kind.rpartition(": ")
         unknown = f"{place}{mark}unknown {what}" if place else f"Unknown {what}"
         self.args = (f"{unknown} {_shortened(repr(name))}. {self.remedy}",)
+
+    def within(self, place: str) -> UnknownName:
+        """Error that also says where the name is."""
+        return UnknownName(f"{place}: {self.thing}", str(self.value), self._known, self._other, self._remedy)
 
 
 _LETTERS = {
@@ -111,6 +124,9 @@ def _nearest(name: str, known: Sequence[str]) -> str:
     # imported for a message only: most programs never need it
     from difflib import get_close_matches
 
+    parts = [one for one in known if one.endswith(f".{name}")]
+    if parts:
+        return parts[0]
     lower = {one.lower(): one for one in known}
     found = get_close_matches(name.lower(), lower, n=1, cutoff=0.6)
     return lower[found[0]] if found else ""

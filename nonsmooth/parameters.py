@@ -98,7 +98,7 @@ def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
     """Error of a function with an argument that is not a parameter: most often a field not declared by `parameter`."""
     declared = f'{name}: float = parameter(0.2, doc="what it is")'
     remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
-    return UnknownName(f"{asking}: parameter", name, offered, remedy=remedy)
+    return UnknownName(f"{asking} asks for: parameter", name, offered, remedy=remedy)
 
 
 def check_number(thing: str, value: Any, rule: Rule) -> None:

@@ -32,37 +32,34 @@ def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[fl
     return numbers
 
 
-def unit_vector(thing: str, value: Sequence[float]) -> tuple[float, ...]:
-    """Direction of a vector: the vector divided by its length.
+def unit_vector(thing: str, value: Sequence[float], size: int = 3) -> tuple[float, ...]:
+    """Vector of unit length as a tuple of ``size`` floats, normalised to round-off.
 
     Raises
     ------
     InvalidInput
-        If it has another number of components than three, one that is not finite, or no length.
+        If the value does not have ``size`` finite components, or its length differs from 1 by more than 1e-9.
+    """
+    numbers = vector(thing, value, size, "1")
+    norm = math.sqrt(sum(x * x for x in numbers))
+    if abs(norm - 1.0) > _UNIT:
+        raise InvalidInput(thing, "must have unit length", list(numbers), f"Divide it by its length {norm:.6g}.")
+    # a vector that was normalised before is returned unchanged, to the last bit
+    return numbers if abs(norm - 1.0) <= _ROUND_OFF else tuple(x / norm for x in numbers)
+
+
+def direction(thing: str, value: Sequence[float]) -> tuple[float, ...]:
+    """Unit vector along a vector of any length, as a tuple of three floats.
+
+    Raises
+    ------
+    InvalidInput
+        If the value does not have three finite components, or all of them are zero.
     """
     numbers = vector(thing, value, 3, "1")
     norm = math.sqrt(sum(x * x for x in numbers))
     if norm == 0.0:
         raise InvalidInput(thing, "must have a direction", list(numbers), "Give a vector that is not zero.")
-    return _divided(numbers, norm)
-
-
-def unit_quaternion(thing: str, value: Sequence[float]) -> tuple[float, ...]:
-    """Unit quaternion, scalar first. Another length is refused: most often its components are in another order.
-
-    Raises
-    ------
-    InvalidInput
-        Unless it has four finite components and unit length.
-    """
-    numbers = vector(thing, value, 4, "1")
-    norm = math.sqrt(sum(x * x for x in numbers))
-    if abs(norm - 1.0) > _UNIT:
-        raise InvalidInput(thing, "must have unit length", list(numbers), f"Divide it by its length {norm:.6g}.")
-    return _divided(numbers, norm)
-
-
-def _divided(numbers: tuple[float, ...], norm: float) -> tuple[float, ...]:
     # a vector that was normalised before is returned unchanged, to the last bit
     return numbers if abs(norm - 1.0) <= _ROUND_OFF else tuple(x / norm for x in numbers)
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.vectors import unit_quaternion
+from nonsmooth.vectors import unit_vector
 
 from ..values import turned_back
 from .rows import AXES, JointRow, RowsJoint, on_planes, parallel_axes
@@ -30,7 +30,7 @@ class Fixed(RowsJoint):
     @property
     def rows(self) -> Sequence[JointRow]:
         """Rows that prevent all rotations and all translations."""
-        quaternion = unit_quaternion("Fixed.orientation", self.orientation)
+        quaternion = unit_vector("Fixed.orientation", self.orientation, 4)
         x, y, z = AXES
         turns = parallel_axes(AXES, [turned_back(quaternion, axis) for axis in AXES])
         return *turns, *on_planes(self.first, self.second, (y, z, x))

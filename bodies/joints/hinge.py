@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.vectors import perpendiculars, unit_vector
+from nonsmooth.vectors import direction, perpendiculars
 
 from .rows import JointRow, Point, RowsJoint, on_planes, right_angle
 
@@ -32,8 +32,8 @@ class Hinge(RowsJoint):
     @property
     def rows(self) -> Sequence[JointRow]:
         """Three translations and two rotations."""
-        axis = unit_vector("Hinge.axis", self.axis)
+        axis = direction("Hinge.axis", self.axis)
         sides = perpendiculars(axis)
-        other = axis if self.second_axis is None else unit_vector("Hinge.second_axis", self.second_axis)
+        other = axis if self.second_axis is None else direction("Hinge.second_axis", self.second_axis)
         turns = (right_angle(side, other) for side in sides)
         return *on_planes(self.first, self.second, (axis, *sides)), *turns

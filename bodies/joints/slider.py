@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.vectors import perpendiculars, unit_quaternion, unit_vector
+from nonsmooth.vectors import direction, perpendiculars, unit_vector
 
 from ..values import turned_back
 from .rows import JointRow, Point, RowsJoint, on_planes, parallel_axes
@@ -34,9 +34,9 @@ class Slider(RowsJoint):
     @property
     def rows(self) -> Sequence[JointRow]:
         """Rows that prevent all rotations and the two translations across the axis."""
-        axis = unit_vector("Slider.axis", self.axis)
+        axis = direction("Slider.axis", self.axis)
         sides = perpendiculars(axis)
-        quaternion = unit_quaternion("Slider.orientation", self.orientation)
+        quaternion = unit_vector("Slider.orientation", self.orientation, 4)
         axes = (axis, *sides)
         turns = parallel_axes(axes, [turned_back(quaternion, one) for one in axes])
         return *turns, *on_planes(self.first, self.second, sides)

@@ -13,7 +13,7 @@ from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 from ..blocks import pose_of, put
-from ..values import unit_quaternion, unit_vector, vector
+from ..values import direction, unit_quaternion, vector
 
 
 def _evaluate(
@@ -91,7 +91,7 @@ class ConstantVelocity(Motion):
         centre = self.position if self.centre is None else self.centre
         values = {
             "velocity": vector("ConstantVelocity.velocity", self.velocity, 3, "m/s"),
-            "axis": unit_vector("ConstantVelocity.axis", self.axis),
+            "axis": direction("ConstantVelocity.axis", self.axis),
             "position": vector("ConstantVelocity.position", self.position, 3, "m"),
             "orientation": unit_quaternion("ConstantVelocity.orientation", self.orientation),
             "centre": vector("ConstantVelocity.centre", centre, 3, "m"),

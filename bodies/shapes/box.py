@@ -13,7 +13,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import UNIT_PART, unit_quaternion
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from .placement import turned, with_axes
 from .polyhedron import Polyhedron
@@ -60,7 +60,7 @@ class Box(Polyhedron):
 
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
-        unit_quaternion("Box orientation", orientation)
+        unit_vector("Box orientation", orientation, 4)
         check_rounding("Box", (self.half_x, self.half_y, self.half_z), self.rounding)
 
     @property

@@ -10,7 +10,7 @@ import numpy as np
 
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import UNIT_PART, unit_quaternion
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from .drawing import arc, revolved
 from .placement import turned, with_axes
@@ -35,7 +35,7 @@ class Ellipsoid(SmoothShape):
 
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
-        unit_quaternion("Ellipsoid orientation", orientation)
+        unit_vector("Ellipsoid orientation", orientation, 4)
 
     @property
     def core(self) -> tuple[float, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import UNIT_PART, unit_quaternion
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from .drawing import solid_of
 from .placement import with_axes
@@ -56,7 +56,7 @@ class ConvexHull(Polyhedron):
 
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
-        unit_quaternion("ConvexHull orientation", orientation)
+        unit_vector("ConvexHull orientation", orientation, 4)
         object.__setattr__(self, "points", read_points("ConvexHull.points", self.points))
         assert self.core
 

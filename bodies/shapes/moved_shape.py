@@ -14,7 +14,7 @@ from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.rotations import rotation
-from nonsmooth.vectors import UNIT_PART, unit_quaternion
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from ..values import product
 from .egg import Egg
@@ -57,7 +57,7 @@ class MovedShape(SmoothShape):
                 "Other shapes are placed by their own numbers, such as Box(0.1, 0.1, 0.1, x=0.1).",
             )
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
-        unit_quaternion("MovedShape orientation", orientation)
+        unit_vector("MovedShape orientation", orientation, 4)
 
     @property
     def _axes(self) -> Vector:

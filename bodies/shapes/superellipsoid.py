@@ -13,7 +13,7 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import UNIT_PART, unit_quaternion
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from . import smooth
 from .smooth import SmoothShape
@@ -60,7 +60,7 @@ class Superellipsoid(SmoothShape):
 
     def _check(self) -> None:
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
-        unit_quaternion("Superellipsoid orientation", orientation)
+        unit_vector("Superellipsoid orientation", orientation, 4)
         along, across = self.exponent_along, self.exponent_across
         if along == 1.0 != across:
             raise InvalidInput(

@@ -13,7 +13,7 @@ from nonsmooth.interfaces import ConvexPart, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
-from nonsmooth.vectors import UNIT_PART, unit_quaternion
+from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from ..meshes.features import Features, features_of
 from ..meshes.mesh import Surface, check_surface_of
@@ -53,7 +53,7 @@ class TriangleMesh(Shape):
     def _check(self) -> None:
         check_surface_of("TriangleMesh", self.surface)
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
-        unit_quaternion("TriangleMesh orientation", orientation)
+        unit_vector("TriangleMesh orientation", orientation, 4)
 
     @property
     def _axes(self) -> Vector:

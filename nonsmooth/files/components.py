@@ -193,7 +193,7 @@ def naming(thing: str) -> Iterator[None]:
     try:
         yield
     except InvalidInput as error:
-        raise InvalidInput(f"{thing}: {error.thing}", error.rule, error.value, error.remedy) from error
+        raise error.within(thing) from error
 
 
 def _options(hint: Any) -> tuple[Any, ...]:

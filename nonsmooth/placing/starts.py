@@ -15,7 +15,7 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.placing.line import Line
 from nonsmooth.placing.probe import Probe
 from nonsmooth.system.system import System
-from nonsmooth.vectors import unit_vector
+from nonsmooth.vectors import direction
 
 _ROUND_OFF = 1e-9
 _SYSTEM = "Make it by nonsmooth.System([...])."
@@ -157,7 +157,7 @@ def turned_about(axis: Sequence[float], angle: float) -> tuple[float, float, flo
     InvalidInput
         If the axis is not a unit vector, or the angle is not finite.
     """
-    x, y, z = unit_vector("turned_about: axis", axis)
+    x, y, z = direction("turned_about: axis", axis)
     if not is_finite(angle):
         raise InvalidInput("turned_about: angle", "must be a finite number", angle, "Give it in [rad].")
     s = math.sin(0.5 * angle)

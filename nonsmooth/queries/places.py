@@ -14,7 +14,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.rotations import rotation
-from nonsmooth.vectors import unit_quaternion, vector
+from nonsmooth.vectors import unit_vector, vector
 
 HERE: Place = (np.zeros(3), np.eye(3))
 
@@ -41,7 +41,7 @@ def read_place(thing: str, pose: Any) -> Place:
             "For example (0.0, 0.0, 0.1) or ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0)), in [m].",
         )
     place = np.array(vector(f"{thing}: position", parts[0], 3, "m"))
-    return place, rotation(unit_quaternion(f"{thing}: quaternion", parts[1]))
+    return place, rotation(unit_vector(f"{thing}: quaternion", parts[1], 4))
 
 
 @final

@@ -70,7 +70,7 @@ class EngineDriver:
             status = self._engine.advance(self._call, self._memory, min(most_steps, left), pauses_before_end)
         except UnknownName as error:
             # the engine called an entry point that does not exist: the message shall name the engine
-            raise InvalidInput(f"{self._name}: {error.thing}", error.rule, error.value, error.remedy) from error
+            raise error.within(self._name) from error
         if status not in self._statuses:
             names = "DONE, PAUSED, STOPPED, a failure of nonsmooth.engine.memory.modes or a code of its causes"
             remedy = "Return PAUSED to be called again."

@@ -130,7 +130,7 @@ STARTS: list[tuple[dict[str, Any], tuple[str, ...]]] = [
     ({"orientation": (1.0, 0.1, 0.0, 0.0)}, ("orientation of Ball", "unit quaternion", "1.00499", "Divide it")),
     ({"orientation": (0.0, 0.0, 0.0, 0.0)}, ("orientation of Ball", "unit quaternion")),
     ({"orientation": (0.1, 0.2, 0.3)}, ("scalar first: (cos(angle / 2), axis * sin(angle / 2))", "turned_about")),
-    ({"velocty": (1.0, 0.0, 0.0)}, ("word of the start of Ball must be a known one", "Did you mean 'velocity'?")),
+    ({"velocty": (1.0, 0.0, 0.0)}, ("start of Ball: unknown keyword", "Did you mean 'velocity'?")),
 ]
 
 

@@ -245,8 +245,8 @@ def test_wrong_starts_and_wrong_joints() -> None:
         system.joint(Unilateral(), plate, ball)  # type: ignore[arg-type]
     with pytest.raises(ns.InvalidInput, match=r"frames must be below 1 for ball"):
         system.joint(BallJoint(), plate, ball, frames=(0, 1))
-    with pytest.raises(ns.InvalidInput, match=r"Hinge.axis must have unit length"):
-        Hinge(axis=(1.0, 1.0, 0.0))
+    with pytest.raises(ns.InvalidInput, match=r"Hinge.axis must have a direction"):
+        Hinge(axis=(0.0, 0.0, 0.0))
     with pytest.raises(ns.InvalidInput, match=r"BallJoint.first must be 3 finite numbers"):
         BallJoint(first=(0.0, math.nan, 0.0))
 

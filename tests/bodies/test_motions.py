@@ -318,7 +318,7 @@ BAD: list[tuple[Any, dict[str, Any], tuple[str, ...]]] = [
     (Rest, {"orientation": (1.0, 1.0, 0.0, 0.0)}, ("Rest.orientation", "unit quaternion", "1.41421")),
     (ConstantVelocity, {"velocity": 1.0}, ("ConstantVelocity.velocity", "3 finite numbers", "[m/s]")),
     (ConstantVelocity, {"rate": math.inf}, ("ConstantVelocity.rate", "finite", "rad/s")),
-    (ConstantVelocity, {"axis": (0.0, 0.0, 2.0)}, ("ConstantVelocity.axis", "unit length", "Divide it")),
+    (ConstantVelocity, {"axis": (0.0, 0.0, 0.0)}, ("ConstantVelocity.axis", "have a direction", "not zero")),
     (ConstantVelocity, {"centre": ("a", "b", "c")}, ("ConstantVelocity.centre", "3 finite numbers")),
     (DrivenBody, {"carried": (Rest(),)}, ("DrivenBody.carried", "shapes only")),
     (DrivenBody, {"motion": 3.0, "carried": (Plane(),)}, ("DrivenBody.motion", "must be a Motion", "3.0")),

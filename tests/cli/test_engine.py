@@ -23,7 +23,7 @@ def test_an_option_of_the_engine_is_that_of_the_run(call: Call) -> None:
 @pytest.mark.parametrize(
     ("word", "told"),
     [
-        ("event_drivn", "--engine must be a known one, but it is 'event_drivn'. Did you mean 'event_driven'?"),
+        ("event_drivn", "Unknown --engine 'event_drivn'. Did you mean 'event_driven'?"),
         ("event_driven,tolerence=1e-8", "Did you mean 'tolerance'"),
         ("event_driven,tolerance=2", "EventDriven.tolerance must be"),
         ("event_driven,tolerance", "must have the form ENGINE or ENGINE,NAME=VALUE"),

@@ -99,14 +99,14 @@ def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> 
 @pytest.mark.parametrize(
     ("word", "told"),
     [
-        ("friction={file}:Flt", "class of my_law.py must be a known one, but it is 'Flt'. Did you mean 'Flat'?"),
+        ("friction={file}:Flt", "unknown class of my_law.py 'Flt'. Did you mean 'Flat'?"),
         ("friction=no.py:Flat", "must name a file that exists, but it is 'no.py'."),
         ("friction={file}", "must name a class of the file"),
-        ("fricton={file}:Flat", "--law role must be a known one, but it is 'fricton'. Did you mean 'friction'?"),
-        ("friction=columb", "--law friction must be a known one, but it is 'columb'. Did you mean 'coulomb'?"),
+        ("fricton={file}:Flat", "Unknown --law role 'fricton'. Did you mean 'friction'?"),
+        ("friction=columb", "Unknown --law friction 'columb'. Did you mean 'coulomb'?"),
         (
             "friction=newton",
-            "--law friction must be a known one, but it is 'newton'. That is an impact law. Known: ",
+            "Unknown --law friction 'newton'. That is an impact law. Known: ",
         ),
         ("friction", "must have the form ROLE=LAW"),
         ("friction={file}:Flat,friction", "must have the form ROLE=LAW"),
@@ -115,7 +115,7 @@ def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> 
         ("friction=anisotropic,axis=1:b:0", "Anisotropic.axis must be numbers apart by colons, but it is '1:b:0'."),
         ("friction=anisotropic,along=1,across=1,axis=1:0", "Anisotropic.axis must be three finite numbers"),
         ("friction={file}:Flat,friction=-1", "Flat.friction must be >= 0 [1], but it is -1.0."),
-        ("friction={file}:Flat,frictio=1", "parameter of Flat must be a known one, but it is 'frictio'."),
+        ("friction={file}:Flat,frictio=1", "Unknown parameter of Flat 'frictio'."),
         ("friction={file}:Needy", "Needy.friction must be given, but it is None. Add friction=VALUE to --law"),
     ],
 )

@@ -54,7 +54,7 @@ def test_a_request_that_cannot_be_read_is_wrong(call: Call, words: tuple[str, ..
         (("figures", "tinny", "--out", "x"), "Did you mean 'tiny'"),
         (("show", "dumbell"), "Did you mean 'dumbbell'"),
         (("run", "dumbell"), "Did you mean 'dumbbell'? Known: "),
-        (("run", "plate"), "but it is 'plate'. That is a body. Known: "),
+        (("run", "plate"), "Unknown scenario 'plate'. That is a body. Known: "),
         (("run", "system.json"), "must end in .toml, .yaml, .yml, but it is 'system.json'. Scenario files are TOML or"),
         (("run", "system.toml"), "must be a file that can be read"),
         (("run", "scenario.py"), "must have the form file.py:Class, but it is 'scenario.py'"),

@@ -71,7 +71,7 @@ def test_a_class_is_shown_by_its_own_name(call: Call, word: str, name: str, line
 def test_what_is_neither_a_name_nor_a_class_is_told(call: Call) -> None:
     status, _, errors = call("show", "Hingge")
     assert status == 2
-    assert "component must be a known one, but it is 'Hingge'. Did you mean 'hinge'?" in errors
+    assert "Unknown component 'Hingge'. Did you mean 'hinge'?" in errors
 
 
 def test_what_has_no_parameters_says_so(call: Call) -> None:

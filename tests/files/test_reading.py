@@ -78,9 +78,9 @@ def test_a_file_says_what_python_says(path: Path) -> None:
         (
             "radius = 0.01",
             "radus = 0.01",
-            "bodies.ball: parameter of Ball NAME IS 'radus'.",
+            "bodies.ball: unknown parameter of Ball 'radus'.",
         ),
-        ('type = "ball"', 'type = "bal"', "bodies.ball.type: body NAME IS 'bal'."),
+        ('type = "ball"', 'type = "bal"', "bodies.ball.type: unknown body 'bal'."),
         ('type = "ball"', "", "bodies.ball.type must be a name, but it is"),
         (
             "slope = 0.1",
@@ -90,23 +90,23 @@ def test_a_file_says_what_python_says(path: Path) -> None:
         (
             '"rest"',
             '"rst"',
-            "bodies.floor.motion.type: motion NAME IS 'rst'. Did you mean 'rest'",
+            "bodies.floor.motion.type: unknown motion 'rst'. Did you mean 'rest'",
         ),
         (
             '"rubber"',
             '"ruber"',
-            "contacts[0].friction: law NAME IS 'ruber'. Did you mean 'rubber'",
+            "contacts[0].friction: unknown law 'ruber'. Did you mean 'rubber'",
         ),
-        ('"rubber"', '"newton"', "contacts[0].friction.type: law NAME IS 'newton'."),
+        ('"rubber"', '"newton"', "contacts[0].friction.type: unknown law 'newton'."),
         ("friction = 0.8", "friction = -0.8", "laws.rubber: Coulomb.friction must be >= 0 [1], but it is -0.8."),
         ('friction = "rubber"', "", "contacts[0].friction must be given, but it is None."),
-        ('"floor"]', '"flor"]', "contacts[0]: body NAME IS 'flor'. Did you mean 'floor'"),
+        ('"floor"]', '"flor"]', "contacts[0]: unknown body 'flor'. Did you mean 'floor'"),
         ('["ball", "floor"]', '["ball"]', "contacts[0].between must be a list of 2 names, but it is ['ball']."),
         ('["ball", "floor"]', '["ball", "ball"]', "contacts[0]: System.contact needs two different bodies"),
         (
             "[[contacts]]",
             "\n[[contacs]]",
-            ": key NAME IS 'contacs'. Did you mean 'contacts'",
+            ": unknown key 'contacs'. Did you mean 'contacts'",
         ),
         (
             'normal = "',
@@ -119,9 +119,9 @@ def test_a_file_says_what_python_says(path: Path) -> None:
         (
             '"touching"',
             '"toching"',
-            "bodies.ball.start: place NAME IS 'toching'. Did you mean",
+            "bodies.ball.start: unknown place 'toching'. Did you mean",
         ),
-        ("velocity", "velcity", "bodies.ball.start: word of the start of Ball NAME IS 'velcity'."),
+        ("velocity", "velcity", "bodies.ball.start: start of Ball: unknown keyword 'velcity'."),
         (
             "gravity = 9.81",
             "[engine]\ntolerance = 1.0",
@@ -130,7 +130,7 @@ def test_a_file_says_what_python_says(path: Path) -> None:
         (
             "gravity = 9.81",
             '[engine]\nsolver = "lemk"',
-            "engine: EventDriven.solver NAME IS 'lemk'",
+            "engine: unknown EventDriven.solver 'lemk'",
         ),
         (
             "gravity = 9.81",
@@ -154,7 +154,7 @@ def test_a_mistake_is_told_with_file_key_rule_value_and_remedy(path: Path, befor
         ns.load_system(path)
     message = str(raised.value)
     assert message.startswith(str(path))
-    assert told.replace("NAME IS", "must be a known one, but it is") in message
+    assert told in message
 
 
 def test_a_missing_file_is_told(tmp_path: Path) -> None:

@@ -193,7 +193,7 @@ def test_a_function_goes_by_its_name(tmp_path: Path) -> None:
     assert found.function is _nothing
     for wrong, told in (
         ("_nothing_else", "Did you mean '_nothing'"),
-        ("WRONG", "must be a known one"),
+        ("WRONG", "unknown name"),
         ("Ball", "must name a plain Python function"),
     ):
         path.write_text(said.replace(":_nothing", f":{wrong}"))

@@ -116,7 +116,10 @@ def test_parts_are_chosen_by_object_name_or_number(run: ns.Solution) -> None:
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda run: run.history("gapp"), r"Solution\.history: variable .*Did you mean 'gap'\?.*variables\(\)\) lists"),
+        (
+            lambda run: run.history("gapp"),
+            r"Solution\.history: unknown variable .*Did you mean 'gap'.*variables\(\)\) lists",
+        ),
         (lambda run: run.history(), "must be at least one.*Known: q, u"),
         (lambda run: run.history("gap", "normal_impulse"), "Ask for each kind in its own call"),
         (lambda run: run.history("normal_impulse", times=0.1), "times must be left out.*times of their events"),
@@ -124,12 +127,15 @@ def test_parts_are_chosen_by_object_name_or_number(run: ns.Solution) -> None:
             lambda run: run.history(Variable("all", "m", (), "gaps", NearContacts.of, lambda near: near.gap)),
             r"values of the variable 'all' must have the axes time \(51\), but it is \(51, 1\)",
         ),
-        (lambda run: run.history("gap", of="plat - ball"), "of: contact .*Did you mean 'plate - ball'"),
+        (lambda run: run.history("gap", of="plat - ball"), "of: unknown contact .*Did you mean 'plate - ball'"),
         (lambda run: run.history("gap", of=1), "of: contact must be below 1, the number of contacts"),
         (lambda run: run.history("gap", "q", of=0), "contact or body were asked for, so a number is not clear"),
         (lambda run: run.history("loss", of="ball"), "of must be left out"),
         (lambda run: run.history("q", of=Ball(0.01)), "needs a body of this system"),
-        (lambda run: run.history("q")["u"], r"variable of this history .*Known: q\. Name it in Solution\.history"),
+        (
+            lambda run: run.history("q")["u"],
+            r"Unknown variable of this history .*Known: q\. Name it in Solution",
+        ),
         (lambda run: run.history("q", times=math.nan), "must be within the run"),
     ],
 )

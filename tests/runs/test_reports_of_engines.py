@@ -193,7 +193,7 @@ class Boastful(Judged):
 @pytest.mark.parametrize(
     ("engine", "message"),
     [
-        (NoScalar(), "NoScalar.verdict must be a known one, but it is 'deepest'.*Known: fastest_fall"),
+        (NoScalar(), "Unknown NoScalar.verdict 'deepest'.*Known: fastest_fall"),
         (TakenCode(), r"TakenCode.causes must have different codes, 100 or more, but it is \[99\]"),
         (OneCode(), r"OneCode.causes must have different codes.*\[100, 100\]"),
         (Boastful(), "Boastful.promised_residual must be a positive finite number or None, but it is -1.0"),

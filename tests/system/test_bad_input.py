@@ -215,7 +215,7 @@ BAD: dict[str, tuple[Callable[[], Any], tuple[str, str, str, str]]] = {
         lambda: _starts(sample_interval=1e-300),
         ("simulate: sample_interval", "at most 1e+08 samples", "1e-300", "longer"),
     ),
-    "a slanting axis": (lambda: Hinge(axis=(1.0, 1.0, 0.0)), ("Hinge.axis", "unit length", "1.0, 1.0", "Divide")),
+    "no axis": (lambda: Hinge(axis=(0.0, 0.0, 0.0)), ("Hinge.axis", "have a direction", "0.0, 0.0", "not zero")),
     "shapes nobody knows": (
         lambda: _contact(Plate(), Plate()),
         ("System.contact", "contact kinematics is known", "Plane-Plane", "Known pairs: "),
@@ -320,7 +320,8 @@ def test_each_message_names_thing_rule_value_and_remedy(case: str) -> None:
     assert value in repr(error.value)
     assert remedy in error.remedy
     assert error.remedy
-    assert str(error) == f"{error.thing} {error.rule}, but it is {error.value!r}. {error.remedy}"
+    if not isinstance(error, ns.UnknownName):
+        assert str(error) == f"{error.thing} {error.rule}, but it is {error.value!r}. {error.remedy}"
 
 
 def test_laws_cannot_be_left_out() -> None:

@@ -417,7 +417,7 @@ def test_a_field_that_is_no_parameter_is_told_how_to_become_one(build: Any) -> N
     system = ns.System([plate, ball])
     system.contact(plate, ball, **(build.laws() | {"friction": Plain()}))
     system.place(ball, position=(0, 0, 0.02))
-    with pytest.raises(ns.UnknownName, match="asks for a parameter that must be a known one, but it is 'k'") as caught:
+    with pytest.raises(ns.UnknownName, match="asks for: unknown parameter 'k'") as caught:
         ns.simulate(system, 0.1)
     assert 'declared as one: k: float = parameter(0.2, doc="what it is").' in str(caught.value)
 

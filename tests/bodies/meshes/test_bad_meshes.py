@@ -108,7 +108,7 @@ def test_there_is_no_default_unit(tmp_path: Path) -> None:
     path = parts.write_stl(tmp_path / "part.stl", parts.box())
     with pytest.raises(TypeError, match="unit"):
         MeshFile(str(path))  # type: ignore[call-arg]
-    with pytest.raises(ns.UnknownName, match=r"part\.stl: unit.*Known: cm, .*mm, um"):
+    with pytest.raises(ns.UnknownName, match=r"part\.stl: unknown unit.*Known: cm, .*mm, um"):
         MeshFile(str(path), unit="metre")
 
 

@@ -1,0 +1,52 @@
+"""Arguments of components that are missing, unknown, or of another length than one."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball, ConstantVelocity, Hinge, LineBody, Wall
+from laws import Coulomb, EnergeticImpact
+from nonsmooth.errors import MissingArgument
+from nonsmooth.parameters import UnusualValue
+
+
+def test_a_letter_is_answered_with_the_name() -> None:
+    with pytest.raises(ns.UnknownName, match="Unknown parameter of Coulomb 'mu'. It is called 'friction'. Known: "):
+        Coulomb(mu=0.3)  # type: ignore[call-arg]
+    with pytest.raises(ns.UnknownName, match="'e'. It is called 'restitution'"):
+        EnergeticImpact(e=0.5)  # type: ignore[call-arg]
+
+
+def test_a_missing_argument_is_named_with_its_unit() -> None:
+    with pytest.raises(MissingArgument, match=r"^Ball.radius must be given. Write Ball\(radius=...\). .*\[m\]"):
+        Ball()  # type: ignore[call-arg]
+
+
+def test_the_case_of_letters_does_not_hide_a_name() -> None:
+    with pytest.raises(ns.UnknownName, match="Did you mean 'radius'"):
+        Ball(Radius=0.1)  # type: ignore[call-arg]
+
+
+def test_directions_may_have_any_length() -> None:
+    assert Wall((3.0, 4.0, 0.0)).normal == (0.6, 0.8, 0.0)
+    assert ns.turned_about((0.0, 0.0, 2.0), 0.3) == ns.turned_about((0.0, 0.0, 1.0), 0.3)
+    one, other = (Hinge(axis=(0.0, size, 0.0)).rows for size in (1.0, 5.0))
+    assert one == other
+    for make in (
+        lambda size: LineBody(1.0, (size, 0.0, 0.0)).parameters()["direction"],
+        lambda size: ConstantVelocity(axis=(size, 0.0, 0.0)).parameters()["axis"],
+    ):
+        np.testing.assert_array_equal(make(1.0), make(2.0))
+
+
+def test_a_warning_points_at_the_line_of_the_user(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text("from bodies import Ball\n\nBall(20.0)\n")
+    with pytest.warns(UnusualValue) as caught:
+        runpy.run_path(str(script))
+    assert (caught[0].filename, caught[0].lineno) == (str(script), 3)
