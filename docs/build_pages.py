@@ -1,7 +1,8 @@
-"""Make what the pages of the gallery show of their scenarios: ``python docs/build_pages.py [NAME ...]``.
+"""Make the generated parts of pages: ``python docs/build_pages.py [NAME ...]``.
 
 Each scenario is run with its defaults.  Its view and picture go to docs/pages/gallery/views, where pages link to them;
-its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.
+its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them. So does the
+matrix of shapes that touch each other, which :mod:`shape_matrix` makes.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import shape_matrix
 from parameter_tables import markdown, table
 from PIL import Image
 
@@ -100,6 +102,7 @@ def main() -> None:
     if not sys.argv[1:]:
         text = "\n".join(['<div class="grid cards" markdown>\n', *cards, "</div>\n"])
         (PARTS / "gallery.md").write_text(text, encoding="utf-8")
+        shape_matrix.main()
 
 
 if __name__ == "__main__":
