@@ -1,7 +1,8 @@
-"""Make what the pages of the gallery show of their scenarios: ``python docs/build_pages.py [NAME ...]``.
+"""Make the generated parts of pages: ``python docs/build_pages.py [NAME ...]``.
 
 Each scenario is run with its defaults.  Its view and picture go to docs/pages/gallery/views, where pages link to them;
-its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.
+its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them. So do the
+matrix of shapes that touch each other (:mod:`shape_matrix`) and the errors of contacts (:mod:`pair_errors`).
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import pair_errors
+import shape_matrix
 from parameter_tables import markdown, table
 from PIL import Image
 
@@ -32,8 +35,8 @@ _FRAMES, _SHOWN = 25, 10
 """Pictures of a run, and which of them is shown."""
 
 
-def build(name: str) -> str:
-    """Write the parts of a scenario; return its card."""
+def build(name: str) -> tuple[str, list[tuple[str, ...]]]:
+    """Write the parts of a scenario; return its card and the rows of its criteria."""
     owner = registry.load("scenarios", name)
     PARTS.mkdir(exist_ok=True)
     VIEWS.mkdir(exist_ok=True)
@@ -41,16 +44,18 @@ def build(name: str) -> str:
     scenario, solution = _run(owner, {})
     _picture(solution, VIEWS / f"{name}.webp")
     (PARTS / f"{name}.view.md").write_text("\n".join(views), encoding="utf-8")
+    criteria = scenario.acceptance(solution)
     numbers = [
         f"## Parameters of `{name}`",
         table(owner),
         f"## Criteria of `{name}`, as a run with the defaults meets them",
-        _criteria(scenario.acceptance(solution)),
+        _criteria(criteria),
     ]
     (PARTS / f"{name}.numbers.md").write_text("\n\n".join(numbers) + "\n", encoding="utf-8")
     page = f"{_PAGES.get(name, name)}.md"
     picture = f"[![{owner.title}]({VIEWS.name}/{name}.webp)]({page})"
-    return f"-   {picture}\n\n    [{owner.title}]({page}): {first_line(owner)}\n"
+    card = f"-   {picture}\n\n    [{owner.title}]({page}): {first_line(owner)}\n"
+    return card, [(owner.title, *_row(one)) for one in criteria]
 
 
 def _run(owner: type[Scenario], given: dict[str, str]) -> tuple[Any, ns.Solution]:
@@ -84,22 +89,30 @@ def _picture(solution: ns.Solution, path: Path) -> None:
 
 def _criteria(found: tuple[Criterion, ...]) -> str:
     rows = [("number", "value", "from", "to", "source", "")]
-    for one in found:
-        value, lower, upper = (f"{x:.9g}" for x in (one.value, one.lower, one.upper))
-        rows.append((one.name, value, lower, upper, one.source, "met" if one.fulfilled else "NOT MET"))
+    rows += [(*_row(one), "met" if one.fulfilled else "NOT MET") for one in found]
     return markdown(rows)
+
+
+def _row(one: Criterion) -> tuple[str, ...]:
+    value, lower, upper = (f"{x:.9g}" for x in (one.value, one.lower, one.upper))
+    return one.name, value, lower, upper, one.source
 
 
 def main() -> None:
     """Build the scenarios named, or all and the list of them."""
     names = sys.argv[1:] or sorted(registry.names("scenarios"))
     # the first one alone, as it compiles the engine
-    cards = [build(names[0])]
+    built = [build(names[0])]
     with ProcessPoolExecutor() as workers:
-        cards += workers.map(build, names[1:])
+        built += workers.map(build, names[1:])
     if not sys.argv[1:]:
-        text = "\n".join(['<div class="grid cards" markdown>\n', *cards, "</div>\n"])
+        text = "\n".join(['<div class="grid cards" markdown>\n', *(card for card, _ in built), "</div>\n"])
         (PARTS / "gallery.md").write_text(text, encoding="utf-8")
+        criteria = [row for _, rows in built for row in rows]
+        head = ("scenario", "number", "value", "from", "to", "source")
+        (PARTS / "criteria.md").write_text(f"{markdown([head, *criteria])}\n", encoding="utf-8")
+        shape_matrix.main()
+        pair_errors.main()
 
 
 if __name__ == "__main__":

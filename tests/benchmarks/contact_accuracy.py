@@ -1,4 +1,6 @@
-"""How exact the contact pairs are: ``python -m tests.benchmarks.contact_accuracy`` prints the table of the docs.
+"""Errors of all contact pairs, as CSV: ``python -m tests.benchmarks.contact_accuracy``.
+
+The page on accuracy shows what is stored in docs/pages/figures/contact_accuracy.csv.
 
 Every pose is made from a point on the first body with a normal there, and the point of the second that lies farthest
 against it, put the gap apart: gap, normal and witness points are known to round-off.  Bodies are of 1 cm, half-sizes of
@@ -14,8 +16,10 @@ A pair of shapes is one line of :data:`PAIRS`, or, where features are chosen on 
 from __future__ import annotations
 
 import contextlib
+import csv
 import ctypes
 import math
+import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -57,6 +61,18 @@ from tests.benchmarks.touches import (
 )
 
 Array = NDArray[np.float64]
+COLUMNS = (
+    "pair",
+    "found by",
+    "gap [m]",
+    "normal [rad]",
+    "witness [m]",
+    "first rate",
+    "second rate",
+    "query [µs]",
+    "FCL [m]",
+)
+"""Rates are relative to the largest one of the pair."""
 GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5, -1e-4)
 """[m]"""
 _STEPS = 1e-3, 5e-4, 2.5e-4
@@ -288,18 +304,18 @@ def measure(pair: str, draws: int, seed: int = 0) -> Errors:
     )
 
 
-def table(draws: int = 40) -> Iterator[str]:
-    """Yield the lines of the table of all pairs in Markdown, each as soon as it is measured."""
-    titles = "pair", "found by", "gap [m]", "normal [rad]", "witness [m]", "$g'$", "$g''$", "query [µs]", "FCL [m]"
-    yield "| " + " | ".join(titles) + " |"
-    yield "|---" * len(titles) + "|"
+def rows(draws: int = 40) -> Iterator[list[str]]:
+    """Yield the columns and then the numbers of each pair, as soon as it is measured."""
+    yield list(COLUMNS)
     for name in NAMES:
         poses = _drawn(name, draws, np.random.default_rng(0))
         e, cost = measure(name, draws), _cost(poses)
         numbers = [f"{x:.0e}" for x in (e.gap, e.normal, e.witness, e.rate, e.acceleration)]
-        yield "| " + " | ".join([name, _way(poses[0]), *numbers, f"{cost:.1f}", _library(poses[::9])]) + " |"
+        yield [name, _way(poses[0]), *numbers, f"{cost:.1f}", _library(poses[::9])]
 
 
 if __name__ == "__main__":
-    for line in table():
-        print(line, flush=True)
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    for row in rows():
+        writer.writerow(row)
+        sys.stdout.flush()
