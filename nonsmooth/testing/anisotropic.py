@@ -1,4 +1,4 @@
-"""Properties of friction whose bound is made of two half ellipses, fixed to a body."""
+"""Conformance checks of anisotropic friction: its bound is made of two half ellipses along an axis fixed to a body."""
 
 from __future__ import annotations
 
@@ -36,20 +36,23 @@ from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact, requi
 from nonsmooth.types import Array
 
 _INSTANT = 1e-7
-"""Part of the time to stop over which a force is taken as the change of momentum."""
+"""Part of the time to stop over which a force is taken as the change of momentum: the slip hardly changes in it."""
 _SLIGHT = 1e-4
-"""Approach in units of the slip speed that leaves the slip as it is."""
+"""Approach speed of a slight impact, relative to the slip speed: so small that the slip hardly changes."""
 _N_OTHERS = 24
 """Number of forces on the bound that are compared with the force of the law."""
 _ELSEWHERE = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
-"""Axes of the body that does not have the law's axis."""
+"""Rotation matrix of the body to which the law's axis is not fixed, oblique to the world axes."""
 _AXIS_HEADING = number("axis_heading", -3.1, 3.1)
 _LEAN = number("axis_lean", -0.5, 0.5)
 _ANISOTROPIC = Claims()
 
 
 def anisotropic_rows(law: AnisotropicFrictionLaw, vanishing: tuple[str, ...]) -> list[Row]:
-    """Return the properties of an anisotropic friction law, of which ``vanishing`` are the coefficients."""
+    """Return the properties of an anisotropic friction law.
+
+    Friction vanishes if the parameters named in ``vanishing`` are zero.
+    """
     first = rows([_ratios, _axis_and_body], lambda: variants(law), 1)
     found = [*rows([*COEFFICIENT, *_ANISOTROPIC], lambda: variants(law), DRAWS), limit_row(law, vanishing, _vanishes)]
     return all_rows(law, lambda: [_coefficient(one) for one in variants(law)], found, first)
@@ -98,7 +101,10 @@ def _maximum_dissipation(law: AnisotropicFrictionLaw, speed: float, heading: flo
 
 
 def _turns(law: AnisotropicFrictionLaw, heading: float, lean: float) -> dict[str, tuple[float, ...]]:
-    """Return quaternions of puck and slab: the law's axis has a heading in their contact and leans out of it."""
+    """Return the unit quaternions of puck and slab that give the law's axis a direction.
+
+    The axis has the angle ``heading`` in the tangent plane and leans out of the plane by the angle ``lean`` [rad].
+    """
     first = np.asarray(law.axis, dtype=float) / np.linalg.norm(law.axis)
     goal = np.array([*along(math.cos(lean), heading), math.sin(lean)])
     own = _basis(goal) @ _basis(first).T
@@ -107,7 +113,7 @@ def _turns(law: AnisotropicFrictionLaw, heading: float, lean: float) -> dict[str
 
 
 def _basis(first: Array) -> Array:
-    """Return axes as columns, the first as given."""
+    """Return an orthonormal basis as columns, shape [3, 3]. The first column is the given unit vector."""
     second = np.cross(first, np.eye(3)[int(np.argmin(np.abs(first)))])
     second /= np.linalg.norm(second)
     return np.column_stack([first, second, np.cross(first, second)])
@@ -134,9 +140,10 @@ def _after(
     approach: float = 0.0,
     t_end: float,
 ) -> tuple[Pair, float]:
-    """Return the slip after a time, along the axis and across it as all vectors here, and the energy lost to friction.
+    """Return the slip velocity of a puck of 1 kg after a time [m/s], and the energy lost to friction [J].
 
-    The puck has 1 kg; with an approach it strikes at once.
+    All vectors have a component along the law's axis and a component across it. With an approach speed the puck strikes
+    the slab at once.
     """
     speed = max(math.hypot(*slip), 1e-3)
     puck = Puck(push=(*_rotated(push, heading), 0.0), speed=_SLIGHT * speed)
@@ -157,7 +164,7 @@ def _sustained_contact(
         return f"it slips at rest under ({-held[0]:g}, {-held[1]:g}) N along the axis and across, below the bound"
     if not law.is_fulfilled((0.0, 0.0), load, held, 1e-9 * load):
         return f"is_fulfilled refuses the force ({held[0]:g}, {held[1]:g}) N at rest"
-    # so much weight that the slip does not end within the resolution of the engine, however slow it is
+    # a load proportional to the speed, so that the engine resolves the duration however slow the slip is
     slip, load = along(speed, heading), load * speed
     duration = _INSTANT * speed / (load * (mu(law, speed) + 1.0))
     after, _ = _after(law, slip, axis, lean, weight=load, t_end=duration)
@@ -177,10 +184,10 @@ def _dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float, axis
 @_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
     """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
-    # the slip changes by the coefficient times the approach
+    # the slip changes by about the coefficient times the approach: a large coefficient needs a slower approach
     slip, approach = along(speed, heading), _SLIGHT / max(1.0, mu(law, speed)) * speed
     after, _ = _after(law, slip, axis, approach=approach, t_end=1e-12)
-    # the spring of the reference gives back half of the energy
+    # normal impulse on 1 kg: the spring of the reference gives back half of the energy
     pushed = approach * (1.0 + math.sqrt(0.5))
     t1, t2 = ((b - a) / pushed for a, b in zip(slip, after, strict=True))
     force = force_under_slip(law, slip)

@@ -48,12 +48,12 @@ _SAME = 1e-6
 _STEP = 1e-3
 """Step of the differences, in units of the shortest time of the motion."""
 _SLOWEST = 1e-3
-"""Least rate from which a time is derived [1/s], so that a body at rest has one."""
+"""Lower bound of the rates of a motion [1/s], so that times derived from them are finite for a body at rest."""
 _FALLS = 20
 _RUN = 0.4
-"""Start of a short run, in units of the states that are drawn."""
+"""Distance of the short run's initial state from the body's start, relative to the largest drawn distance."""
 _TURNS = 3.0
-"""Duration of flights, in units of the time in which a number changes by its scale."""
+"""Duration of flights, in units of the shortest time in which a coordinate or velocity changes by its size."""
 _AXES, _POSE = slice(ROTATION, VELOCITY), slice(POSITION, VELOCITY)
 _EVERY, _FREE = Claims(), Claims()
 """Claims about every body, and about bodies with coordinates."""
@@ -65,7 +65,7 @@ def check_body(body: Body) -> list[Property]:
     Parameters
     ----------
     body : Body
-        The body; it is checked around its start.
+        The body; it is checked in states near its start.
     """
     return properties(body, _rows)
 
@@ -168,7 +168,7 @@ def _frame_slope(body: Body, at: State, i: int, part: slice) -> tuple[Array, flo
         return block_of(body, (time, place, u)).rates
 
     def after(step: float) -> Array:
-        """Return q after a step of Runge and Kutta: exact enough for differences of fourth order."""
+        """Return q after a Runge-Kutta step of order 4, accurate enough for differences of order 4."""
         first = rates(t, q)
         second = rates(t + 0.5 * step, stepped(body, q, first, 0.5 * step))
         third = rates(t + 0.5 * step, stepped(body, q, second, 0.5 * step))
@@ -220,7 +220,7 @@ def _jacobian(body: Body, at: State) -> str:
 def _mass_matrix(body: Body, at: State) -> str:
     """M is symmetric and positive definite."""
     inverse = block_of(body, at).inverse
-    # entries may have different units: they are judged by their diagonals
+    # entries may have different units: they are scaled by the square roots of the diagonal
     size = np.sqrt(np.abs(np.diag(inverse)))
     if not np.all(size > 0.0):
         return f"the diagonal of M^-1 is {np.diag(inverse).tolist()}"
@@ -242,14 +242,17 @@ def _kinetic_energy(body: Body, at: State) -> str:
 
 
 def _along(body: Body, at: State, gravity: Mapping[str, float], value: Callable[[BodyBlock, Array], Array]) -> Array:
-    """Return the derivative in time of a value of block and u along the free motion, prescribed motions at rest."""
+    """Return the derivative in time of ``value(block, u)`` during free motion.
+
+    Time itself is held, so that prescribed motions are at rest.
+    """
     t, q, u = at
     here = block_of(body, at, gravity)
     acceleration = here.inverse @ here.force
     speed = max(_rate(body, here), float(np.max(np.abs(acceleration) / body.scales[1])))
 
     def after(dt: float) -> Array:
-        # straight lines: only the first derivative is asked for
+        # a straight step is enough for a first derivative
         moved, faster = q + dt * here.rates, u + dt * acceleration
         return np.array(value(block_of(body, (t, moved, faster), gravity), faster))
 
@@ -322,7 +325,7 @@ def _momentum(body: Body, at: State) -> str:
 
 
 def _change(body: Body, t: float, y: Array) -> Array:
-    """Return the rates of coordinates and velocities in free motion."""
+    """Return dq/dt and du/dt of the free motion, shape [n_q + n_u]."""
     here = block_of(body, (t, y[: body.n_q], y[body.n_q :]))
     return np.append(here.rates, here.inverse @ here.force)
 

@@ -18,7 +18,7 @@ State = tuple[float, Array, Array]
 """Time [s], coordinates and velocities."""
 WEIGHTLESS = {"gravity_x": 0.0, "gravity_y": 0.0, "gravity_z": 0.0}
 OBLIQUE = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
-"""Gravity of the checks [m/s^2]; the properties must hold with any."""
+"""Gravity of the checks [m/s^2]: oblique, because the properties must hold for gravity in any direction."""
 
 
 class BodyBlock(NamedTuple):
@@ -31,11 +31,11 @@ class BodyBlock(NamedTuple):
     jacobians : array
         Jacobians of (velocity, angular velocity) of each frame, shape [n, 6, n_u].
     rates, force : array
-        dq/dt, shape [n_q], and h, shape [n_u].
+        Rates dq/dt, shape [n_q], and generalized forces h, shape [n_u].
     inverse : array
-        M^-1, shape [n_u, n_u].
+        Inverse mass matrix M^-1, shape [n_u, n_u].
     energy : array
-        Kinetic and potential energy [J].
+        Kinetic and potential energy [J], shape [2].
     """
 
     frames: Array
@@ -47,18 +47,18 @@ class BodyBlock(NamedTuple):
 
 
 def block_size(body: Body) -> int:
-    """Return the length of the block of a body."""
+    """Return how many numbers the evaluator of a body writes."""
     frames = len(body.frames) * (FRAME + 6 * body.n_u)
     return frames + body.n_q + body.n_u + body.n_u * body.n_u + 2 if body.n_u else frames
 
 
 def offered(body: Body, gravity: Mapping[str, float] = OBLIQUE) -> dict[str, Any]:
-    """Return what the evaluator may ask for."""
+    """Return the values that the evaluator may take by name: the body's parameters and gravity [m/s^2]."""
     return {**body.parameters(), **gravity}
 
 
 def plain(body: Body) -> Caller:
-    """Return the evaluator in plain Python."""
+    """Return the body's evaluator in plain Python, with its parameters filled in."""
     return plain_caller(body.evaluator, "body", offered(body))
 
 
@@ -76,7 +76,7 @@ def block_of(body: Body, at: State, gravity: Mapping[str, float] = OBLIQUE) -> B
 
 
 def state_of(body: Body) -> Drawn:
-    """Return a drawn state near the start of a body."""
+    """Return the inputs of a body's checks: a time from 0 to 1 s and a state near the start."""
     numbers = [DrawnNumber("t", 0.0, 1.0)]
     numbers += [DrawnNumber(f"q{i + 1}", -0.3, 0.3) for i in range(body.n_q)]
     numbers += [DrawnNumber(f"u{i + 1}", -1.0, 1.0) for i in range(body.n_u)]
@@ -84,7 +84,11 @@ def state_of(body: Body) -> Drawn:
 
 
 def state_at(body: Body, case: Case) -> State:
-    """Return the state of an input: differences to the start in units of the scales, a turn of the quaternion."""
+    """Return the time and the state of an input.
+
+    The numbers of the input are differences from the start, in units of the body's scales. A quaternion is turned by a
+    rotation vector instead, so that it keeps its unit length.
+    """
     q, u = (np.array(x, dtype=float) for x in body.state())
     q_scale, u_scale = body.scales
     moved = q + q_scale * np.array([case[f"q{i + 1}"] for i in range(body.n_q)])
@@ -95,7 +99,7 @@ def state_at(body: Body, case: Case) -> State:
 
 
 def stepped(body: Body, q: Array, rates: Array, dt: float) -> Array:
-    """Return q after a straight step; a quaternion is kept at unit length."""
+    """Return q + dt * rates, with the quaternion scaled to unit length."""
     moved = q + dt * rates
     if body.quaternion >= 0:
         at = slice(body.quaternion, body.quaternion + 4)

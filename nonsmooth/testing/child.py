@@ -1,14 +1,14 @@
-"""A child process that checks properties, and is ended if a component does not come back.
+"""A child process that checks properties, and is ended if a component does not return.
 
 A function that loops for ever cannot be stopped from Python, least of all when it is compiled. So all checks run in one
-child process. Before each trial the child writes what it is about to call to a file and sets a watchdog
-(:func:`faulthandler.dump_traceback_later`). The watchdog is a thread without Python: when its time is over, it appends
-the line that is running to the file and ends the process, whatever runs there. The parent reads the file and starts
-another child for the next component.
+child process. Before each trial the child writes a report of the next call to a file and sets a watchdog
+(:func:`faulthandler.dump_traceback_later`). The watchdog is a thread without Python. When its time is over, it appends
+the traceback of the running code to the file and ends the process. The parent reads the file and starts another child
+for the next component.
 
-Components travel by cloudpickle. Modules that the child cannot import by name, as a file of tests or of
-``nonsmooth check FILE.py:CLASS``, it loads from their files. The child is kept for the next component, as it takes some
-seconds to start.
+Components are sent by cloudpickle. The child cannot import some modules by name, such as a file of tests or of
+``nonsmooth check FILE.py:CLASS``: it loads them from their files. A child takes some seconds to start, so it serves one
+component after the other.
 """
 
 from __future__ import annotations
@@ -42,14 +42,14 @@ TRIAL = 600.0 if PLAIN else 60.0
 CALL = 1.0
 """Time that a call of a component's function may take [s]: the engine calls it thousands of times a second."""
 _SLACK = 0.1
-"""Age of a watchdog at which it is set anew, in units of its time: setting it costs as much as a short trial."""
+"""Age at which a watchdog is set again, relative to its time limit: setting it costs as much as a short trial."""
 
 
 # the parent
 
 
 class _Child:
-    """The process, the file of its watchdog, and the component that it has."""
+    """A child process, with the file of its watchdog and the component that it holds."""
 
     def __init__(self) -> None:
         handle, name = tempfile.mkstemp(prefix="nonsmooth_check_")
@@ -61,7 +61,7 @@ class _Child:
         )
 
     def ask(self, subject: Subject, name: str) -> Outcome:
-        """Return what the child finds; EOFError if it ends on the way."""
+        """Return the outcome of a property. Raise EOFError if the child process ends before it answers."""
         if subject is not self._subject:
             self._give(subject)
         return Outcome(*self._call("look", name))
@@ -92,7 +92,7 @@ class _Child:
             raise EOFError from error
 
     def fault(self) -> tuple[str, Outcome]:
-        """Return the property at which the child ended, "" for the one asked for, and the reason."""
+        """Return the property that ended the child, "" for the requested property, and its outcome."""
         status = self._process.wait()
         with self._report.open("rb") as file:
             prop, words, seconds, parameter, value, case = pickle.load(file)
@@ -115,11 +115,11 @@ class _Child:
 
 
 _NOTHING = Subject(None, lambda component: [], {})
-"""The component of a child that has just started."""
+"""Placeholder for the component of a child that has just started."""
 _children: list[_Child] = []
-"""The child, once it was needed."""
+"""The child process: empty before the first check, then a list with one entry."""
 _ended: WeakKeyDictionary[Subject, tuple[str, Outcome]] = WeakKeyDictionary()
-"""The property at which the child of a component was ended, and why. Nothing else of it is run."""
+"""For components that ended their child: the property at fault and its outcome. Their other properties are not run."""
 _LOCK = threading.Lock()
 
 
@@ -131,7 +131,10 @@ def stop_child() -> None:
 
 
 def ask(subject: Subject, name: str) -> Outcome:
-    """Check a property of a component in a child process; one that cannot be pickled is checked in this process."""
+    """Check a property of a component in a child process.
+
+    A component that cannot be pickled is checked in this process, without a watchdog.
+    """
     with _LOCK:
         if subject in _ended:
             return _judged(name, *_ended[subject])
@@ -170,7 +173,10 @@ def _text(pattern: Any) -> str:
 
 
 def _line(trace: str, words: str) -> str:
-    """Return the innermost line in a traceback that is neither of this package nor of others, and its file if new."""
+    """Return text for the innermost line of a traceback that is in the author's own code.
+
+    Code of this package, of Python and of installed packages is skipped. The file is named unless ``words`` names it.
+    """
     ours = [str(Path(__file__).parents[1]), *sysconfig.get_paths().values()]
     for file, line in re.findall(r'File "(.*)", line (\d+)', trace):
         if not any(file.startswith(folder) for folder in ours if folder):
@@ -182,13 +188,13 @@ def _line(trace: str, words: str) -> str:
 
 
 class _Watchdog:
-    """The file of what is about to be called, and the time at which the watchdog was set."""
+    """Ends this process if a call takes too long; its file then holds the report of that call."""
 
     def __init__(self, file: int) -> None:
         self._file, self._set_at, self._seconds = file, 0.0, 0.0
 
     def about_to(self, seconds: float, *report: Any) -> None:
-        """Write a report, and end the process unless the next one comes within some time [s]."""
+        """Write the report of the next call. End the process unless another report follows within ``seconds``."""
         os.lseek(self._file, 0, os.SEEK_SET)
         os.write(self._file, pickle.dumps(report))
         os.ftruncate(self._file, os.lseek(self._file, 0, os.SEEK_CUR))
@@ -198,32 +204,34 @@ class _Watchdog:
             faulthandler.dump_traceback_later((1.0 + _SLACK) * seconds, exit=True, file=self._file)
 
     def rest(self) -> None:
-        """Take the watchdog away until the next report."""
+        """Switch the watchdog off until the next report."""
         faulthandler.cancel_dump_traceback_later()
         self._seconds = 0.0
 
 
 _watchdogs: list[_Watchdog] = []
-"""The watchdog, in a child."""
+"""The watchdog: a list with one entry in a child process, empty in the parent."""
 
 
 def about_to(
     words: str, component: Any, case: Mapping[str, float] | None = None, *, seconds: float = TRIAL, prop: str = ""
 ) -> None:
-    """Say what is about to be called; in a child the process is ended if that takes too long.
+    """Report the next call to the watchdog, which ends the process if the call takes too long.
+
+    Outside of a child process there is no watchdog, and this function has no effect.
 
     Parameters
     ----------
     words : str
         The beginning of a sentence, in which "{takes}" stands for "takes longer than 60 s".
     component : object
-        The component, whose parameters are told.
+        The component; its parameters are part of the report.
     case : mapping, optional
         The input.
     seconds : float, optional
-        The time that it may take [s].
+        Time that the call may take [s].
     prop : str, optional
-        The property that does not hold if it takes longer; by default the property that is checked.
+        The property that fails if the call takes longer; by default the property that is checked.
     """
     for watchdog in _watchdogs:
         watchdog.about_to(seconds, prop, words, seconds, *described(component), dict(case or {}))
@@ -231,7 +239,7 @@ def about_to(
 
 def serve(report: str) -> None:
     """Check properties until standard input ends: the main function of the child."""
-    # the parent ends the child; a component that prints must not disturb the answers
+    # the parent handles Ctrl-C; output of a component goes to standard error, so that it does not mix with the answers
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     requests, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
@@ -260,7 +268,7 @@ def serve(report: str) -> None:
 
 
 def _take(looks: dict[str, Any], path: list[str], filters: list[tuple[Any, ...]], content: bytes) -> str:
-    """Take a component; return the name of a module that it lacks, "" if it has all."""
+    """Store a pickled component in ``looks``. Return the name of a missing module, "" if the component is complete."""
     sys.path[:] = path
     warnings.resetwarnings()
     for words in filters:
@@ -278,7 +286,7 @@ def _load(name: str, path: str) -> None:
     specification = importlib.util.spec_from_file_location(name, path)
     assert specification is not None
     assert specification.loader is not None
-    # dataclasses and numba look modules up by name
+    # dataclasses and numba find modules by name
     module = sys.modules[name] = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(module)
 
@@ -291,7 +299,7 @@ def _look(looks: dict[str, Any], name: str) -> Outcome:
 
 
 def _keep_constants() -> None:
-    """Let hypothesis keep what it reads of modules in the cache of the user, and not in the working folder."""
+    """Make hypothesis store the constants that it collects in the user's cache, not in the working folder."""
     from nonsmooth.user_cache import user_cache
 
     cache = user_cache()

@@ -1,4 +1,4 @@
-"""Claims: properties written as functions. The docstring is the statement, the arguments are drawn."""
+"""Claims: properties written as functions. The docstring is the statement, the arguments are drawn inputs."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from nonsmooth.testing.inputs import Drawn, draws, simplified
 from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, name_of, says_of, words_of
 
 FEWEST = 3
-"""Inputs of claims that use the engine in plain mode, in which it is some 400 times slower."""
+"""Number of inputs of claims that run the engine in plain mode, which is some 400 times slower."""
 
 
 @final
 class Inapplicable(Exception):
-    """A claim says nothing about an input."""
+    """Raised by a trial if its claim does not apply to an input; the input then counts as passed."""
 
 
 GIVEN = Drawn((), dict)
-"""Stands for the inputs that :func:`rows` is given."""
+"""Placeholder for the inputs that the caller of :func:`rows` passes as ``given``."""
 
 
 @final
@@ -36,17 +36,17 @@ class Claim:
     Attributes
     ----------
     name : str
-        A few words.
+        Short name, such as "gap rate".
     says : str
         The statement.
     trial : callable
-        Takes the component and its inputs. Returns the fault, "" or None if there is none.
+        Takes the component and its inputs. Returns a description of the fault, "" or None if the claim holds.
     inputs : tuple of Drawn
-        What the trial gets besides the component.
+        Arguments of the trial after the component.
     n_inputs : int or None
-        Inputs that are tried; None for as many as of the other claims.
+        Number of inputs that are tried; by default (None) the number given to :meth:`examine`.
     fewest : int or None
-        Inputs that are tried in plain mode; None for all.
+        Number of inputs that are tried in plain mode; None for all inputs.
     """
 
     name: str
@@ -57,12 +57,12 @@ class Claim:
     fewest: int | None = None
 
     def at(self, *given: Drawn) -> Claim:
-        """Return the claim with inputs in the place of :data:`GIVEN`."""
+        """Return the claim with the inputs ``given`` in place of :data:`GIVEN`."""
         inputs = [other for drawn in self.inputs for other in (given if drawn is GIVEN else (drawn,))]
         return replace(self, inputs=tuple(inputs))
 
     def fault(self, component: Any, case: dict[str, float]) -> str:
-        """Return the fault of a component at an input, an exception included; "" if there is none."""
+        """Return the fault of a component at an input, which may be an exception; "" if the claim holds."""
         about_to("it {takes}", component, case)
         try:
             with warnings.catch_warnings():
@@ -81,7 +81,7 @@ class Claim:
         Raises
         ------
         Broken
-            If an input fails, with the simplest input that does.
+            An input fails. The error holds the simplest failing input that was found.
         """
         count = self.n_inputs or count
         count = self.fewest if PLAIN and self.fewest is not None else count
@@ -97,7 +97,7 @@ class Claim:
 def claim(
     *inputs: Drawn, name: str = "", n_inputs: int | None = None, fewest: int | None = None
 ) -> Callable[[Callable[..., str | None]], Claim]:
-    """Make a claim of a function: its name with blanks is the name, its docstring the statement."""
+    """Return a decorator that makes a claim of a function, with its name and its docstring as the statement."""
 
     def made(trial: Callable[..., str | None]) -> Claim:
         return Claim(name or name_of(trial), says_of(trial), trial, inputs, n_inputs, fewest)
@@ -106,7 +106,7 @@ def claim(
 
 
 def wrong_verdict(is_accepted: bool, expected: bool) -> str:
-    """Return "is_fulfilled refuses" or "is_fulfilled accepts" if a certificate is wrong; "" if it is right."""
+    """Return "is_fulfilled refuses" or "is_fulfilled accepts" if this verdict is wrong; "" if it is right."""
     if bool(is_accepted) is expected:
         return ""
     return "is_fulfilled refuses" if expected else "is_fulfilled accepts"
@@ -119,7 +119,7 @@ class Claims(list[Claim]):
     Parameters
     ----------
     fewest : int, optional
-        Inputs that are tried in plain mode.
+        Number of inputs that are tried in plain mode, for claims that do not set it themselves.
     """
 
     def __init__(self, *, fewest: int | None = None) -> None:
@@ -127,7 +127,7 @@ class Claims(list[Claim]):
         self._fewest = fewest
 
     def claim(self, *inputs: Drawn, **options: Any) -> Callable[[Callable[..., str | None]], Claim]:
-        """Make a claim of a function, as :func:`claim` does, and add it."""
+        """Return a decorator that makes a claim of a function, as :func:`claim` does, and adds it to this list."""
 
         def added(trial: Callable[..., str | None]) -> Claim:
             self.append(claim(*inputs, **{"fewest": self._fewest, **options})(trial))
@@ -139,18 +139,18 @@ class Claims(list[Claim]):
 def rows(
     claims: Sequence[Claim], components: Callable[[], Iterable[Any]], count: int, given: Sequence[Drawn] = ()
 ) -> list[Row]:
-    """Return the rows of claims about components that are made when a claim is checked.
+    """Return one row for each claim. The components are made only when a row is checked.
 
     Parameters
     ----------
     claims : sequence of Claim
         The claims.
     components : callable
-        Returns the components.
+        Returns the components to check.
     count : int
-        Inputs that are tried on each.
+        Number of inputs that are tried on each component.
     given : sequence of Drawn
-        Inputs in the place of :data:`GIVEN`.
+        Inputs in place of :data:`GIVEN`.
     """
     return [Row(one.name, one.says, functools.partial(_examine, one.at(*given), components, count)) for one in claims]
 

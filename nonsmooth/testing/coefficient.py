@@ -1,7 +1,7 @@
-"""The friction coefficient of a law, and the properties that all laws with a coefficient share.
+"""Conformance checks of the friction coefficient, which all laws with a coefficient share.
 
-The bound of friction is made of two half ellipses along and across an axis. For a law without a direction it is a disc:
-all ratios are 1, and the axis may be any.
+The bound of friction is made of two half ellipses along and across an axis. For an isotropic law the bound is a disc:
+all ratios are 1, and any axis will do.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ COEFFICIENT = Claims()
 @final
 @dataclass(frozen=True)
 class _Fresh(FrictionLaw):
-    """A law with inner states as it is when a contact has just closed: a law without."""
+    """A law with inner states fixed at their initial values, so that it acts as a law without states."""
 
     law: StatefulFrictionLaw
 
@@ -53,27 +53,27 @@ class _Fresh(FrictionLaw):
 
 
 def fresh(law: FrictionLaw) -> FrictionLaw:
-    """Return a law without inner states: itself, or the law that it is as long as they are the initial ones."""
+    """Return the law itself, or a law with inner states as a law whose states stay at their initial values."""
     return _Fresh(law) if isinstance(law, StatefulFrictionLaw) else law
 
 
 def offered(law: FrictionLaw) -> Mapping[str, Any]:
-    """Return what the coefficient may ask for."""
+    """Return the values that the coefficient may take by name: parameters, and inner states at their initial values."""
     return fresh(law).parameters()
 
 
 def coefficient_function(law: FrictionLaw) -> CheckedFunction:
-    """Return the coefficient with speeds to try."""
+    """Return the coefficient as a function to check, with slip speeds [m/s] as inputs."""
     return scalar_function(law, "coefficient", _SPEEDS, offered(law))
 
 
 def mu(law: FrictionLaw, speed: float) -> float:
-    """Return the coefficient of a contact that has just closed, at a speed [m/s]."""
+    """Return the friction coefficient at a slip speed [m/s], with inner states at their initial values."""
     return float(plain_caller(law.coefficient, "scalar", offered(law))(speed))
 
 
 def along(size: float, heading: float) -> Pair:
-    """Return the vector of a size and direction [rad]."""
+    """Return the tangential vector with a length and a heading [rad]."""
     return size * math.cos(heading), size * math.sin(heading)
 
 
@@ -83,12 +83,12 @@ def times(share: float, vector: Pair) -> Pair:
 
 
 def ratios_of(law: FrictionLaw) -> tuple[float, float, float]:
-    """Return the ratios of the bound forward, backward and across: 1 for a law without a direction."""
+    """Return the ratios of the bound forward, backward and across; they are 1 for an isotropic law."""
     return law.ratios if isinstance(law, AnisotropicFrictionLaw) else (1.0, 1.0, 1.0)
 
 
 def force_under_slip(law: FrictionLaw, slip: Pair) -> Pair:
-    """Return the force that takes out most energy at a slip, for a normal force of 1 N."""
+    """Return the friction force that dissipates most at a slip velocity, for a normal force of 1 N [N]."""
     forward, backward, across = ratios_of(law)
     first = forward if slip[0] > 0.0 else backward
     counted = first * slip[0], across * slip[1]
@@ -98,22 +98,22 @@ def force_under_slip(law: FrictionLaw, slip: Pair) -> Pair:
 
 
 def force_on_bound(law: FrictionLaw, coefficient: float, heading: float) -> Pair:
-    """Return the largest force in a direction, for a normal force of 1 N."""
+    """Return the largest friction force in a direction, for a normal force of 1 N [N]."""
     forward, backward, across = ratios_of(law)
     c, s = along(1.0, heading)
-    # forces backward oppose slip forward
+    # a backward force opposes forward slip
     size = coefficient / math.hypot(c / (forward if c < 0.0 else backward), s / across)
     return size * c, size * s
 
 
 def vanishing_names(law: FrictionLaw) -> tuple[str, ...]:
-    """Return the parameters with which friction vanishes: pure numbers that may be zero, or next to it."""
+    """Return the names of parameters with which friction vanishes: dimensionless, with zero as lower bound."""
     found = numbers_of(law).items()
     return tuple(name for name, (value, rule) in found if rule.unit == "1" and max(rule.minimum, rule.above) == 0.0)
 
 
 def verdict(law: FrictionLaw, slip: Pair, load: float, force: Pair, expected: bool) -> str:
-    """Return the fault of the certificate of a law about a force; "" if it has none."""
+    """Return the fault of the law's verdict on a force [N]; "" if the verdict is as expected."""
     return wrong_verdict(law.is_fulfilled(slip, load, force, 1e-9 * load), expected)
 
 
@@ -159,7 +159,7 @@ def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: f
 
 
 def limit_row(law: FrictionLaw, names: tuple[str, ...], vanishes: Claim) -> Row:
-    """Return the property that nothing is left of friction with the parameters of these names next to zero."""
+    """Return the property that friction vanishes if the named parameters are at their lower bound of zero."""
 
     def check() -> None:
         if not names:

@@ -1,4 +1,4 @@
-"""Properties of everything that has parameters: bounds, round trip, immutability; and components at other values."""
+"""Conformance checks of everything that has parameters, and copies of components with other parameters."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.testing.outcome import Broken, NotChecked, Row, name_of, says_of, words_of
 
 _FAR = 3.0
-"""Ratio of other values of a parameter to the given one."""
+"""Ratio between the given value of a parameter and the other values that are tried."""
 _JUST = 1e-9
 """Distance past a bound, relative to it, that a component must notice."""
 
 
 def remade(component: Any, **values: Any) -> Any:
-    """Return the component with other parameters, without a question about the order of magnitude.
+    """Return a copy of the component with other parameters, without the warning about unusual values.
 
     Raises
     ------
     InvalidInput
-        If it refuses them.
+        The component refuses the parameters.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnusualValue)
@@ -38,7 +38,7 @@ def remade(component: Any, **values: Any) -> Any:
 
 
 def accepted(component: Any, **values: Any) -> Any:
-    """Return the component with other parameters, None if it refuses them."""
+    """Return a copy of the component with other parameters; None if the component refuses them."""
     try:
         return remade(component, **values)
     except InvalidInput:
@@ -52,7 +52,7 @@ def numbers_of(component: Any) -> dict[str, tuple[Any, Rule]]:
 
 
 def variants(component: Any) -> list[Any]:
-    """Return the component as given and with every single parameter at other values of its range."""
+    """Return the component as given, and copies with one parameter each at another value of its range."""
     found = [component]
     for name, (value, rule) in numbers_of(component).items():
         for other in _inside(value, rule):
@@ -88,7 +88,10 @@ def _declared_bounds(component: Any) -> None:
 
 
 def _acceptable(component: Any, name: str, value: float, rule: Rule) -> bool:
-    """True if a value, rounded or, if it is a bound, next to it, is accepted with some values of the others."""
+    """True if the component accepts a value of a parameter with some values of the other parameters.
+
+    The value rounded to an integer also counts. So does a value close to a bound if the value is that bound.
+    """
     low, high = max(rule.minimum, rule.above), rule.maximum
     near = [value, float(round(value))]
     if value in (low, high):
@@ -103,7 +106,11 @@ def _acceptable(component: Any, name: str, value: float, rule: Rule) -> bool:
 
 
 def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
-    """Yield values of the other parameters: as they are, one at a time left out or elsewhere, all low, all high."""
+    """Yield changes of the other parameters with which a value of ``name`` may be accepted.
+
+    In this order: no change; one parameter left out; one at another value; all at their lowest value; all at their
+    highest value; all components of a vector zero; all components zero but one.
+    """
     yield {}
     for other, (field, _) in rules(type(component)).items():
         if field.default is None and other != name:
@@ -118,7 +125,7 @@ def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
             yield {other: value}
     for pick in (min, max):
         yield {other: pick(values) for other, values in ranges.items() if values}
-    # components of a unit vector: one of them takes it all
+    # components of a unit vector: all zero, then all zero but one
     low = {other: max(rule.minimum, rule.above) for other, (_, rule) in numbers_of(component).items()}
     zero = {other: 0.0 for other in ranges if low[other] < 0.0}
     yield zero
@@ -132,7 +139,7 @@ def _round_trip(component: Any) -> None:
     declared = {name: getattr(component, name) for name, (field, _) in rules(owner).items() if field.init}
     fields = [field.name for field in dataclasses.fields(component) if field.init]
     rest = {name: getattr(component, name) for name in fields if name not in declared}
-    # words and numbers go as words; a tuple comes out of JSON as a list
+    # texts and numbers are passed as text; JSON returns a tuple as a list
     words = {name: str(value) for name, value in declared.items() if isinstance(value, (int, float, str))}
     others = rest | {name: value for name, value in declared.items() if name not in words}
     routes: dict[str, Callable[[], Any]] = {
@@ -157,7 +164,10 @@ def _as_tuple(value: Any) -> Any:
 
 
 def _through_file(component: Any) -> Any:
-    """Return a component as a scenario file holds it; itself if no file can, as for a nameless function."""
+    """Return a component after writing it to a scenario file and reading it.
+
+    A component that no file can hold, such as a nameless function, is returned as it is.
+    """
     owner = type(component)
     try:
         table = files.table_of(component, owner.__name__, owner)
@@ -181,14 +191,17 @@ def _immutable(component: Any) -> None:
 
 
 def make(owner: Any, name: str, words: Mapping[str, str]) -> Any:
-    """Return a component with the parameters given, those of its example, and some value for others without default.
+    """Return a component of a class with the parameters given as text.
+
+    Parameters that are not given are taken from the example of the class. A parameter without example and default gets
+    a value in the middle of its range, or its first choice.
 
     Raises
     ------
     InvalidInput
-        If a value is wrong, or a field without default is no declared number and not in the example.
+        A value is wrong, or a field without default and example is not a declared number.
     PluginError
-        If the class raises anything else.
+        The class raises an exception of another kind.
     """
     values = {**owner.example(), **from_words(owner, words, name)}
     for field in dataclasses.fields(owner):

@@ -14,9 +14,9 @@ _PIECES = 64
 _SUSPECTS = 3
 _HALVINGS = 30
 _LEFT = 1e-4
-"""Part of a change that is left over 2^-30 of the way where the function jumps; a slope leaves some 1e-9."""
+"""Least part of a change that remains after 30 halvings of its interval if the function jumps; a slope leaves 1e-9."""
 _SAME = 1e-6
-"""Deviation of a derivative from differences that counts as none, relative to its size."""
+"""Allowed deviation of a derivative from its differences, relative to the size of the differences."""
 _ROUND_OFF = 1e-14
 """Round-off of a value, relative to its size."""
 
@@ -31,8 +31,11 @@ def slope(value: Callable[[float], Any], dt: float) -> tuple[Array, float]:
 
 
 def slope_fault(name: str, given: Array, found: Array, known: float) -> str:
-    """Return that a value is not the derivative by :func:`slope`, which is known that well; "" if it is."""
-    # at a knot of a table the differences know little, and nothing is asked
+    """Return the fault of a derivative ``given`` that differs from ``found`` by :func:`slope`; "" if it agrees.
+
+    ``known`` is the bound of the error of ``found``.
+    """
+    # at a knot of a table the bound of the error is large, and any value passes
     if np.max(np.abs(given - found)) <= _SAME * np.max(np.abs(found)) + 10.0 * known:
         return ""
     return f"the {name} is {given.tolist()}, the differences give {found.tolist()}"
@@ -46,22 +49,26 @@ def smooth_slope(value: Callable[[float], Any], dt: float) -> Array:
 
 
 def spin_of(rates: Array, axes: Array) -> Array:
-    """Return the angular velocity of a frame from its rotation matrix and the derivative of that, both [9] numbers."""
+    """Return the angular velocity of a frame [rad/s], shape [3].
+
+    ``axes`` is the rotation matrix row by row, ``rates`` its derivative in time, shape [9] each.
+    """
     spin = rates.reshape(3, 3) @ axes.reshape(3, 3).T
     return 0.5 * np.array([spin[2, 1] - spin[1, 2], spin[0, 2] - spin[2, 0], spin[1, 0] - spin[0, 1]])
 
 
 def rotation_fault(axes: Array) -> str:
-    """Return the fault of axes that are no rotation matrix, 9 numbers; "" if they are."""
+    """Return the fault of 9 numbers that must be a rotation matrix row by row; "" if they are."""
     matrix = axes.reshape(3, 3)
     is_rotation = np.allclose(matrix.T @ matrix, np.eye(3), rtol=0.0, atol=1e-9) and np.linalg.det(matrix) >= 0.0
     return "" if is_rotation else f"the axes are {matrix.tolist()}"
 
 
 def jump(value: Callable[[float], Any], low: float, high: float, pieces: int = _PIECES) -> tuple[float, Array] | None:
-    """Return where a function jumps between two numbers and by how much, None where it does not seem to.
+    """Return the place and the size of a jump of a function between two numbers; None if no jump is found.
 
-    The largest changes are followed down, so that a jump that is small beside ordinary changes is not found.
+    Only the pieces with the largest changes are bisected. So a jump that is small compared with ordinary changes is not
+    found.
     """
     places = np.linspace(low, high, pieces + 1)
     values = [np.asarray(value(float(x)), dtype=float) for x in places]

@@ -1,4 +1,4 @@
-"""Properties of a library for distances."""
+"""Conformance checks of a library for distances: points, order of the solids, and touching planes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from nonsmooth.testing.property import Property, properties
 
 _POSES = 6
 _SAME = 1e-5
-"""Differences that count as none, relative to distance and size."""
+"""Allowed error of points and distances, relative to the extents of both shapes; also of the normal's square."""
 
 
 def check_distance_backend(backend: DistanceBackend) -> list[Property]:
@@ -42,7 +42,7 @@ def _rows(backend: DistanceBackend) -> list[Row]:
 
 
 class _Answer(NamedTuple):
-    """An answer about two solids that do not overlap, and the sum of their extents [m]."""
+    """The library's answer for two solids that do not overlap; ``size`` is the sum of their extents [m]."""
 
     shapes: tuple[Shape, Shape]
     solids: tuple[Any, Any]

@@ -1,4 +1,4 @@
-"""Properties of engines."""
+"""Conformance checks of engines, by runs with known results."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from nonsmooth.types import Array
 
 _END, _SAMPLES = 0.3, 6
 _MANY_SAMPLES = 5000
-"""More than the buffers of samples hold at once."""
+"""Number of samples that is larger than the buffers of samples."""
 _START = np.array([0.3, -0.2, 1.0, 2.0, -1.0, 0.5])
 _EXACT = 1e-6
-"""Relative error allowed of smooth motion, and of the account of an engine that promises no residual."""
+"""Allowed error of free fall [m, rad/s], and residual allowed of an engine that promises no residual."""
 _THROUGH = 0.1
-"""Part of its way that a body may pass into another: an engine of fixed steps stops it at their ends."""
+"""Allowed overlap and error of height, relative to the motion: fixed steps find contacts only at their ends."""
 _HEAP_SAMPLES = 60
 _HEIGHT = 0.5 * scenes.GRAVITY * (0.5 * _END) ** 2
 """Height of a fall that ends in the middle of the run [m]."""
@@ -43,8 +43,8 @@ _ENGINE = Claims()
 def check_engine(engine: Engine) -> list[Property]:
     """Return the properties of an engine.
 
-    It runs free bodies, a body that falls on a slab, a ball that a driven plate throws, and a heap of ten balls. Of
-    systems that its ``check`` refuses, all but the slab are skipped.
+    It runs free bodies, a body that falls on a slab, a ball that a driven plate throws, and a heap of ten balls. If the
+    engine's ``check`` refuses a system, the properties of that system are skipped. Only "contact" then counts as held.
     """
     return properties(engine, _rows)
 
@@ -57,7 +57,7 @@ def _rows(engine: Engine) -> list[Row]:
 @final
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """An engine, and a free body that it runs."""
+    """An engine, and the run of a free body that several properties share."""
 
     engine: Engine
 
@@ -84,12 +84,12 @@ class _Trial:
 
     @property
     def promised(self) -> float:
-        """The residual that the engine promises; other quantities that motion keeps may change by the same part."""
+        """Relative energy residual that the engine promises; other conserved quantities may change by the same part."""
         promised = self.engine.promised_residual
         return _EXACT if promised is None else promised
 
     def refusal(self, system: System) -> str:
-        """Return why the engine refuses a system, "" if it does not."""
+        """Return the message with which the engine refuses a system; "" if it accepts the system."""
         try:
             self.engine.check(system)
         except InvalidInput as refused:
@@ -99,7 +99,7 @@ class _Trial:
         return ""
 
     def run(self, system: System, n: int = _SAMPLES) -> Solution:
-        """Run a system, unless the engine refuses it; the run must be done."""
+        """Return the run of a system. Raise NotChecked if the engine refuses it, Broken if the run is not "done"."""
         if refusal := self.refusal(system):
             raise NotChecked(f"the engine refuses the system: {refusal}")
         _ = self.model
@@ -113,7 +113,7 @@ class _Trial:
         _require_at_most("energy residual", np.array([solution.energy.residual]), self.promised)
 
     def require_same(self, other: Solution) -> None:
-        """Raise Broken unless another run of the free body is the same."""
+        """Raise Broken unless another run of the free body ends with the same q and u, bit for bit."""
         for name in ("q_end", "u_end"):
             one, two = getattr(self.solution, name), getattr(other, name)
             if not np.array_equal(one, two):
@@ -239,13 +239,13 @@ def _continues(trial: _Trial) -> None:
 
 
 def _slab(height: float) -> System:
-    """Return a puck at a height over a slab."""
+    """Return a puck at rest at a height over a slab [m]."""
     laws = ContactLaws(ReferenceContact(), ReferenceFriction(), ReferenceImpact())
     return over_slab(Puck(), height, np.zeros(6), laws, gravity=scenes.GRAVITY)
 
 
 def _require_at_most(name: str, values: Array, most: float) -> None:
-    """Raise Broken unless all values are at most so large."""
+    """Raise Broken unless all values are at most ``most``."""
     worst = float(np.max(values))
     if not worst <= most:
         raise Broken(f"must be at most {most:g}", name, worst)

@@ -1,4 +1,4 @@
-"""Systems on which an engine is tried, and what physics says of them: a box that tumbles, a driven plate, a heap."""
+"""Systems for the checks of engines, with their expected results: a tumbling box, a driven plate, a heap of balls."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from nonsmooth.system.system import System
 from nonsmooth.testing.reference import ReferenceContact, ReferenceFriction, ReferenceImpact
 
 GRAVITY = 9.81
-"""[m/s^2]."""
+"""Gravity [m/s^2]."""
 FREQUENCY, AMPLITUDE = 5.0, 5e-3
 """Frequency [Hz] and amplitude [m] of the driven plate."""
 RADIUS, BALLS = 0.01, 10
@@ -37,7 +37,7 @@ def _touch(system: System, first: Body, second: Body, share: float) -> None:
 
 
 def tumbling() -> System:
-    """Return a box that tumbles without gravity, behind a ball, so that its coordinates are not the first ones."""
+    """Return a box that tumbles without gravity. A ball comes first, so that the box has not the first coordinates."""
     ball, box = _made("bodies", "ball", RADIUS, mass=1.0), _made("bodies", "box", 0.1, 0.2, 0.3, mass=1.0)
     system = System([ball, box])
     system.exclude(ball, box)
@@ -49,13 +49,13 @@ def tumbling() -> System:
 def momentum(solution: Solution) -> NDArray[np.float64]:
     """Return the angular momentum of the tumbling box at the samples in world axes [kg m^2/s], shape [n, 3]."""
     box: Any = solution.system.bodies[1]
-    # its angular velocity is along its own axes
+    # the angular velocity is in body axes
     own = solution.of(box)[1][:, 3:] * box.inertia
     return np.asarray(np.einsum("nij,nj->ni", solution.history("rotation", of=box)["rotation"][:, 0], own))
 
 
 def thrown() -> System:
-    """Return a ball that falls on a plate, which swings up and down and meets it after one period, on its way up."""
+    """Return a ball that falls on a plate that swings vertically. They meet after one period, while the plate rises."""
     motion = _made("motions", "harmonic", AMPLITUDE, FREQUENCY)
     plate, ball = _made("bodies", "plate", motion), _made("bodies", "ball", RADIUS, mass=1.0)
     system = System([plate, ball], GRAVITY)
@@ -65,7 +65,10 @@ def thrown() -> System:
 
 
 def thrown_height(time: float) -> float:
-    """Return the height of the thrown ball above the plate's middle [m], at a time after it was thrown [s]."""
+    """Return the height of the thrown ball's lowest point over the plate's mean level [m], after the throw.
+
+    ``time`` counts from the start of the run [s].
+    """
     restitution, speed = math.sqrt(_SHARE), 2.0 * math.pi * FREQUENCY * AMPLITUDE
     after = (1.0 + restitution) * speed + restitution * GRAVITY / FREQUENCY
     since = time - 1.0 / FREQUENCY
@@ -73,7 +76,7 @@ def thrown_height(time: float) -> float:
 
 
 def heap() -> System:
-    """Return ten balls in three layers, 6 + 3 + 1, just above a plate and each other, which lose all in impacts."""
+    """Return ten balls in three layers, 6 + 3 + 1, with small gaps over a plate. Impacts give back no energy."""
     plate = _made("bodies", "plate")
     balls = [_made("bodies", "ball", RADIUS, mass=1.0) for _ in range(BALLS)]
     system = System([plate, *balls], GRAVITY)

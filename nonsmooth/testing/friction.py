@@ -1,4 +1,4 @@
-"""Properties of friction laws."""
+"""Conformance checks of friction laws: sustained contact, impacts, and the limit without friction."""
 
 from __future__ import annotations
 
@@ -37,22 +37,22 @@ from nonsmooth.testing.stateful import STATES, initial_state, rates_function
 
 _PUSH = number("push", 0.0, 3.0)
 _SLIGHT = 1e-6
-"""Approach in units of the slip speed that leaves the slip as it is."""
+"""Approach speed of a slight impact, relative to the slip speed: so small that the slip hardly changes."""
 _FRICTION = Claims(fewest=FEWEST)
 
 
 def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None = None) -> list[Property]:
     """Return the properties of a friction law.
 
-    An anisotropic law has properties of its own. A law with inner states has those of any other while they are the
-    initial ones, and some more.
+    An anisotropic law has properties of its own. A law with inner states is checked at its initial states as any other
+    law; then its states are checked, too.
 
     Parameters
     ----------
     law : FrictionLaw
         The law, with parameters.
     coefficients : sequence of str, optional
-        Parameters with which friction vanishes; by default those that are pure numbers and may be zero, or next to it.
+        Names of parameters with which friction vanishes; by default all dimensionless ones with zero as lower bound.
     """
     return properties(law, _rows, coefficients=coefficients)
 
@@ -65,7 +65,7 @@ def _rows(law: FrictionLaw, coefficients: Sequence[str] | None) -> list[Row]:
     found = [*table([*COEFFICIENT, *_FRICTION]), limit_row(law, vanishing, _vanishes)]
     if not isinstance(law, StatefulFrictionLaw):
         return all_rows(law, lambda: [coefficient_function(one) for one in variants(law)], found)
-    # the rates first, which refuse states that are not in order
+    # the rates first: invalid initial states end the check there
     functions = rates_function, coefficient_function
     return all_rows(
         law,
@@ -111,7 +111,7 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
     """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
     slip = along(speed, heading)
     normal, traction = _contact(law, [0.0, 0.0, -1.0], slip)
-    # the slip changes by the coefficient times the approach
+    # the slip changes by about the coefficient times the approach: a large coefficient needs a slower approach
     size = max(1.0, mu(law, speed))
     result = _impact(law, point((*slip, -_SLIGHT / size * speed)))
     t1, t2 = (float(x) / float(result.normal_impulse[0]) for x in result.tangential_impulse[0])

@@ -1,4 +1,4 @@
-"""Properties of every function that the engine calls: it comes back, with finite numbers, compiled as plain."""
+"""Conformance checks of functions that the engine calls: time, finite numbers, the same results if compiled."""
 
 from __future__ import annotations
 
@@ -23,15 +23,18 @@ from nonsmooth.types import Array
 
 Caller = Callable[..., Any]
 ROOM = 4
-"""Numbers behind the block that a function writes."""
+"""Number of extra floats behind a function's block, to detect writing beyond the block."""
 OLD = 7.0e3
-"""Value of these numbers, which must stay."""
+"""Value of the extra floats behind a block, which a function must not change."""
 _SAME = 1e-9
 """Difference of compiled and plain results that counts as round-off, relative to their size."""
 
 
 def plain_caller(function: Caller, form: str, values: Mapping[str, Any]) -> Caller:
-    """Return the function with its parameters filled in; of the form "map" they are one number per contact."""
+    """Return a function in plain Python with its parameters filled in.
+
+    The parameters of a function of the form "map" are arrays with one number per contact.
+    """
     names = parameter_names(function, form)
     plain = _without_pointers(function)
 
@@ -43,7 +46,10 @@ def plain_caller(function: Caller, form: str, values: Mapping[str, Any]) -> Call
 
 @functools.cache
 def _without_pointers(function: Caller) -> Caller:
-    """Return a function that moves pointers, as those put together from parts do, with slices in their place."""
+    """Return a copy of a function with array slices in place of moved pointers, which plain Python does not have.
+
+    Functions that are composed of several parts move pointers. Any other function is returned as it is.
+    """
     scope = getattr(function, "__globals__", {})
     if PLAIN or not any(value is at for value in scope.values()):
         return function
@@ -58,14 +64,14 @@ def _slice(heap: Array, offset: int) -> Array:
 
 
 def compiled_caller(function: Caller, form: str, values: Mapping[str, Any], owner: str) -> Caller:
-    """Return the same, compiled; arguments are numbers and contiguous arrays, as the engine passes them.
+    """Return a compiled function with its parameters filled in; it takes numbers and contiguous arrays.
 
     Raises
     ------
     UnknownName
-        If the function asks for a parameter that nobody gives.
+        The function has a parameter that is not among ``values``.
     PluginError
-        If the function cannot be compiled.
+        The function cannot be compiled.
     """
     names = parameter_names(function, form)
     address, heap = bind(function, form, dict.fromkeys(values, 0.0) if form == "map" else values, owner)
@@ -82,7 +88,10 @@ def place_of_function(function: Caller) -> str:
 
 
 def written(call: Callable[[Array], Any], size: int, old: float | Array = 0.0) -> Array:
-    """Return what a function writes into a block of ``size`` numbers that holds ``old``, with some room behind it."""
+    """Return the block that a function has written, and :data:`ROOM` numbers behind it.
+
+    Before the call the ``size`` numbers of the block are ``old``, and the numbers behind it are :data:`OLD`.
+    """
     out = np.full(size + ROOM, OLD)
     out[:size] = old
     call(out)
@@ -90,7 +99,7 @@ def written(call: Callable[[Array], Any], size: int, old: float | Array = 0.0) -
 
 
 def left_over(call: Callable[[Array], Any], other: Callable[[Array], Any], size: int, row: int = 0) -> str:
-    """Return the number of a block that a function leaves as another call wrote it; "" if it writes all.
+    """Return the fault of a block in which a number of the call before remains; "" if the function writes all numbers.
 
     ``row`` is the length of the rows of the block, 0 if it has none.
     """
@@ -111,15 +120,15 @@ class CheckedFunction:
     owner : object
         The component.
     name : str
-        Its name in the interface.
+        Name of the function in the interface.
     form : str
-        Its form (:data:`nonsmooth.engine.native.forms.FORMS`).
+        Form of the function (:data:`nonsmooth.engine.native.forms.FORMS`).
     offered : mapping
-        The parameters that it may ask for.
+        Values of the parameters that the function may take by name.
     inputs : sequence
-        The inputs, each with words for it.
+        Pairs of a text for messages and the arguments of a call.
     size : int
-        Length of the block that it writes.
+        Length of the block that the function writes; 0 if it returns a number.
     """
 
     owner: Any
@@ -136,7 +145,7 @@ class CheckedFunction:
 
     @property
     def title(self) -> str:
-        """Component and name."""
+        """Class of the component and name of the function, such as ``Coulomb.coefficient``."""
         return f"{type(self.owner).__name__}.{self.name}"
 
     @property
@@ -146,7 +155,7 @@ class CheckedFunction:
 
     @property
     def calls(self) -> Iterator[tuple[str, tuple[Any, ...]]]:
-        """The inputs, each with the words of a call."""
+        """Pairs of a call as text and its arguments."""
         return ((f"{self.title}({words})", given) for words, given in self.inputs)
 
     def broken(self, reason: str) -> Broken:
@@ -154,24 +163,24 @@ class CheckedFunction:
         return Broken(reason, *described(self.owner))
 
     def about_to_call(self, words: str, prop: str) -> None:
-        """Say that the function is about to be called, which may take a second."""
+        """Report to the watchdog that a call of the function begins, which may take :data:`CALL` seconds."""
         about_to(f"{words} {{takes}} in {self.place}", self.owner, seconds=CALL, prop=prop)
 
     def has_come_back(self) -> None:
-        """Say that other things follow, which may take longer than a call."""
+        """Report to the watchdog that the call has ended; the next actions may take longer."""
         about_to("it {takes}", self.owner)
 
     def plain(self, *given: Any) -> Any:
-        """Return what it returns or writes, in plain Python."""
+        """Return the number or the block of a call in plain Python."""
         return self._result(plain_caller(self.function, self.form, self.offered), given)
 
     def compiled(self) -> Caller:
-        """Return the same, compiled."""
+        """Return the compiled function; a call gives its number or its block, as :meth:`plain` does."""
         call = compiled_caller(self.function, self.form, self.offered, type(self.owner).__name__)
         return lambda *given: self._result(call, given)
 
     def _result(self, call: Caller, given: tuple[Any, ...]) -> Any:
-        # an array is the function's own, as it may write to it by mistake
+        # the function gets copies of arrays, as it may write to them by mistake
         own = tuple(one.copy() if isinstance(one, np.ndarray) else one for one in given)
         if FORMS[self.form].returns:
             return call(*own)
@@ -179,16 +188,16 @@ class CheckedFunction:
 
 
 def scalar_function(owner: Any, name: str, values: Sequence[float], offered: Mapping[str, Any]) -> CheckedFunction:
-    """Return a function of a single number, with numbers to try."""
+    """Return a component's function of a single number as a function to check, with ``values`` as inputs."""
     return CheckedFunction(owner, name, "scalar", offered, [(f"{x:g}", (x,)) for x in values])
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class _Functions:
-    """The functions of a component, checked once, before anything else runs them.
+    """The functions of a component, which are checked once before the engine runs them.
 
-    Nothing else is checked if one of them is not fit to be run: the engine calls the compiled ones.
+    If a function has a fault, the other properties are not checked, because the engine would call that function.
     """
 
     made: Callable[[], Sequence[CheckedFunction]]
@@ -281,7 +290,7 @@ def _time_budget(function: CheckedFunction) -> None:
         try:
             function.plain(*given)
         except Exception:
-            break  # the next property tells what it raises
+            break  # the property "finite numbers" reports the exception
     function.has_come_back()
 
 
@@ -310,7 +319,7 @@ def _writes_its_block(function: CheckedFunction) -> None:
 
 def _compiled_equals_plain(function: CheckedFunction) -> None:
     """Compiled functions return the same numbers as in plain Python."""
-    # compiling takes its time
+    # compiling may take longer than a call
     function.has_come_back()
     compiled = function.compiled()
     for call, given in function.calls:
@@ -339,9 +348,9 @@ def _table(*looks: Callable[[CheckedFunction], None]) -> dict[str, Callable[[Che
 
 
 _STAGES = _table(_known_parameters, _time_budget, _finite_numbers, _writes_its_block)
-"""What is checked first, in this order; all else only if this holds."""
+"""First checks of a function, in this order. All other properties are checked only if these hold."""
 _LATER = _table(_compiled_equals_plain, _determinism)
-"""What is checked of functions that can be run."""
+"""Further checks of functions that have passed the first checks."""
 
 
 def _raised_at(error: Exception) -> str:

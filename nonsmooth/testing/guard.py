@@ -1,4 +1,4 @@
-"""Properties of guards."""
+"""Conformance checks of guards: the value is continuous while the state changes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from nonsmooth.types import Array
 
 _NUMBERS, _DRAWS = 24, 24
 _WHILE = 0.5
-"""How long the state moves on either side of an input, along which jumps are searched [s]."""
+"""Time before and after an input in which jumps are searched while the state changes [s]."""
 
 
 def check_guard(guard: Guard, *, numbers: int = _NUMBERS) -> list[Property]:
@@ -26,7 +26,7 @@ def check_guard(guard: Guard, *, numbers: int = _NUMBERS) -> list[Property]:
     guard : Guard
         The guard; it is checked with coordinates and velocities between -1 and 1.
     numbers : int, optional
-        How many coordinates, and as many velocities, it is given.
+        Number of coordinates, and of velocities, that the guard is given.
     """
     return properties(guard, _rows, numbers=numbers)
 
@@ -45,7 +45,7 @@ def _state_of(numbers: int) -> Drawn:
 
 def _state(case: Case, dt: float = 0.0) -> tuple[float, Array, Array]:
     q, u = (np.array([value for name, value in case.items() if name.startswith(letter)]) for letter in "qu")
-    # constant velocities move the coordinates; the velocities move, too, by numbers of their own
+    # q changes at the rates u; u changes at the numbers of q in reverse order, so that every number changes
     return case["t"] + dt, q + dt * u, u + dt * q[::-1]
 
 

@@ -1,4 +1,4 @@
-"""Properties of impact laws, of processes that the engine integrates and of maps from rates to impulses."""
+"""Conformance checks of impact laws: processes, which the engine integrates, and maps from rates to impulses."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SPEED = number("speed", 1e-2, 1e2, 1.0, is_log=True)
 _ONE = problem_of(1)
 _DRAWS, _DRAWS_BY_KIND = 10, 6
 _NEAR = 1e-6
-"""Agreement of velocities after impacts that should be the same, relative to the largest."""
+"""Allowed difference of velocities after impacts that must be the same, relative to the largest speed."""
 _INDENTATIONS = (0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
 _RATES = (*(-np.geomspace(1e-9, 1e2, 6)).tolist(), 0.0, *np.geomspace(1e-9, 1e2, 12).tolist())
 _INDENTATION = number("indentation", 1e-6, 1e1, 1.0, is_log=True)
@@ -38,7 +38,7 @@ _STORED = number("stored", 1e-3, 1e3, 1.0, is_log=True)
 _GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
 _ANY_MU = number("friction", 0.0, 0.6)
 _OF_FUNCTION = 0.3
-"""Friction coefficient with which the function is tried."""
+"""Friction coefficient in the inputs of a map's function."""
 _SHARED, _PROCESS, _MAP = Claims(fewest=FEWEST), Claims(fewest=FEWEST), Claims()
 """Claims about all impact laws, about processes and about maps."""
 
@@ -51,8 +51,8 @@ def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> lis
     law : ImpactLaw
         The law, with parameters.
     restitution : str
-        Its parameter, between 0 and 1, with which it goes from the plastic impact to the elastic one; the two limits
-        are not checked if it has no parameter of that name.
+        Name of the parameter that is 0 for a plastic impact and 1 for an elastic impact. If the law has no parameter of
+        this name, the two limits are not checked.
     """
     return properties(law, _rows, restitution=restitution)
 
@@ -132,7 +132,7 @@ def _dissipation(law: ImpactLaw, p: ImpactProblem) -> str:
 @_SHARED.claim(GIVEN, _ROUGH)
 def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
     """With friction no impact of approaching contacts gains energy."""
-    # one contact alone too, with slip in and against the lean of the body
+    # also the first contact alone, with the velocity along x as drawn and reversed
     one = replace(p, normal=p.normal[:, :1], tangential=p.tangential[:, :1])
     back = replace(one, velocity=p.velocity * np.array([-1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
     return _gain(law, one, mu) or _gain(law, back, mu) or _gain(law, p, mu)
@@ -225,7 +225,7 @@ def _elastic(law: ImpactLaw, speed: float, mu: float) -> str:
 
 
 def _difference(one: ImpactResponse, other: Array, words: str) -> str:
-    """Return that the velocities after two impacts differ; "" if they are the same."""
+    """Return the fault of velocities after two impacts that differ; "" if they agree."""
     if not _apart(one.velocity, other, one.size):
         return ""
     return f"the velocities after are {_list(one.velocity)}, and {_list(other)} {words}"
@@ -289,7 +289,10 @@ def _is_alone(law: ImpactLaw) -> bool:
 
 
 def _map_functions(law: ImpactMap) -> list[CheckedFunction]:
-    """Return the function of a map, with problems of one contact, and of two unless it is a law of a single one."""
+    """Return the function of a map as functions to check: with one contact and with two contacts.
+
+    A law of a single contact is checked with one contact only.
+    """
     return [_of_contacts(law, 1)] if _is_alone(law) else [_of_contacts(law, 1), _of_contacts(law, 2)]
 
 
@@ -300,7 +303,7 @@ def _of_contacts(law: ImpactMap, n: int) -> CheckedFunction:
 
 
 def _given(p: ImpactProblem) -> tuple[int, Array, Array]:
-    """Return the arguments of the function of a map."""
+    """Return the arguments of a map's function: number of contacts, Delassus matrix row by row, rates before."""
     return p.n, np.ascontiguousarray(p.delassus).ravel(), p.rates
 
 
@@ -327,7 +330,7 @@ def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str
         "1.2 times its friction": obeying + 0.2 * across,
         "no impulses": 0.0 * obeying,
     }
-    # impulses that change no velocity are the same solution
+    # impulses with the same velocities after the impact are solutions, too
     others = {k: v for k, v in wrong.items() if np.max(np.abs(delassus @ (v - obeying))) > 1e3 * tolerance}
     friction = vectors_of([law] * p.n, [mu] * p.n)["friction"]
     for words, impulses in {"its impulses": obeying, **others}.items():

@@ -1,7 +1,7 @@
-"""Inputs of the properties: drawn by hypothesis, made as simple as they fail.
+"""Inputs of the properties: hypothesis draws them, and simplifies an input that fails.
 
-A number is one of a thousand steps between its simplest value and either bound. Hypothesis draws the steps and makes a
-failing input simpler step by step. So a message names numbers of a size that means something.
+There are a thousand steps from the simplest value of a number to either bound. Hypothesis draws the steps and reduces
+the steps of a failing input. So a message names short numbers of ordinary size.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from typing import Any, final
 from nonsmooth.errors import MissingPackagesError
 
 Case = dict[str, float]
-"""Numbers by name."""
+"""An input: its numbers by name."""
 MOST_TRIALS = 300
-"""Inputs that are tried to make a failing input simpler."""
+"""Largest number of inputs that are tried to simplify a failing input."""
 _STEPS = 1000
 """Steps between the simplest value of a number and a bound."""
 _ORIGIN = 7_001_001_001
-"""Integer that means no step. Hypothesis mixes constants of loaded modules into its draws; none is as large as this."""
+"""Integer for step 0: larger than the constants of loaded modules, which hypothesis mixes into its draws."""
 _PACKAGES = ("hypothesis", "cloudpickle")
 
 
@@ -33,11 +33,11 @@ class DrawnNumber:
     Attributes
     ----------
     name : str
-        Its name in messages.
+        Name of the number in messages.
     low, high : float
         The bounds.
     simplest : float
-        The value that it has in the simplest input.
+        Value of the number in the simplest input.
     is_log : bool
         True if its logarithm is drawn.
     """
@@ -72,7 +72,7 @@ class DrawnNumber:
 @final
 @dataclass(frozen=True)
 class Drawn:
-    """Numbers that are drawn together, and what a property gets that is made of them."""
+    """Numbers that are drawn together, and the function ``made`` that makes an argument of a property from them."""
 
     numbers: tuple[DrawnNumber, ...]
     made: Callable[[Case], Any]
@@ -93,7 +93,7 @@ def require_packages() -> None:
 
 
 def draws(inputs: Sequence[Drawn], count: int) -> list[Case]:
-    """Return the simplest input, then drawn ones, always the same."""
+    """Return at most ``count`` inputs: the simplest one, then drawn ones. Every call returns the same inputs."""
     numbers = _numbers(inputs)
     return [_case(numbers, steps) for steps in _drawn(tuple(one.n_steps for one in numbers), count)]
 
@@ -127,7 +127,7 @@ def simplified(inputs: Sequence[Drawn], case: Case, fails: Callable[[Case], bool
 
 
 class _Fails(Exception):
-    """An input that fails."""
+    """Raised inside hypothesis to mark an input as failing."""
 
 
 def _numbers(inputs: Sequence[Drawn]) -> list[DrawnNumber]:
@@ -140,7 +140,7 @@ def _case(numbers: Sequence[DrawnNumber], steps: Sequence[int]) -> Case:
 
 @functools.cache
 def _drawn(sizes: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
-    """Return drawn steps, once for all properties whose numbers have so many steps."""
+    """Return ``count`` drawn tuples of steps. Properties whose numbers have as many steps share them."""
     if not sizes:
         return [()]
     found: list[tuple[int, ...]] = []
@@ -149,7 +149,7 @@ def _drawn(sizes: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
 
 
 def _run(sizes: tuple[int, ...], count: int, trial: Callable[[tuple[int, ...]], None], *, shrinks: bool) -> None:
-    """Let hypothesis draw steps: the same at each time, without a database or a limit of time of its own."""
+    """Call ``trial`` with steps that hypothesis draws: the same in each run, without a database or a time limit."""
     from hypothesis import HealthCheck, Phase, Verbosity, given, settings
     from hypothesis import strategies as st
 

@@ -1,4 +1,4 @@
-"""Properties of joints."""
+"""Conformance checks of joints: rows, their derivatives, and poses at which the joint is closed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _PARTS = {
     "second point": slice(POINT_B, ROW_BIAS),
     "bias": slice(ROW_BIAS, JOINT_ROW),
 }
-"""The parts of a row."""
+"""Positions of the parts in a row of a joint."""
 _MOST_ROWS = 6
 _TRIES, _STEPS = 12, 40
 _CLOSED = 1e-12
@@ -59,7 +59,7 @@ def _evaluator(joint: Joint) -> CheckedFunction:
 
 
 def _look(joint: Joint, at: Frames) -> Array:
-    """Return the rows, shape [n_rows, 14]."""
+    """Return the rows that a joint writes for two frames, shape [n_rows, 14]."""
     size, call = JOINT_ROW * joint.n_rows, plain_caller(joint.evaluator, "pair", joint.parameters())
     return written(lambda out: call(*at, out), size)[:size].reshape(joint.n_rows, JOINT_ROW)
 
@@ -94,7 +94,10 @@ def _writes_its_block(joint: Joint, move: Movement) -> str:
 
 
 def _unlike(name: str, given: Array, found: Array, known: float) -> str:
-    """Return the row of which a number is not its derivative by differences, which are known that well."""
+    """Return the fault of a row whose number ``given`` differs from the differences ``found``; "" if all rows agree.
+
+    ``known`` is the bound of the error of the differences.
+    """
     worst = int(np.argmax(np.abs(given - found)))
     if abs(given[worst] - found[worst]) <= _SAME * (1.0 + float(np.max(np.abs(found)))) + 10.0 * known:
         return ""
@@ -119,7 +122,7 @@ def _bias(joint: Joint, move: Movement) -> str:
 def _frame_invariance(joint: Joint, move: Movement) -> str:
     """If both bodies are moved together, residuals stay and axes turn with them."""
     here, there = _look(joint, move.at()), _look(joint, moved(move.at()))
-    # the points of a row without an axis mean nothing
+    # the points of a row without an axis have no effect
     acts = np.any(here[:, _PARTS["axis"]] != 0.0, axis=1)
     for name, part in _PARTS.items():
         one, other = there[:, part], here[:, part]
@@ -134,7 +137,10 @@ def _frame_invariance(joint: Joint, move: Movement) -> str:
 
 
 def _closed(joint: Joint) -> list[Frames]:
-    """Return poses at which the joint is closed, found by Newton's method on the second body from drawn ones."""
+    """Return poses of the bodies at which the joint is closed.
+
+    Newton's method starts from drawn poses and moves the second body until all residuals vanish.
+    """
     found = []
     for case in draws([MOVEMENT], _TRIES):
         a, b = Movement(case).still.at()

@@ -1,4 +1,4 @@
-"""Properties of the kinematics of a contact pair."""
+"""Conformance checks of contact kinematics: gap, normal, witness points, and their derivatives in time."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _STEP = 5e-4
 _PLACE = (0.31, -0.23, 0.37)
 """Place of the second body in the simplest input, in units of the reach: on no axis of the first."""
 _DEEP = 0.1
-"""Penetration in units of the reach, deeper than which nothing is checked."""
+"""Largest penetration of two bounded bodies that is checked, in units of the reach."""
 _RATE, _BIAS = 1e-7, 1e-5
-"""Deviation from differences that counts as none, in units of the speeds and accelerations."""
+"""Allowed deviations of the gap rate and of the second-order terms from differences, relative to their size."""
 _UNIT = np.array([1.0, 0.0, 0.0, 0.0])
 _AT_PLACES, _MOVED = Claims(), Claims()
 """Claims about the bodies at their places, and about bodies that are moved together."""
@@ -50,12 +50,13 @@ def check_contact_kinematics(
     first, second : Shape
         The shapes that it was made for.
     reach : float, optional
-        Largest distance of the bodies that is tried [m]; by default what holds both shapes.
+        Largest distance of the bodies along each axis [m]; by default the sum of the shapes' finite extents, or 1 m if
+        that is zero.
 
     Raises
     ------
     InvalidInput
-        If features of the contact are searched for: then it holds none.
+        The kinematics searches for its features, and so has no given features that can be checked.
     """
     if kinematics.candidates is not None:
         raise InvalidInput(
@@ -88,7 +89,7 @@ def _rows(kinematics: ContactKinematics, shapes: tuple[Shape, Shape], reach: flo
 
 
 def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set[int]) -> None:
-    """Examine a claim that needs places at which the contact is smooth: at more places until there is one."""
+    """Examine a claim that needs places at which the contact is smooth; if there is no such place, draw more."""
     smooth.clear()
     for count in (_DRAWS, _MOST_DRAWS):
         if not smooth:
@@ -99,7 +100,7 @@ def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set
 
 def _numbers(reach: float) -> tuple[DrawnNumber, ...]:
     found = [DrawnNumber(f"place_{c}", -reach, reach, part * reach) for c, part in zip("xyz", _PLACE, strict=True)]
-    # small bodies are as slow, or differences over a step do not tell a rate
+    # small bodies move slowly, so that they move by a small part of their size within a step of the differences
     speed = min(reach, 1.0)
     sizes = {"turn_a": 3.0, "turn_b": 3.0, "velocity_a": speed, "velocity_b": speed, "spin_a": 2.0, "spin_b": 2.0}
     return (*found, *(DrawnNumber(f"{name}_{c}", -size, size) for name, size in sizes.items() for c in "xyz"))
@@ -144,7 +145,7 @@ class _Placed:
     reach : float
         Largest distance of the bodies [m].
     smooth : set of int
-        Gets a number if the contact is smooth at the place.
+        Receives a number if the contact is smooth at the place; all inputs share it.
     """
 
     case: Case
@@ -153,19 +154,19 @@ class _Placed:
     smooth: set[int]
 
     def put(self, dt: float = 0.0) -> ContactRig:
-        """Put the bodies where they are after a time [s]."""
+        """Give the bodies of the rig their poses after a time [s], and return the rig."""
         u = [three(self.case, f"{name}_{side}") for side in "ab" for name in ("velocity", "spin")]
         self.rig.put(_poses(self.case, dt), np.concatenate(u))
         return self.rig
 
     def shallow(self, is_bounded: bool) -> _Placed:
-        """Return itself, unless the cores of two bounded bodies meet, where the normal has no value."""
+        """Return this input. Raise Inapplicable if bounded bodies overlap so much that the normal may be undefined."""
         if is_bounded and self.put().geometry[blocks.GAP] < -_DEEP * self.reach:
             raise Inapplicable
         return self
 
     def derivative(self, value: Callable[[ContactRig], Array]) -> Array | None:
-        """Return the derivative in time while u' = 0, None if a feature changes or it is not smooth."""
+        """Return the derivative in time of a value while u' = 0; None if the feature changes or it is not smooth."""
         feature = self.put().geometry[blocks.FEATURE]
         if self.rig.geometry[blocks.PAST_END] > 0.0:
             return None
@@ -183,7 +184,10 @@ class _Placed:
         return found
 
     def moved_together(self, turn: Array, part: slice, name: str) -> str:
-        """Return the fault of a vector of the geometry that does not turn with both bodies; they stay moved."""
+        """Return the fault of a vector of the geometry that does not turn with both bodies; "" if it turns.
+
+        Afterwards the bodies of the rig are still in the moved poses.
+        """
         self.rig.put(_poses(self.case), np.zeros(12))
         axes, before = rotation(turned(_UNIT, turn)), self.rig.geometry[part]
         moved = [(axes @ place + SHIFT, turned(q, turn)) for place, q in _poses(self.case)]
@@ -264,7 +268,7 @@ def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
     found = at.derivative(lambda r: np.append(r.rate[0], r.rate[1:] @ r.axes[1:]))
     if found is None:
         return ""
-    # the slip as a vector, whatever the tangents do; the terms are those in tangents that turn with the first body
+    # differentiate the slip as a vector in space; the terms belong to tangents that turn with the first body
     spin = float(three(at.case, "spin_a") @ axes[0])
     expected = np.append(found[0], axes[1:] @ found[1:] + spin * np.array([rate[2], -rate[1]]))
     worst = int(np.argmax(np.abs(bias - expected)))

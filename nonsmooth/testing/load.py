@@ -1,4 +1,4 @@
-"""Properties of loads."""
+"""Conformance checks of loads: continuity, dependence on time, and independence of a common motion of the bodies."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _TIME = number("t", 0.0, 1.0)
 _LATER = 0.37
 """Time after which a load is evaluated again [s]."""
 _WHILE = 0.2
-"""How long the frames move on either side of an input, along which jumps are searched [s]."""
+"""Time before and after an input in which jumps are searched while the frames move [s]."""
 _PARTS = {
     "force": slice(FORCE, LOAD_POINT),
     "point": slice(LOAD_POINT, LOAD_MOMENT),
@@ -41,8 +41,8 @@ def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
     load : Load
         The load; it is checked between two frames about a metre apart.
     tied_to_space : bool, optional
-        True if it knows directions, places or speeds in space, as a weight, a wind or a drag do: then nothing is asked
-        of bodies that move together. A class of which that is always true says it in its ``departures``.
+        True if the load depends on directions, places or speeds in space, as weight, wind and drag do. Then it is not
+        checked with bodies that move together. A class for which this always holds declares it in ``departures``.
     """
     return properties(load, _rows, tied_to_space=tied_to_space)
 
@@ -77,7 +77,10 @@ def _no_jumps(load: Load, t: float, move: Movement) -> str:
 
 
 def _about_origin(block: Array) -> Array:
-    """Return the force, and its moment about the origin with the moment: places along its line are the same."""
+    """Return the force [N] and the total moment about the origin [N m], shape [6].
+
+    They do not depend on the place of the point along the line of the force.
+    """
     force, point, moment = (block[part] for part in _PARTS.values())
     return np.concatenate([force, moment + cross(point, force)])
 

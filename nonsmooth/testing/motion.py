@@ -1,4 +1,4 @@
-"""Properties of prescribed motions."""
+"""Conformance checks of prescribed motions: derivatives, continuity and time scale."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from nonsmooth.types import Array
 
 _DRAWS = 40
 _SPAN = 3.0
-"""How long a motion is checked by default, in units of its time scale."""
+"""Time for which a motion is checked by default, in units of its time scale."""
 _STEP = 1e-3
 """Step of the differences, in units of the time scale."""
 _ELSEWHEN = 0.637
 """Time before an input at which the block is written first, in units of the time scale."""
 _PIECES, _BENT = 16, 0.15
-"""Over 1/16 of the time scale everything is straight to 15 %: a sine of a third of the time scale is not."""
+"""Within 1/16 of the time scale values may bend by 15 %; a sine with a third of the time scale as period bends more."""
 _PARTS = {
     "position": slice(POSITION, ROTATION),
     "rotation": slice(ROTATION, VELOCITY),
@@ -36,7 +36,7 @@ _PARTS = {
     "angular acceleration": slice(SPIN_ACCELERATION, FRAME),
 }
 _NOTHING = np.zeros(1)
-"""Coordinates and velocities of a driven body."""
+"""Dummy array for q and u, as a driven body has no coordinates."""
 _MOTION = Claims()
 
 
@@ -48,7 +48,8 @@ def check_motion(motion: Motion, *, duration: float | None = None) -> list[Prope
     motion : Motion
         The motion.
     duration : float, optional
-        How long it is checked, from t = 0 [s]; by default three times its time scale, a second if that is infinite.
+        Time for which the motion is checked, from t = 0 [s]; by default three times its time scale, or 1 s if the time
+        scale is infinite.
     """
     return properties(motion, _rows, duration=duration)
 
@@ -83,7 +84,7 @@ def _look(motion: Motion, t: float) -> Array:
 
 
 def _unit(motion: Motion) -> float:
-    """Return the time scale, a second if it is no finite number above zero [s]."""
+    """Return the time scale of a motion [s]; 1 s if the time scale is infinite or not positive."""
     scale = float(motion.time_scale)
     return scale if math.isfinite(scale) and scale > 0.0 else 1.0
 
@@ -149,7 +150,7 @@ def _check_scale(motion: Motion, span: float) -> None:
         values = blocks[:, part]
         size = float(np.max(np.abs(values)))
         if name == "position":
-            continue  # its velocity tells more
+            continue  # its velocity is checked instead
         if not math.isfinite(scale):
             if np.max(np.abs(values - values[0])) > 1e-9 * size:
                 raise Broken(f"the {name} changes", "time_scale", scale)

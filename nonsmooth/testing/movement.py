@@ -1,4 +1,4 @@
-"""Two frames that move as an input says, with everything that their blocks hold in closed form."""
+"""Two moving frames as input of joints and loads, with poses, velocities and accelerations in closed form."""
 
 from __future__ import annotations
 
@@ -13,51 +13,51 @@ from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber
 from nonsmooth.types import Array
 
 Frames = tuple[Array, Array]
-"""The blocks of the first and of the second body's frame."""
+"""The frame blocks of the first and of the second body, shape [24] each."""
 _UNIT = (1.0, 0.0, 0.0, 0.0)
 _PLACE = (0.31, -0.23, 0.37)
 """Place of the second frame in the simplest input [m]: on no axis of the first."""
 _TURNS = {"a": (0.12, -0.05, 0.15), "b": (-0.1, 0.2, 0.08)}
-"""Turns of the frames in the simplest input [rad]: no axis of one is parallel to one of the other."""
+"""Turns of the frames in the simplest input [rad]: no axis of one frame is parallel to an axis of the other."""
 _TURN = 0.35
-"""Largest part of a turn [rad]: two of them stay below a right angle, within which angles have one meaning."""
+"""Largest component of a turn [rad]: the frames then differ by less than a right angle, so that angles are unique."""
 STEP = 1e-3
-"""Step of the differences [s], in which the frames move by some thousandths."""
+"""Step of the differences [s], in which the frames move by some millimetres and milliradians."""
 SHIFT, TURN = np.array([0.3, -0.2, 0.7]), rotation(turned(_UNIT, (0.4, -0.3, 0.5)))
-"""Where both bodies are moved together, to see whether anything depends on it."""
+"""Shift [m] and rotation matrix by which both bodies are moved together, to check that no result depends on it."""
 
 
 def three(case: Case, name: str) -> Array:
-    """Return the vector of an input."""
+    """Return a vector of an input, shape [3], by its name."""
     return np.array([case[f"{name}_{c}"] for c in "xyz"])
 
 
 @final
 @dataclass(frozen=True)
 class Movement:
-    """The movement of two frames."""
+    """Two frames that move as the numbers of an input prescribe."""
 
     case: Case
 
     def at(self, dt: float = 0.0) -> Frames:
-        """Return the two frames after a time [s]."""
+        """Return the blocks of the two frames after a time [s]."""
         return self._block("a", np.zeros(3), dt), self._block("b", three(self.case, "place"), dt)
 
     @property
     def mirrored(self) -> Movement:
-        """Another movement, different in every number."""
+        """Another movement, whose numbers all differ from those of this movement."""
         return Movement({name: -0.9 * value + 0.11 for name, value in self.case.items()})
 
     @property
     def still(self) -> Movement:
-        """The same places and turns, at rest."""
+        """The two frames at the same places and turns, but at rest."""
         moves = ("velocity", "spin", "acceleration")
         return Movement({name: 0.0 if name.startswith(moves) else value for name, value in self.case.items()})
 
     def _block(self, side: str, start: Array, dt: float) -> Array:
         velocity, acceleration = three(self.case, f"velocity_{side}"), three(self.case, f"acceleration_{side}")
         spin, spin_up = three(self.case, f"spin_{side}"), three(self.case, f"spin_up_{side}")
-        # the turn by the spin, and over it a turn that quickens: its rate is spin_up dt about an axis that stays
+        # a turn at the constant rate spin, followed by a turn about a fixed axis at the rising rate spin_up * dt
         quickening = rotation(turned(_UNIT, 0.5 * dt * dt * spin_up))
         own = rotation(turned(turned(_UNIT, three(self.case, f"turn_{side}")), dt * spin))
         carried = quickening @ spin
@@ -84,7 +84,7 @@ MOVEMENT = Drawn(tuple(_numbers()), Movement)
 
 
 def moved(at: Frames) -> Frames:
-    """Return frames as they are after everything has been turned and shifted."""
+    """Return the blocks of two frames after both are turned by :data:`TURN` and shifted by :data:`SHIFT`."""
     one, other = (_moved(block) for block in at)
     return one, other
 
@@ -98,7 +98,7 @@ def _moved(block: Array) -> Array:
 
 
 def shared(at: Frames, velocity: Array, spin: Array) -> Frames:
-    """Return frames whose velocities are those that they have and those of a rigid motion of all space."""
+    """Return the blocks of two frames to whose velocities a common rigid motion is added."""
     one, other = (block.copy() for block in at)
     for block in (one, other):
         block[VELOCITY:SPIN] += velocity + cross(spin, block[POSITION:ROTATION])

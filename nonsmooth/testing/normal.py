@@ -1,4 +1,4 @@
-"""Properties of normal laws, rigid and compliant."""
+"""Conformance checks of normal laws, rigid and compliant."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _TOLERANCE = 1e-9
 _DRAWS, _DRAWS_COMPLIANT = 12, 8
 _RIGID = Claims()
 _DEPTH = number("depth", 1e-2, 1e2, 1.0, is_log=True)
-"""Indentation, in units of that under 1 N at rest."""
+"""Indentation, in units of the indentation under 1 N at rest."""
 _SPEED = number("closing_rate", 1e-3, 10.0, 1.0, is_log=True)
 _SHARE = number("share", 0.01, 1.0, 1.0)
 _FACTOR = number("factor", 1.001, 3.0, 2.0)
@@ -39,26 +39,26 @@ _WAVE = Drawn(
     lambda case: _wave(case["second"], case["phase"]),
 )
 _NEAREST, _FARTHEST = 1e-15, 1e3
-"""Where the indentation under 1 N is searched [m]."""
+"""Bounds between which the indentation under 1 N is searched [m]."""
 _PAST = 1e-6
-"""Distance past the reach at which a force is asked for [m]."""
+"""Distance past the reach at which the force is evaluated [m], as a step of the engine may end there."""
 _NOTHING = 1e-9
-"""A force that counts as zero [N]."""
+"""Largest force that counts as zero [N]."""
 _POINTS = 2048
 _GAIN = 1e-4
-"""Part of the energy exchanged in a cycle that may be the error of its sum."""
+"""Allowed gain of energy in a cycle, relative to the exchanged energy: the error of the sum over the cycle."""
 _SAME = 1e-6
-"""Deviation of two impacts that counts as none, in units of depth and speed, ten times the error of the engine."""
+"""Allowed difference of two impacts, in units of depth and speed: ten times the error of the engine."""
 _LONGEST = 30.0
-"""How long an impact is followed, in units of the time in which its depth is reached."""
+"""Duration of a compared impact, in units of depth divided by approach speed."""
 _COMPLIANT = Claims()
 
 
 def check_normal_law(law: NormalLaw) -> list[Property]:
     """Return the properties of a normal law.
 
-    Those of a rigid law are about its certificate, those of a compliant one about its force, its certificate and the
-    impacts of a mass.
+    For a rigid law its ``is_fulfilled`` is checked. For a compliant law its force, its ``is_fulfilled`` and the impacts
+    of a mass are checked.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
 
 
 def _accepted(law: RigidNormalLaw, acceleration: float, force: float, size: float) -> str:
-    """Return that the law accepts a pair which it must refuse; "" if it refuses it."""
+    """Return the fault of a law that accepts an acceleration and a force that it must refuse; "" if it refuses them."""
     g, f = acceleration * size, force * size
     if not law.is_fulfilled(g, f, _TOLERANCE * size):
         return ""
@@ -120,13 +120,13 @@ def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
 
 
 def _compliant_rows(law: CompliantNormalLaw) -> list[Row]:
-    """Return the properties of a compliant normal law: its force, its certificate, and impacts of a mass."""
+    """Return the properties of a compliant normal law: of its force, its ``is_fulfilled`` and the impacts of a mass."""
     found = rows(_COMPLIANT, lambda: variants(law), _DRAWS_COMPLIANT)
     return all_rows(law, lambda: [_force(one) for one in variants(law)], found)
 
 
 def _force(law: CompliantNormalLaw) -> CheckedFunction:
-    # steps end past the reach before it is located
+    # a step may end past the reach before the engine locates the reach
     places = (0.0, 1e-300, *np.geomspace(1e-12, 1e-1, 6).tolist(), -_PAST - max(law.reach, 0.0))
     if 0.0 < law.reach < math.inf:
         places += (-0.5 * law.reach, -law.reach)
@@ -140,7 +140,7 @@ def _plain(law: CompliantNormalLaw) -> Callable[..., Any]:
 
 
 def _unit(law: CompliantNormalLaw) -> float:
-    """Return the indentation under 1 N at rest [m], NaN if the force never comes to 1 N."""
+    """Return the indentation under 1 N at rest [m]; NaN if the force stays below 1 N."""
     force, low, high = _plain(law), math.log(_NEAREST), math.log(_FARTHEST)
     if force(_FARTHEST, 0.0, 1.0) < 1.0:
         return math.nan
@@ -151,7 +151,7 @@ def _unit(law: CompliantNormalLaw) -> float:
 
 
 def _depth(law: CompliantNormalLaw, depth: float) -> float:
-    """Return an indentation given in units of that under 1 N [m]."""
+    """Return an indentation [m] that is given in units of the indentation under 1 N."""
     unit = _unit(law)
     if not math.isfinite(unit):
         raise NotChecked(f"not checked, as its force at rest does not come to 1 N within {_FARTHEST:g} m")
@@ -187,7 +187,7 @@ def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -
 
 
 def _pulling(law: CompliantNormalLaw, speed: float) -> str:
-    """Return the fault of a force that pulls however far the contact is pressed; "" if it does not."""
+    """Return the fault of a force that pulls at the largest indentation that is tried; "" if it does not pull."""
     force = _plain(law)(_FARTHEST, 0.0, speed)
     if force >= 0.0:
         return ""
@@ -208,7 +208,7 @@ def _pulls_within_its_reach(law: CompliantNormalLaw, depth: float, share: float,
 
 
 def _wave(second: float, phase: float) -> Array:
-    """Return the course of a closed cycle between 0 and 1."""
+    """Return values between 0 and 1 along a closed cycle, a sum of two sines, shape [_POINTS + 1]."""
     angle = np.linspace(0.0, 2.0 * math.pi, _POINTS + 1)
     wave = np.sin(angle) + second * np.sin(2.0 * angle + phase)
     return np.asarray((wave - np.min(wave)) / np.ptp(wave))
@@ -233,7 +233,10 @@ def _dissipation(law: CompliantNormalLaw, drawn: float, speed: float, rate_back:
 
 
 def _energies(law: CompliantNormalLaw, x: Array, fastest: float, closing_rate: float) -> Array:
-    """Return the energy that the contact takes in every step of a motion through ``x``, at most ``fastest`` [J]."""
+    """Return the energy that the contact absorbs in every step of a motion through the indentations ``x`` [J].
+
+    The largest rate of the motion is ``fastest`` [m/s].
+    """
     steps = np.diff(x)
     rates = steps * (fastest / np.max(np.abs(steps)))
     force, middles = _plain(law), 0.5 * (x[1:] + x[:-1])
@@ -257,7 +260,7 @@ def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: flo
 def _impact(law: CompliantNormalLaw, drawn: float, speed: float) -> str:
     """A mass that strikes moves in the engine as in an independent integration of m x'' = -F."""
     depth, force = _depth(law, drawn), _plain(law)
-    # a mass that the largest of these forces stops within the depth, or that is heavier
+    # the mass m follows from m v^2 = F depth, with the largest of these forces F
     load = max(abs(force(x, rate, speed)) for x in (1e-9 * depth, depth) for rate in (0.0, speed))
     mass, unit = load * depth / speed**2, depth / speed
 

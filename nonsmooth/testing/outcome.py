@@ -15,7 +15,7 @@ from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import Component, rules
 
 _OTHERS = ("nonsmooth", "numpy", "scipy", "numba")
-"""Packages that raise an exception because of what a component gives them."""
+"""Packages that are not named as the place of an exception: their caller, the component, is its cause."""
 
 
 class NotChecked(NonsmoothError, unittest.SkipTest):
@@ -28,7 +28,7 @@ class Broken(Exception):
     Parameters
     ----------
     reason, parameter, value, case
-        Those of :class:`PropertyFailed`.
+        As in :class:`PropertyFailed`.
     """
 
     def __init__(
@@ -57,7 +57,17 @@ def says_of(check: Callable[..., Any]) -> str:
 
 
 class Outcome(NamedTuple):
-    """The result of a check: ``kind`` is "holds", "broken" or "not checked"; the rest says why."""
+    """The result of a check.
+
+    Attributes
+    ----------
+    kind : str
+        "holds", "broken" or "not checked".
+    reason, parameter, value, case
+        As in :class:`PropertyFailed`; the reason is also given for "not checked".
+    printed : str
+        Text that the component printed during the check.
+    """
 
     kind: str
     reason: str = ""
@@ -68,7 +78,7 @@ class Outcome(NamedTuple):
 
 
 def outcome_of(check: Callable[[], None]) -> Outcome:
-    """Run a check in this process."""
+    """Run a check in this process and return its outcome."""
     try:
         check()
     except NotChecked as error:
@@ -91,9 +101,9 @@ class Subject:
     component : object
         The component.
     rows : callable
-        Takes the component and the options, and returns rows.
+        Takes the component and the options, and returns the rows.
     options : mapping
-        Keyword arguments of the function of the kit.
+        Keyword arguments of ``rows``.
     """
 
     component: Any
@@ -101,7 +111,7 @@ class Subject:
     options: Mapping[str, Any]
 
     def __reduce__(self) -> Any:
-        """Leave the rows behind: another process makes its own."""
+        """Pickle the component without its rows: another process makes them again."""
         return Subject, (self.component, self.rows, self.options)
 
     @cached_property
@@ -120,7 +130,7 @@ def _raise(error: Exception) -> None:
 
 
 def place_of(owner: type) -> str:
-    """Return name, file and line of a class; empty if it has no file."""
+    """Return name, file and line of a class as text; "" if the class has no file."""
     try:
         return f"{owner.__name__} in {inspect.getsourcefile(owner)}, line {inspect.getsourcelines(owner)[1]}"
     except (OSError, TypeError):
@@ -128,7 +138,7 @@ def place_of(owner: type) -> str:
 
 
 def words_of(error: BaseException) -> str:
-    """Return the message of an exception, with file and line of the last call outside of Python and the packages."""
+    """Return the message of an exception, with file and line of the last call outside of Python and :data:`_OTHERS`."""
     trace, place = error.__traceback__, ""
     while trace is not None:
         if not _is_others(trace):
@@ -143,7 +153,7 @@ def _is_others(trace: TracebackType) -> bool:
 
 
 def described(component: Any) -> tuple[str, Any]:
-    """Return names and values of the parameters that are given."""
+    """Return the only given parameter as name and value, or "parameters" and a mapping of all given parameters."""
     given = {name: getattr(component, name) for name in rules(type(component))}
     given = {name: value for name, value in given.items() if value is not None}
     if len(given) == 1:

@@ -1,4 +1,4 @@
-"""Property: a named statement about a component, and the exceptions of a property that does not hold."""
+"""Named statements about a component that can be checked, and the exceptions of a statement that does not hold."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from nonsmooth.testing.inputs import require_packages
 from nonsmooth.testing.outcome import NotChecked, Outcome, Row, Subject, outcome_of, place_of
 
 _DYNAMIC = "<dynamic-code>"
-"""File that cloudpickle gives the functions that it carries."""
+"""File name that functions have after they were sent by cloudpickle."""
 
 
 class PropertyFailed(NonsmoothError, AssertionError):
@@ -23,15 +23,15 @@ class PropertyFailed(NonsmoothError, AssertionError):
     Parameters
     ----------
     thing : str
-        The law, body, kinematics or scenario.
+        Class name of the component, such as a law, body, kinematics or scenario.
     prop : str
         The name of the property.
     reason : str
         The fault that was found.
     parameter : str
-        The parameters of the failing object, or the parameter at fault.
+        Name of the parameter or the attribute at fault, or "parameters" for all of the failing component.
     value : object
-        Their values.
+        Value of that parameter or attribute, or values of all parameters.
     case : mapping of str to float
         The simplest failing input that was found; empty for a property without inputs.
     place : str
@@ -62,7 +62,7 @@ class PropertyFailed(NonsmoothError, AssertionError):
 
 
 class Departs(NotChecked):
-    """A property that does not hold, as the class says in its ``departures``."""
+    """A property that does not hold, as the class declares in its ``departures``."""
 
 
 @final
@@ -73,13 +73,13 @@ class Property:
     Attributes
     ----------
     name : str
-        A few words.
+        Short name, such as "gap rate".
     says : str
         The statement in full.
     subject : Subject
         The component.
     departure : str
-        Why the class is known not to have the property; empty otherwise.
+        Reason for which the class declares not to have the property; empty if the property must hold.
     """
 
     name: str
@@ -96,27 +96,27 @@ class Property:
         return f"{self.owner.__name__}: {self.name}"
 
     def __call__(self) -> None:
-        """Check the property in a child process, which is ended if the component does not come back.
+        """Check the property in a child process, which is ended if the component does not return.
 
         Raises
         ------
         PropertyFailed
-            If it does not hold, or if it holds although the class says that it departs from it.
+            The property does not hold, or it holds although the class lists it in its ``departures``.
         NotChecked
-            If it could not be checked.
+            The property could not be checked.
         Departs
-            If it does not hold, and the class says so.
+            The property does not hold, and the class lists it in its ``departures``.
         """
         self._judge(ask(self.subject, self.name))
 
     def check(self) -> None:
-        """Check the property in this process, without a limit of time: for a debugger. Raises as a call does."""
+        """Check the property in this process, without a time limit, as a debugger needs it. Raises as a call does."""
         self._judge(outcome_of(self.subject.all[self.name].check))
 
     def _judge(self, found: Outcome) -> None:
         print(found.printed, end="")
         thing, holds = self.owner.__name__, found.kind == "holds"
-        # a function of a script or a notebook has lost its file on the way to the other process
+        # a function of a script or a notebook loses its file name when it is sent to the child process
         reason = (
             found.reason.replace(_DYNAMIC, inspect.getfile(self.owner)) if _DYNAMIC in found.reason else found.reason
         )
@@ -136,12 +136,12 @@ class Property:
 
 
 def properties(component: Any, rows: Callable[..., list[Row]], **options: Any) -> list[Property]:
-    """Return the properties of a component; those that its class departs from are marked.
+    """Return the properties of a component, with the reasons for the departures that its class declares.
 
     Raises
     ------
     MissingPackagesError
-        If hypothesis or cloudpickle is not installed.
+        The package hypothesis or cloudpickle is not installed.
     """
     require_packages()
     subject, departures = Subject(component, rows, options), type(component).departures

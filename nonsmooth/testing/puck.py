@@ -1,6 +1,6 @@
 """A puck that slides, turns or falls on a slab: the smallest system in which a law runs in the engine.
 
-And a rig: two pucks that can be put anywhere, and the geometry of a contact between them.
+Also a rig: two pucks in any poses, and the geometry of a contact between them.
 """
 
 from __future__ import annotations
@@ -58,9 +58,10 @@ _ENERGY = _INVERSE_MASS + 36
 _FINE = 1e-9
 """Tolerances of gap, velocity and time, in units of the puck's length and speed."""
 _STEP = 1e-10
-"""Tolerance of a step. Where the force ends, the error of the velocity goes into the place while the puck coasts.
+"""Relative tolerance of a step of the engine.
 
-In the longest impact, an overdamped one, 1e-9 leaves an error of 1.2e-6 of the depth, and 1e-10 one of 8e-8: the checks
+After the force has ended, the puck coasts, and the error of its velocity becomes an error of its position. In the
+longest impact, which is overdamped, 1e-9 leaves an error of 1.2e-6 of the depth, and 1e-10 an error of 8e-8. The checks
 allow 1e-6.
 """
 
@@ -95,7 +96,10 @@ def _evaluate_puck(
 
 
 def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: Floats) -> None:
-    """Write the geometry of a point over a plane through the first body, whose axes are given in its frame."""
+    """Write the geometry of a contact between a plane and a point.
+
+    The plane passes through the origin of the first body; its normal and tangent are given in the frame of that body.
+    """
     gap = 0.0
     for i in range(3):
         n = t = 0.0
@@ -143,7 +147,7 @@ class _Touch(ContactKinematics):
 @final
 @dataclass(frozen=True)
 class _Slab(Body):
-    """A driven body that stays; ``turn`` is the quaternion of its axes."""
+    """A driven body at rest; ``turn`` is the unit quaternion of its axes."""
 
     turn: Numbers = _UNTURNED
     frames = ((_Spot(math.inf),),)
@@ -170,11 +174,11 @@ class Puck(Body):
     Attributes
     ----------
     mass, inertia : float
-        [kg], [kg m^2].
+        Mass [kg] and moment of inertia [kg m^2].
     push : tuple of float
         A constant force [N].
     length, speed : float
-        Sizes of its motion [m], [m/s].
+        Typical length [m] and speed [m/s] of the motion.
     shape : Shape
         The shape that it carries.
     """
@@ -200,26 +204,26 @@ class Puck(Body):
 
     @property
     def scales(self) -> tuple[Array, Array]:
-        """The sizes given; angular velocities by the speed and the radius of gyration."""
+        """Typical sizes of coordinates and velocities; of angular velocity, the speed over the radius of gyration."""
         spin = self.speed * math.sqrt(self.mass / self.inertia)
         return np.array([self.length] * 3 + [1.0] * 4), np.array([self.speed] * 3 + [spin] * 3)
 
     def state(self, **start: Any) -> tuple[Array, Array]:
-        """Return the origin, at rest."""
+        """Return coordinates and velocities at rest at the origin."""
         return np.array([0.0, 0.0, 0.0, *_UNTURNED]), np.zeros(6)
 
 
 def run(
     puck: Puck, height: float, u: Sequence[float] | Array, laws: ContactLaws, t_end: float, **place: Any
 ) -> Solution:
-    """Let a puck start over the slab, and run.
+    """Run a puck that starts over the slab.
 
     Parameters
     ----------
     t_end : float
         End time [s].
     puck, height, u, laws, place
-        Those of :func:`over_slab`.
+        As in :func:`over_slab`.
     """
     engine = EventDriven(
         tolerance=_STEP,
@@ -253,7 +257,7 @@ def over_slab(
     laws : ContactLaws
         The laws of the contact.
     gravity : float
-        Along -z [m/s^2].
+        Gravity along -z [m/s^2].
     turn, slab_turn : tuple of float
         Unit quaternions of the axes of puck and slab.
     """
@@ -273,7 +277,7 @@ def _level(indentation: float, rate: float, closing_rate: float, load: float) ->
 @final
 @dataclass(frozen=True)
 class ConstantLoad(CompliantNormalLaw):
-    """A normal law with the same force at any indentation, which gives a law of traction its load.
+    """A normal law with the same force at any indentation, which loads a contact with a law of traction.
 
     Attributes
     ----------
@@ -293,7 +297,7 @@ class ConstantLoad(CompliantNormalLaw):
 
 
 class ContactRig:
-    """Two pucks with a shape each and a contact with given kinematics."""
+    """Two pucks with one shape each, and a contact between them with given kinematics."""
 
     def __init__(self, kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
         bodies = Puck(shape=shapes[0]), Puck(shape=shapes[1])
@@ -302,7 +306,7 @@ class ContactRig:
         self._model = lay_out(system, EventDriven())
 
     def put(self, poses: Sequence[Pose], u: Array) -> None:
-        """Put the bodies somewhere, with velocities and angular velocities in world axes, shape [12]."""
+        """Give the bodies poses, and velocities with angular velocities in world axes [m/s, rad/s], shape [12]."""
         q = np.concatenate([np.concatenate(pose) for pose in poses])
         self._model.memory[owners.Island.y][:26] = np.concatenate([q, u])
         call_entry("evaluate_at", self._model.memory)
@@ -312,12 +316,12 @@ class ContactRig:
 
     @property
     def geometry(self) -> Array:
-        """The geometry block, shape [31]."""
+        """Geometry block of the contact, shape [31]."""
         return self._row(owners.ContactRecord.geometry)[:PAIR]
 
     @property
     def axes(self) -> Array:
-        """Normal and tangents, shape [3, 3]."""
+        """Normal and tangents of the contact as rows, shape [3, 3]."""
         return self._row(owners.ContactRecord.axes).reshape(3, 3)
 
     @property
@@ -327,5 +331,5 @@ class ContactRig:
 
     @property
     def bias(self) -> Array:
-        """Their derivatives while u' = 0, shape [3]."""
+        """Second-order terms of gap and slip, the derivatives of their rates while u' = 0 [m/s^2], shape [3]."""
         return self._row(owners.ContactRecord.bias)

@@ -1,4 +1,4 @@
-"""Laws, bodies with contacts and motions that the checks compare a component with: integrations of their own."""
+"""References for the checks: simple laws, impact problems, and independent integrations of motion."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ from nonsmooth.testing.outcome import NotChecked
 from nonsmooth.types import Array
 
 _TOLERANCE = 1e-11
-"""Tolerance of the integration of impacts, well below the deviations that the checks allow."""
+"""Relative tolerance of the integration of impacts, well below the deviations that the checks allow."""
 StatefulLaw = StatefulFrictionLaw | TractionLaw
 _EXACT, _STIFFLY = 1e-10, 1e-8
-"""Relative tolerances of the two methods, below the deviations that the checks allow."""
+"""Relative tolerances of an explicit and of a stiff integration, below the deviations that the checks allow."""
 _MOST_CALLS = 50_000
 _STEP = 1e-6
-"""Step of the differences by which rates of change are bounded, in units of the sizes of the states."""
+"""Step of the differences by which the rates of a motion are bounded, in units of the scales of its numbers."""
 _SAME, _STEPS = 1e-5, 1e-7
-"""Deviation of two motions that counts as none: of the change, and of the whole, by the steps of the engine."""
+"""Allowed differences of two motions: relative to the change of velocity, and to the velocity by the engine's steps."""
 
 
 def _force(indentation: float) -> float:
@@ -58,7 +58,7 @@ class ReferenceImpact(ImpactProcess):
     force, efficiency = staticmethod(_force), staticmethod(_efficiency)
 
     def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
-        """True if the share came back."""
+        """True if the returned energy is the law's share of the stored energy [J]."""
         return abs(returned - self.share * stored) <= tolerance
 
 
@@ -77,24 +77,34 @@ class ReferenceFriction(FrictionLaw):
     def is_fulfilled(
         self, slip: tuple[float, float], normal_force: float, tangential_force: tuple[float, float], tolerance: float
     ) -> bool:
-        """True if the force lies in the disc."""
+        """True if the friction force lies in the friction disc [N]."""
         return math.hypot(*tangential_force) <= self.level * normal_force + tolerance
 
 
 @final
 @dataclass(frozen=True)
 class ReferenceContact(RigidNormalLaw):
-    """A contact without any indentation."""
+    """A rigid contact by Signorini's law."""
 
     def is_fulfilled(self, acceleration: float, force: float, tolerance: float) -> bool:
-        """True if the pair is complementary."""
+        """True if acceleration and force are not negative, and at least one of them is zero."""
         return acceleration >= -tolerance and force >= -tolerance and min(abs(acceleration), abs(force)) <= tolerance
 
 
 @final
 @dataclass(frozen=True)
 class ImpactProblem:
-    """A rigid body with contacts: M, W, N and the velocity before the impact."""
+    """An impact of a rigid body with n contacts and n_u velocities.
+
+    Attributes
+    ----------
+    mass : array
+        Mass matrix M, shape [n_u, n_u].
+    normal, tangential : array
+        Directions W, shape [n_u, n], and N, shape [n_u, n, 2], of the contacts.
+    velocity : array
+        Velocity before the impact, shape [n_u].
+    """
 
     mass: Array
     normal: Array
@@ -108,7 +118,7 @@ class ImpactProblem:
 
     @property
     def columns(self) -> Array:
-        """Normal and tangents of each contact in turn, shape [6, 3 n]."""
+        """Directions of normal and tangents of each contact in turn, shape [n_u, 3 n]."""
         joined = np.concatenate([self.normal[:, :, None], self.tangential], axis=2)
         return np.asarray(joined.reshape(len(self.mass), 3 * self.n))
 
@@ -119,7 +129,7 @@ class ImpactProblem:
 
     @property
     def rates(self) -> Array:
-        """Gap rates and slip velocities before the impact, shape [3 n]."""
+        """Gap rates and slip velocities before the impact [m/s], shape [3 n]."""
         return np.asarray(self.columns.T @ self.velocity)
 
     def energy(self, velocity: Array) -> float:
@@ -134,7 +144,7 @@ class ImpactProblem:
 
 
 def problem_of(n_contacts: int) -> Drawn:
-    """Return a drawn problem of a body with some contacts; in the simplest it falls straight down."""
+    """Return the inputs of an impact problem with ``n_contacts``; in the simplest the body falls straight down."""
     numbers = [DrawnNumber(f"velocity_{c}", -2.0, 2.0) for c in "xy"]
     numbers.append(DrawnNumber("velocity_z", -2.0, -0.1, -1.0))
     numbers += [DrawnNumber(f"spin_{c}", -1.0, 1.0) for c in "xyz"]
@@ -145,7 +155,7 @@ def problem_of(n_contacts: int) -> Drawn:
 
 
 def problem(case: Case, n_contacts: int) -> ImpactProblem:
-    """Return the problem of an input."""
+    """Return the impact problem of an input."""
     normal, tangential = np.zeros((6, n_contacts)), np.zeros((6, n_contacts, 2))
     for i in range(n_contacts):
         place = np.array([0.0 if n_contacts == 1 else i - 0.5 * (n_contacts - 1), 0.1 * i, -0.5])
@@ -161,7 +171,7 @@ def problem(case: Case, n_contacts: int) -> ImpactProblem:
 
 
 def point(velocity: tuple[float, float, float]) -> ImpactProblem:
-    """Return a point of unit mass above a plane."""
+    """Return the impact of a point mass of 1 kg on a plane whose normal is z, at a velocity [m/s]."""
     return ImpactProblem(np.eye(3), np.eye(3)[:, 2:], np.eye(3)[:, None, :2], np.array(velocity))
 
 
@@ -173,11 +183,11 @@ class ImpactResponse:
     Attributes
     ----------
     velocity : array
-        Velocity after it.
+        Velocity after the impact, shape [n_u].
     impulse, before, after : array
-        Impulses, and gap rates with slip before and after it, shape [n, 3].
+        Impulses [N s], and gap rates with slip velocities before and after the impact [m/s], shape [n, 3].
     stored, returned : array
-        Energies of the contacts [J], shape [n]; zero for a map, which has none.
+        Energies that the contacts store and give back [J], shape [n]; zero for a map.
     """
 
     velocity: Array
@@ -211,13 +221,13 @@ def respond(laws: Sequence[ImpactLaw], frictions: Sequence[float], p: ImpactProb
 
 
 def vectors_of(laws: Sequence[ImpactLaw], frictions: Sequence[float]) -> dict[str, Array]:
-    """Return the parameters that the function of a map may ask for, one number per contact."""
+    """Return the parameters that a map's function may take by name, each with one number per contact."""
     own = {name: np.array([float(law.numbers()[name]) for law in laws]) for name in laws[0].parameters()}
     return {"friction": np.array(frictions, dtype=float), **own}
 
 
 def map_impulses(laws: Sequence[ImpactLaw], frictions: Sequence[float], delassus: Array, rates: Array) -> Array:
-    """Return the impulses of laws that are maps, shape [3 n]."""
+    """Return the impulses of laws that are maps [N s], shape [3 n]."""
     law, out = laws[0], np.zeros(len(rates))
     assert isinstance(law, ImpactMap)
     call = compiled_caller(law.impulses, "map", vectors_of(laws, frictions), type(law).__name__)
@@ -226,12 +236,12 @@ def map_impulses(laws: Sequence[ImpactLaw], frictions: Sequence[float], delassus
 
 
 def start_of(law: StatefulLaw) -> tuple[Array, Array]:
-    """Return initial states and their usual sizes."""
+    """Return the initial states of a law, and their scales."""
     return np.array(law.initial_state, dtype=float), np.array(law.state_scale, dtype=float)
 
 
 def start_fault(law: StatefulLaw) -> str:
-    """Return the fault of initial states and scales; "" if they are in order."""
+    """Return the fault of the initial states and scales of a law; "" if they are valid."""
     initial, scale = law.initial_state, law.state_scale
     if len(initial) != len(scale):
         return f"there are {len(initial)} initial states and {len(scale)} scales"
@@ -243,13 +253,13 @@ def start_fault(law: StatefulLaw) -> str:
 
 
 def require(fault: str) -> None:
-    """Raise NotChecked if there is a fault without which nothing else can be checked."""
+    """Raise NotChecked if there is a fault that prevents further checks; "" stands for no fault."""
     if fault:
         raise NotChecked(f"not checked, as {fault}")
 
 
 def writing_fault(call: Callable[..., Any], given: Sequence[Array], size: int) -> str:
-    """Return the fault of a function that changes the vectors given, or leaves a number of its block as it was."""
+    """Return the fault of a function that changes its arguments or leaves a number unwritten; "" if it is sound."""
     copies = [one.copy() for one in given]
     one, other = (written(lambda out: call(*copies, out), size, old) for old in (0.5, -0.25))
     if any(not np.array_equal(a, b) for a, b in zip(given, copies, strict=True)):
@@ -278,7 +288,10 @@ def followed(
 
 
 def fastest(slope: Callable[[Array], Array], at: Array, scale: Array) -> float:
-    """Return a bound of the rates with which y' = slope(y) changes by itself [1/s], the sizes of y being known."""
+    """Return a bound of the fastest rate of y' = slope(y) near a point [1/s].
+
+    It is the largest row sum of the absolute Jacobian of ``slope``, in units of ``scale``, by differences.
+    """
     if len(at) == 0:
         return 0.0
     base = slope(at)
@@ -287,6 +300,9 @@ def fastest(slope: Callable[[Array], Array], at: Array, scale: Array) -> float:
 
 
 def is_same_motion(given: Any, wanted: Any, start: Any, size: float) -> bool:
-    """True if velocities by the engine are those of an independent integration, to the tolerances of both."""
+    """True if velocities ``given`` by the engine agree with velocities ``wanted`` of an independent integration.
+
+    ``start`` holds the velocities at the start, ``size`` is their size.
+    """
     change = float(np.max(np.abs(np.asarray(wanted) - start)))
     return bool(np.max(np.abs(np.asarray(given) - wanted)) <= _SAME * change + _STEPS * size)

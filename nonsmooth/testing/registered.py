@@ -1,4 +1,4 @@
-"""The properties of a class that is installed under a name or stands in a file."""
+"""The properties of a component class that is installed under a name or defined in a file."""
 
 from __future__ import annotations
 
@@ -29,27 +29,27 @@ _CHECKS: Mapping[Any, Callable[..., list[Property]]] = {
     interfaces.Engine: testing.check_engine,
     interfaces.Scenario: testing.check_scenario,
 }
-"""The function of the kit for each interface that a class may have."""
+"""The function of the kit that checks the components of each interface."""
 
 
 def check_class(owner: Any, name: str, words: Mapping[str, str]) -> list[Property]:
-    """Return the properties of a component of a class, of each kind that it is.
+    """Return the properties of a component of a class, for every interface that it implements.
 
     Parameters
     ----------
     owner : type
         The class.
     name : str
-        Its name, for messages.
+        Name of the class in messages.
     words : mapping of str to str
-        Parameters; those that are required and not given are those of the class's example, or take a value inside of
-        their range.
+        Values of parameters. Parameters that are not given are taken from the example of the class. Parameters without
+        example and default get a value inside their range.
 
     Raises
     ------
     InvalidInput
-        If a value is wrong, a field without default is no declared number and not in the example, or the kit does not
-        know its kind.
+        A value is wrong, a field without default and example is not a declared number, or the kit has no checks for the
+        class.
     """
     if issubclass(owner, ContactKinematics):
         return _of_pair(owner, name, words)
@@ -74,13 +74,13 @@ def _of_pair(owner: type[ContactKinematics], name: str, words: Mapping[str, str]
         brought[place] if place in brought else make(_installed(kind), kind.__name__, {})
         for place, kind in zip(("first", "second"), owner.pair, strict=True)
     )
-    # a pair may hold by contacts of several classes
+    # `between` may return contacts of several classes
     own = next(contact for contact in owner.between(first, second) if type(contact) is owner)
     return testing.check_contact_kinematics(own, first, second)
 
 
 def _installed(kind: type[Shape]) -> type[Shape]:
-    """Return a class of shapes, or of an abstract class the first installed that derives from it."""
+    """Return a class of shapes; for an abstract class, the first installed class that derives from it."""
     if not inspect.isabstract(kind):
         return kind
     shapes: list[type[Shape]] = list(registry.load_all("shapes").values())

@@ -1,4 +1,4 @@
-"""Properties of scenarios."""
+"""Conformance checks of scenarios: build, run, energy, results and acceptance."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def check_scenario(scenario: Scenario, *, t_end: float | None = None) -> list[Pr
     scenario : Scenario
         The scenario, with parameters.
     t_end : float, optional
-        How long to run it [s]; by default twenty samples, or to its end if that comes sooner.
+        End of the short runs [s]; by default after twenty sample intervals, but not after the scenario's own end.
     """
     return properties(scenario, _rows, t_end=t_end)
 
@@ -59,7 +59,7 @@ def _rows(scenario: Scenario, t_end: float | None) -> list[Row]:
 @final
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """A scenario and short runs of it, which all properties share."""
+    """A scenario, and short runs of it that several properties share."""
 
     scenario: Scenario
     given_end: float | None
@@ -70,7 +70,7 @@ class _Trial:
         return self.given_end or min(self.scenario.t_end, _SAMPLES * self.scenario.sample_interval)
 
     def run(self, t_end: float, sample_interval: float, folder: Path | None = None) -> Solution:
-        """Run a new system of the scenario; it may take any time as long as it gets on."""
+        """Run a new system of the scenario. The run may take any time as long as it makes progress."""
 
         def is_alive(reached: float, end: float) -> None:
             about_to("the run {takes} to get on", self.scenario)
@@ -79,12 +79,12 @@ class _Trial:
         return simulate(system, t_end, sample_interval=sample_interval, output=folder, progress=is_alive)
 
     def short_run(self, folder: Path | None = None) -> Solution:
-        """Run to the short end."""
+        """Run a new system to the end of the short runs."""
         return self.run(self.end, min(self.scenario.sample_interval, self.end), folder)
 
     @cached_property
     def again(self) -> tuple[Solution, Exception | None]:
-        """A second run, and the error of saving it with the coordinates."""
+        """A second short run, and the error of saving it with its coordinates; None if saving succeeds."""
         with tempfile.TemporaryDirectory() as name:
             folder, trouble = Path(name), None
             again = self.short_run(folder)
@@ -98,7 +98,7 @@ class _Trial:
 
     @cached_property
     def found(self) -> Solution | Exception:
-        """The first run, or its error."""
+        """The first short run, or the error that it raised."""
         try:
             return self.short_run()
         except Exception as error:
@@ -106,13 +106,13 @@ class _Trial:
 
     @property
     def solution(self) -> Solution:
-        """The first run; NotChecked if it fails."""
+        """The first short run. Raises NotChecked if the run failed."""
         if isinstance(self.found, Exception):
             raise NotChecked(f"not checked, as it does not run: {self.found}") from self.found
         return self.found
 
     def summary(self) -> str:
-        """Return the summary as text; Broken if it has no names or lacks what it must have."""
+        """Return the summary as JSON text. Raise Broken if it is empty or ``units`` or ``words`` do not match it."""
         found = self.scenario.summarise(self.solution)
         if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) for name in found):
             raise Broken("it must be a mapping with names, at least one", "summarise", found)
@@ -282,7 +282,7 @@ def _first_difference(one: NDArray[np.float64], other: NDArray[np.float64]) -> s
 
 
 def _is_default(scenario: Scenario) -> bool:
-    """True if all parameters that have a default have that value."""
+    """True if all parameters that have a default have their default value."""
     given = {name: (getattr(scenario, name), field.default) for name, (field, _) in rules(type(scenario)).items()}
     return all(value == default for value, default in given.values() if default is not dataclasses.MISSING)
 
@@ -291,7 +291,7 @@ _PARTS = ("bodies", "starts", "contacts", "joints", "loads", "guards", "gravity"
 
 
 def _parts(system: System) -> tuple[Any, ...]:
-    """Return what a system is made of, comparable."""
+    """Return the parts of a system in the order of :data:`_PARTS`, in a form that can be compared."""
     number = {id(body): i for i, body in enumerate(system.bodies)}
     contacts = [
         (number[id(c.first)], number[id(c.second)], c.frames, repr((c.kinematics, c.normal, c.friction, c.impact)))

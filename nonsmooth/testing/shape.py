@@ -1,4 +1,4 @@
-"""Properties of shapes, and of everything that is drawn; contacts of shapes have properties of their own."""
+"""Conformance checks of shapes, and of all that can be drawn. Contacts of shapes are checked by ``kinematics``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Properties of friction laws with inner states, besides those of any friction law."""
+"""Conformance checks of friction laws with inner states, in addition to the checks of every friction law."""
 
 from __future__ import annotations
 
@@ -37,16 +37,17 @@ _STAGES = Drawn(
 )
 """Speeds and how long they last: a speed, a rest, and another speed."""
 _PERIODS = 20.0
-"""How long motions are compared, in units of the fastest time of the states."""
+"""Duration of the compared motions, in units of the shortest time constant of the states."""
 _SLOWED = 0.3
-"""Part of the slip velocity that friction takes in this time, if the load can be so large."""
+"""Part of the slip velocity that friction removes in a compared motion, unless the load would be too large."""
 _LARGEST_LOAD = 1e3
+"""Largest normal force in a compared motion [N]."""
 STATES = Claims()
 """The claims about laws with inner states."""
 
 
 def rates_function(law: StatefulFrictionLaw) -> CheckedFunction:
-    """Return the rates with speeds and states to try."""
+    """Return the rates of the states as a function to check, with speeds and states as inputs."""
     require(initial_state.fault(law, {}))
     start, scale = start_of(law)
     states = [start + share * scale for share in (0.0, 0.3, 1.0, 30.0)]
@@ -123,7 +124,7 @@ def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
         fast = abs(float(y[-1]))
         return np.append(_rates(law, fast, y[:-1]), -load * _mu(law, fast, y[:-1]))
 
-    # friction may grow by much on the way: the mass must not stop
+    # friction may grow during the motion: reduce the load until the mass keeps 40 % of its speed
     while (wanted := float(followed(slope, start, scale, [duration])[-1, -1])) < (1.0 - 2.0 * _SLOWED) * speed:
         load *= _SLOWED
     puck, u = Puck(length=speed * duration, speed=speed), (speed, 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -1,4 +1,4 @@
-"""Properties of laws of traction."""
+"""Conformance checks of laws of traction: force and moment, inner states, and motion in the engine."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ _MOTION = Drawn(_NUMBERS, lambda case: _motion(case))
 _BENT = number("bent", -2.0, 2.0)
 _TURN = number("turn", -3.1, 3.1, 1.0)
 _LONG, _SHORT = 40.0, 0.5
-"""Duration of a steady motion, and of what comes before it is steady, in the time that fills the states."""
+"""Times at which traction is steady and not yet steady, in units of the time that fills the states."""
 _SAMPLES = 20
 _TIMES, _TURNS = 5.0, 60.0
-"""How long a mass is followed: in the time that fills the states, and in the fastest time of the motion at most."""
+"""Longest duration of a compared motion, in units of the states' filling time and of its shortest time constant."""
 _TRACTION = Claims()
 
 
@@ -59,7 +59,7 @@ def _rows(law: TractionLaw) -> list[Row]:
 
 
 def _motion(case: Case) -> Array:
-    """Return slip, rolling and drilling."""
+    """Return slip, rolling and drilling velocities of an input, shape [5]."""
     c, s = math.cos(case["rolling_heading"]), math.sin(case["rolling_heading"])
     slip, rolling = case["slip_speed"], case["rolling"]
     along = slip * math.cos(case["heading"]), slip * math.sin(case["heading"])
@@ -67,7 +67,7 @@ def _motion(case: Case) -> Array:
 
 
 def _turn_of(angle: float) -> Array:
-    """Return the matrix that turns force and moment, or slip, rolling and drilling, shape [5, 5]."""
+    """Return the matrix that turns force and moment, or slip, rolling and drilling, by an angle [rad], shape [5, 5]."""
     c, s = math.cos(angle), math.sin(angle)
     both = np.eye(FORCE_AND_MOMENT)
     both[:2, :2] = both[2:4, 2:4] = [[c, -s], [s, c]]
@@ -88,14 +88,14 @@ def _traction(law: TractionLaw) -> CheckedFunction:
 
 
 def _look(law: TractionLaw, load: float, motion: Array, state: Array) -> tuple[Array, Array]:
-    """Return force with moment, and rates of the states."""
+    """Return force with moment, shape [5], and the rates of the states, shape [n_states]."""
     n, call = FORCE_AND_MOMENT + len(state), plain_caller(law.traction, "traction", law.parameters())
     out = written(lambda out: call(load, motion, state, out), n)
     return out[:FORCE_AND_MOMENT], out[FORCE_AND_MOMENT:n]
 
 
 def _bent(law: TractionLaw, bent: float) -> Array:
-    """Return states that differ from the initial ones, not all alike."""
+    """Return states that differ from the initial states, each by another part of its scale."""
     start, scale = start_of(law)
     return np.asarray(start + bent * np.cos(1.0 + np.arange(len(start))) * scale)
 
@@ -149,7 +149,7 @@ def _filling(law: TractionLaw, load: float, motion: Array) -> float:
 
 
 def _through(law: TractionLaw, load: float, motion: Array, times: list[float]) -> list[Array]:
-    """Return force with moment through a steady motion, from the closing of the contact on, at rising times [s]."""
+    """Return force with moment during a motion at constant velocity, at rising times after the contact closes [s]."""
     start, scale = start_of(law)
     states = [start]
     if times[-1] > 0.0:
