@@ -28,11 +28,31 @@ OTHERS: dict[str, tuple[dict[str, str], ...]] = {"dumbbell": ({"mode": "drift"},
 """Parameters to view where one run with the defaults does not show what a scenario is for."""
 _PAGES = {"rocking_block_3d": "rocking_block"}
 """Pages that are not named as their scenario."""
-_BY_APPEAL = (
-    "dominoes newtons_cradle dice_throw tippe_top rolling_disc woodpecker egg_on_table rattleback dumbbell "
-    "bouncing_ball ball_box mesh_drop rocking_block rocking_block_3d bouncing_trimer slider_crank polyhedron_stack "
-    "block_on_belt two_link_arm sliding_rod bead_column disc_ball mesh_dumbbell"
-).split()
+_BY_APPEAL = [
+    "dominoes",
+    "newtons_cradle",
+    "dice_throw",
+    "tippe_top",
+    "rolling_disc",
+    "woodpecker",
+    "egg_on_table",
+    "rattleback",
+    "dumbbell",
+    "bouncing_ball",
+    "ball_box",
+    "mesh_drop",
+    "rocking_block",
+    "rocking_block_3d",
+    "bouncing_trimer",
+    "slider_crank",
+    "polyhedron_stack",
+    "block_on_belt",
+    "two_link_arm",
+    "sliding_rod",
+    "bead_column",
+    "disc_ball",
+    "mesh_dumbbell",
+]
 """Order of the cards of the gallery; scenarios not listed here follow by name."""
 _FRAMES, _SHOWN = 25, 10
 """Pictures of a run, and which of them is shown."""
