@@ -31,6 +31,32 @@ OTHERS: dict[str, tuple[dict[str, str], ...]] = {"dumbbell": ({"mode": "drift"},
 """Parameters to view where one run with the defaults does not show what a scenario is for."""
 _PAGES = {"rocking_block_3d": "rocking_block"}
 """Pages that are not named as their scenario."""
+_BY_APPEAL = [
+    "dominoes",
+    "newtons_cradle",
+    "dice_throw",
+    "tippe_top",
+    "rolling_disc",
+    "woodpecker",
+    "egg_on_table",
+    "rattleback",
+    "dumbbell",
+    "bouncing_ball",
+    "ball_box",
+    "mesh_drop",
+    "rocking_block",
+    "rocking_block_3d",
+    "bouncing_trimer",
+    "slider_crank",
+    "polyhedron_stack",
+    "block_on_belt",
+    "two_link_arm",
+    "sliding_rod",
+    "bead_column",
+    "disc_ball",
+    "mesh_dumbbell",
+]
+"""Order of the cards of the gallery; scenarios not listed here follow by name."""
 _FRAMES, _SHOWN = 25, 10
 """Pictures of a run, and which of them is shown."""
 
@@ -100,7 +126,10 @@ def _row(one: Criterion) -> tuple[str, ...]:
 
 def main() -> None:
     """Build the scenarios named, or all and the list of them."""
-    names = sys.argv[1:] or sorted(registry.names("scenarios"))
+    names = sys.argv[1:] or sorted(
+        registry.names("scenarios"),
+        key=lambda name: (name not in _BY_APPEAL, name in _BY_APPEAL and _BY_APPEAL.index(name), name),
+    )
     # the first one alone, as it compiles the engine
     built = [build(names[0])]
     with ProcessPoolExecutor() as workers:

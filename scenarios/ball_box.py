@@ -38,7 +38,7 @@ _TURNS = ((_ROOT, 0.0, _ROOT, 0.0), (_ROOT, 0.0, -_ROOT, 0.0), (_ROOT, -_ROOT, 0
 @final
 @dataclass(frozen=True)
 class BallBox(Scenario):
-    """Equal balls, dropped from random places, in an open box with a square floor about the origin.
+    """Equal balls drop into an open box, collide and come to roll on its floor.
 
     Nothing resists rolling: balls on the floor lose their speed in collisions with each other and with the walls only.
     """

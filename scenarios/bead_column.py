@@ -30,7 +30,7 @@ _GRAVITY = 9.81
 @final
 @dataclass(frozen=True)
 class BeadColumn(Scenario):
-    """Equal beads in a vertical column, the lowest at ``height`` above a wall, released together.
+    """A column of touching beads drops on a wall: all contacts act in one impact.
 
     References
     ----------

@@ -49,7 +49,7 @@ _SHADES = ("#e69f00", "#56b4e9", "#009e73", "#cc79a7", "#d55e00", "#0072b2")
 @final
 @dataclass(frozen=True)
 class DiceThrow(Scenario):
-    """Cubes thrown together, rounded or sharp: vertices on the table, vertices on faces and edges on edges among them.
+    """Sharp or rounded dice are thrown together, collide and come to rest on a table.
 
     ``throw`` numbers the throws: orientations and spins are drawn at random from it, and always the same.
     """

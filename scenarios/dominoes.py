@@ -36,7 +36,7 @@ _MOVES = 1e-4
 @final
 @dataclass(frozen=True)
 class Dominoes(Scenario):
-    """Equal dominoes at equal distances on the ground; the first is released from where it has just lost its balance.
+    """A row of dominoes: the first one falls, and a wave of collisions runs along the row.
 
     They move in a plane, so that all of them fall straight, but touch as boxes do: the upper edge of one slides down
     the face of the next.  Every second one is a little narrower, so that no two corners meet.

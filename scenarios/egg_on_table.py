@@ -34,7 +34,7 @@ _UPRIGHT = math.radians(10.0)
 @final
 @dataclass(frozen=True)
 class EggOnTable(Scenario):
-    """A hard-boiled egg, an ellipsoid of revolution, spun on a table with its long axis nearly level.
+    """A hard-boiled egg spins on a table and stands up.
 
     References
     ----------

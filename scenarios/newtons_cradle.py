@@ -38,7 +38,7 @@ _ON_SPRINGS: Mapping[tuple[int, float], tuple[float, ...]] = MappingProxyType(
 @final
 @dataclass(frozen=True)
 class NewtonsCradle(Scenario):
-    """Balls in a line without gravity: ``n_strikers`` that touch fly at ``speed`` into the others, which touch too.
+    """Newton's cradle: ``n_strikers`` touching balls strike a row of touching balls at ``speed``, without gravity.
 
     References
     ----------

@@ -36,7 +36,7 @@ _COLOURS = ("#0072b2", "#009e73", "#e69f00", "#cc79a7")
 @final
 @dataclass(frozen=True)
 class PolyhedronStack(Scenario):
-    """Prisms of six, five, four and three sides on each other, each smaller than the prism below and turned against it.
+    """A tower of four prisms: the uppermost is pushed and slides over the face below.
 
     Corners on faces and edges across edges carry the prisms.  As the uppermost prism slides, its corners leave the
     face below, and the crossings of its edges carry it.

@@ -35,7 +35,7 @@ _REPEATS = 1e-4
 @final
 @dataclass(frozen=True)
 class BouncingBall(Scenario):
-    """A ball on a table that moves as A sin(2 pi f t), A = Gamma g / (2 pi f)^2.
+    """A ball bounces on a vibrating table A sin(2 pi f t), A = Gamma g / (2 pi f)^2.
 
     It starts on the orbit whose flights take ``orbit`` periods of the table, where that exists, or is dropped from
     rest at ``height`` above it.

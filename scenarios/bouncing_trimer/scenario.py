@@ -32,7 +32,7 @@ _SAMPLES = 40000
 @final
 @dataclass(frozen=True)
 class BouncingTrimer(Scenario):
-    """Three equal balls at the corners of an equilateral triangle, dropped a little tilted on a plate A sin(2 pi f t).
+    """Three balls on a rigid triangle bounce, turn and wander on a plate that vibrates as A sin(2 pi f t).
 
     The source gives centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  The links
     between the balls have no mass and no contacts.

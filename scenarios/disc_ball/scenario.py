@@ -29,7 +29,7 @@ _NAMES = ("disc", "left", "right")
 @final
 @dataclass(frozen=True)
 class DiscBall(Scenario):
-    """Bernoulli's problem: a frictionless disc flies into two equal balls at rest that touch each other, no gravity.
+    """A disc strikes two touching balls at once: Bernoulli's problem, without friction and gravity.
 
     All centres remain in the plane of x and y; y is the axis of symmetry, and the disc comes from below.  With
     ``offset`` 0 it reaches both balls at once, from any direction.  No body turns, so that a sphere can represent the

@@ -37,7 +37,7 @@ _DEPTH, _TAPER = 0.03, 0.25
 @final
 @dataclass(frozen=True)
 class MeshDrop(Scenario):
-    """A part, convex or not, released above a plane: each corner of its hull strikes, slides and sticks by itself.
+    """A part from a mesh file falls on flat ground, tumbles and comes to rest.
 
     ``mesh=part.stl`` loads the user's own file, in any format that trimesh reads, with ``unit`` for the unit of its
     numbers.  The default is a bracket of 60 mm.

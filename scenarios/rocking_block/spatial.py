@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 @final
 @dataclass(frozen=True)
 class RockingBlock3D(Scenario):
-    """A uniform block on flat ground, tilted so that the side towards ``direction`` is up, at rest.
+    """A tilted block rocks in space, on edges or from corner to corner; its side towards ``direction`` starts raised.
 
     With direction 0 it stands on the edge of length ``depth`` and moves as :class:`RockingBlock` does.
     """

@@ -31,7 +31,7 @@ _GRAVITY = 9.81
 @final
 @dataclass(frozen=True)
 class RollingDisc(Scenario):
-    """A thin disc on its rim, its centre at rest at the start.
+    """Euler's disk: a thin disc rolls on its rim, ever flatter and ever faster.
 
     Contact friction acts on slip only: without air the disc would roll for ever.  Here the moment of :class:`AirFilm`
     lets it settle.  Real discs also lose energy by rolling friction and vibration.

@@ -33,7 +33,7 @@ _LAWS = {"newton": NewtonImpact, "energetic": EnergeticImpact}
 @final
 @dataclass(frozen=True)
 class SliderCrank(Scenario):
-    """Crank, rod and a slider whose four corners may touch a guide that is wider by twice the clearance.
+    """A slider-crank with clearance: the slider rattles and slides in a guide that is too wide.
 
     The crank turns freely.  Stretched out at the start, the slider is level and in the middle of its guide, so that it
     first hits with two corners at once.

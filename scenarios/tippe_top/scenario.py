@@ -37,7 +37,7 @@ _SHORT = 5.0
 @final
 @dataclass(frozen=True)
 class TippeTop(Scenario):
-    """A top of two spheres on a plane: body (large sphere) below, stem (small sphere) above.
+    """A tippe top turns over and stands on its stem.
 
     The mass centre is below the centre of the large sphere.  Friction acts in a small contact disc that spins
     (:class:`SpinningCoulomb`), or by Coulomb's law at a point if the disc's radius is zero.  The source also has the

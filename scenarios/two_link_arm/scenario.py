@@ -34,7 +34,7 @@ _FRICTION: Mapping[str, Any] = {"minimum": 0.0, "usual": (0.01, 2.0), "law": "fr
 @final
 @dataclass(frozen=True)
 class TwoLinkArm(Scenario):
-    """Two equal uniform links hang from a pivot over a belt that runs towards -x; the tip starts on it, at rest.
+    """A two-link arm drags its tip on a belt, jams and bounces: Painlevé's paradox.
 
     Above the critical friction no contact force exists while the tip slides: an impact without collision stops the
     slip.  The source gives springs and dampers.  Their place at the elbow and the speed of the belt are our choice.

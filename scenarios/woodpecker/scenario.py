@@ -41,7 +41,7 @@ _SHOWN = 3
 @final
 @dataclass(frozen=True)
 class Woodpecker(Scenario):
-    """Glocker's model of the toy: it starts with the sleeve jammed and the bird swinging away from the pole.
+    """The woodpecker toy: a bird on a spring pecks its way down a pole (Glocker's model).
 
     In the published start the sleeve overlaps the pole by 0.9 micrometres, because numbers were rounded; here it just
     touches.
