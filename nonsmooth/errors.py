@@ -94,6 +94,25 @@ class UnknownName(InvalidInput):
         self.args = (f"{unknown} {_shortened(repr(name))}. {self.remedy}",)
 
 
+class UnknownRun(InvalidInput):
+    """A word that is neither a folder of results nor a scenario, with the nearest scenario.
+
+    Parameters
+    ----------
+    word : str
+        The word that the user gave.
+    scenarios : iterable of str
+        Names of the scenarios.
+    """
+
+    def __init__(self, word: str, scenarios: Iterable[str]) -> None:
+        near = _nearest(word, sorted(scenarios))
+        hint = f"Did you mean the scenario {near!r}? " if near else ""
+        remedy = f"{hint}`nonsmooth list scenarios` shows all scenarios, `nonsmooth run --out` writes folders."
+        super().__init__("run", "must be a folder of results or a scenario", word, remedy)
+        self.args = (f"{_shortened(repr(word))} is neither a folder nor a scenario. {remedy}",)
+
+
 _LETTERS = {
     "c": "damping",
     "e": "restitution",

@@ -256,6 +256,25 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
     return values
 
 
+def with_defaults(owner: type, values: Mapping[str, Any]) -> Any:
+    """Subclass of a dataclass that has other default values for some of its fields, and the same name.
+
+    Parameters
+    ----------
+    owner : type
+        The dataclass. If ``values`` are its required fields, too, the subclass has no required field.
+    values : mapping
+        New default values by the name of the field.
+    """
+    old = {field.name: field for field in dataclasses.fields(owner)}
+    fields = {name: dataclasses.field(default=value, metadata=old[name].metadata) for name, value in values.items()}
+    body = {name: getattr(owner, name) for name in ("__module__", "__qualname__", "__doc__")}
+    types = {name: old[name].type for name in values}
+    return dataclasses.dataclass(frozen=True)(
+        type(owner)(owner.__name__, (owner,), body | {"__annotations__": types} | fields)
+    )
+
+
 def from_all_words(owner: type, words: Mapping[str, str], kind: str, option: str) -> Any:
     """Make an object of ``owner`` from ``name=value`` words, which must give each field that has no default.
 

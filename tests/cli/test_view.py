@@ -78,11 +78,13 @@ def test_a_folder_of_results_is_opened_as_it_ran(call: Call, opened: list[str], 
     np.testing.assert_array_equal(arrays["event_time"], ns.open_solution(folder).events.time)
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(5)
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("no_such",), "no_such"),
+        (("nofolder",), "'nofolder' is neither a folder nor a scenario. `nonsmooth list"),
+        (("tinny",), "'tinny' is neither a folder nor a scenario. Did you mean the scenario 'tiny'?"),
+        (("plate",), "That is a body."),
         (("tiny", "--set", "no=1"), "no"),
         (("{folder}",), "solution.zarr"),
         (("{folder}", "--set", "t_end=1"), "--set"),
