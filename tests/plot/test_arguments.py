@@ -14,10 +14,10 @@ from nonsmooth import plot
 from nonsmooth.errors import MissingPackagesError
 
 _WRONG: dict[str, tuple[Callable[[ns.Solution], Any], str]] = {
-    "contact": (lambda run: plot.gaps(run, "plate - bal"), r"plot\.gaps: contact .*'plate - bal'.*Did you mean"),
+    "contact": (lambda run: plot.gaps(run, "plate - bal"), r"plot\.gaps: unknown contact 'plate - bal'.*Did you mean"),
     "number": (lambda run: plot.forces(run, [0, 1]), r"plot\.forces: contact must be below 1"),
     "none": (lambda run: plot.modes(run, []), r"plot\.modes: contacts must be some"),
-    "body": (lambda run: plot.path(run, "bal"), r"plot\.path: body .*Did you mean 'ball'"),
+    "body": (lambda run: plot.path(run, "bal"), r"plot\.path: unknown body 'bal'. Did you mean 'ball'"),
     "other body": (lambda run: plot.path(run, Ball(0.01)), r"plot\.path needs a body of this system"),
     "frame": (lambda run: plot.path(run, "ball", frame=1), r"plot\.path: frame must be below 1"),
     "plane": (lambda run: plot.path(run, "ball", plane="xx"), r"plot\.path: plane must be two of"),

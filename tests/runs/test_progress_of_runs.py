@@ -11,7 +11,6 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball
 from nonsmooth.progress import displays
-from nonsmooth.runs import loop
 
 
 class _Terminal(io.StringIO):
@@ -45,22 +44,3 @@ def test_the_bar_can_be_switched_off(build: Any, monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(displays, "_LONG", -1.0)
     _run(build, progress=progress)
     assert terminal.getvalue() == ""
-
-
-def test_elsewhere_nothing_is_reported(build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The loop gets no function to call, so that it does what it did without a bar."""
-    given = []
-    monkeypatch.setattr("sys.stderr", io.StringIO())
-    monkeypatch.setattr(loop.Callbacks, "__new__", _noting(given))
-    _run(build)
-    assert given == [None]
-
-
-def _noting(given: list[Any]) -> Any:
-    plain = loop.Callbacks.__new__
-
-    def made(owner: Any, progress: Any, *others: Any) -> Any:
-        given.append(progress)
-        return plain(owner, progress, *others)
-
-    return made
