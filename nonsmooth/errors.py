@@ -8,6 +8,10 @@ _LONGEST = 400
 """Largest number of characters of a value or a list in a message, because meshes have thousands."""
 
 
+STUCK = "see the page 'Stuck?' of the documentation"
+"""What to read about runs that failed or are suspect."""
+
+
 class NonsmoothError(Exception):
     """Base of every error raised by this package."""
 

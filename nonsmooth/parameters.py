@@ -104,7 +104,8 @@ def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
 def check_number(thing: str, value: Any, rule: Rule) -> None:
     """Raise InvalidInput unless ``value`` is a finite number within the rule; warn if it is unusual."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{rule.unit}].")
+        remedy = "It is text: take off the quotes." if _is_quoted(value) else f"Give it in [{rule.unit}]."
+        raise InvalidInput(thing, "must be a finite number", value, remedy)
     if value < rule.minimum or value > rule.maximum or value <= rule.above:
         raise InvalidInput(thing, f"must be {rule.describe()} [{rule.unit}]", value, f"It is the {rule.doc}.")
     if rule.integer and value != int(value):
@@ -116,6 +117,14 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
             "Units are SI: is the order of magnitude meant?",
             UnusualValue,
         )
+
+
+def _is_quoted(value: Any) -> bool:
+    """True if a value is the text of a finite number, as of a number in quotes in a file."""
+    try:
+        return isinstance(value, str) and math.isfinite(float(value))
+    except ValueError:
+        return False
 
 
 @final

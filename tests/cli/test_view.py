@@ -117,4 +117,5 @@ def test_of_a_run_that_fails_what_was_computed_is_shown(call: Call, opened: list
     status, _, errors = call("view", "tiny", "--set", "mode=nan law")
     assert status == 1
     assert "not finite" in errors
+    assert "see the page 'Stuck?' of the documentation\n" in errors
     assert decoded(_page(opened[0]))[0]["status"] == "failed"
