@@ -26,6 +26,11 @@ _DASHES = ("-", "--", "-.", ":", (0, (6, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0
 _MARKERS = "osD^v<>p"
 
 
+def verbatim(text: str) -> str:
+    """Text for a label of matplotlib that shows it as it is: two dollar signs would make a formula of it."""
+    return text.replace("$", r"\$")
+
+
 def line(place: int) -> dict[str, Any]:
     """Line style at a place of the legend; styles differ in dashes as well as in colour."""
     turn, which = divmod(place, len(COLOURS))

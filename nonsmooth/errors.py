@@ -8,6 +8,10 @@ _LONGEST = 400
 """Largest number of characters of a value or a list in a message, because meshes have thousands."""
 
 
+STUCK = "see the page 'Stuck?' of the documentation"
+"""What to read about runs that failed or are suspect."""
+
+
 class NonsmoothError(Exception):
     """Base of every error raised by this package."""
 
@@ -105,6 +109,25 @@ class UnknownName(InvalidInput):
     def within(self, place: str) -> UnknownName:
         """Error that also says where the name is."""
         return UnknownName(f"{place}: {self.thing}", str(self.value), self._known, self._other, self._remedy)
+
+
+class UnknownRun(InvalidInput):
+    """A word that is neither a folder of results nor a scenario, with the nearest scenario.
+
+    Parameters
+    ----------
+    word : str
+        The word that the user gave.
+    scenarios : iterable of str
+        Names of the scenarios.
+    """
+
+    def __init__(self, word: str, scenarios: Iterable[str]) -> None:
+        near = _nearest(word, sorted(scenarios))
+        hint = f"Did you mean the scenario {near!r}? " if near else ""
+        remedy = f"{hint}`nonsmooth list scenarios` shows all scenarios, `nonsmooth run --out` writes folders."
+        super().__init__("run", "must be a folder of results or a scenario", word, remedy)
+        self.args = (f"{_shortened(repr(word))} is neither a folder nor a scenario. {remedy}",)
 
 
 _LETTERS = {

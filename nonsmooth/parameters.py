@@ -104,7 +104,8 @@ def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
 def check_number(thing: str, value: Any, rule: Rule) -> None:
     """Raise InvalidInput unless ``value`` is a finite number within the rule; warn if it is unusual."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{rule.unit}].")
+        remedy = "It is text: take off the quotes." if _is_quoted(value) else f"Give it in [{rule.unit}]."
+        raise InvalidInput(thing, "must be a finite number", value, remedy)
     if value < rule.minimum or value > rule.maximum or value <= rule.above:
         raise InvalidInput(thing, f"must be {rule.describe()} [{rule.unit}]", value, f"It is the {rule.doc}.")
     if rule.integer and value != int(value):
@@ -116,6 +117,14 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
             "Units are SI: is the order of magnitude meant?",
             UnusualValue,
         )
+
+
+def _is_quoted(value: Any) -> bool:
+    """True if a value is the text of a finite number, as of a number in quotes in a file."""
+    try:
+        return isinstance(value, str) and math.isfinite(float(value))
+    except ValueError:
+        return False
 
 
 @final
@@ -254,6 +263,25 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
                 what, example = "numbers apart by colons", f"For example {name}=1:0:0."
             raise InvalidInput(f"{kind}.{name}", f"must be {what}", word, example) from None
     return values
+
+
+def with_defaults(owner: type, values: Mapping[str, Any]) -> Any:
+    """Subclass of a dataclass that has other default values for some of its fields, and the same name.
+
+    Parameters
+    ----------
+    owner : type
+        The dataclass. If ``values`` are its required fields, too, the subclass has no required field.
+    values : mapping
+        New default values by the name of the field.
+    """
+    old = {field.name: field for field in dataclasses.fields(owner)}
+    fields = {name: dataclasses.field(default=value, metadata=old[name].metadata) for name, value in values.items()}
+    body = {name: getattr(owner, name) for name in ("__module__", "__qualname__", "__doc__")}
+    types = {name: old[name].type for name in values}
+    return dataclasses.dataclass(frozen=True)(
+        type(owner)(owner.__name__, (owner,), body | {"__annotations__": types} | fields)
+    )
 
 
 def from_all_words(owner: type, words: Mapping[str, str], kind: str, option: str) -> Any:

@@ -81,7 +81,7 @@ class MeshDumbbell(Scenario):
 
     def with_balls(self) -> Solution:
         """Return a run of the same scenario with balls, with samples at the same times."""
-        return simulate(self.exact.build(), self.t_end, sample_interval=self.sample_interval)
+        return simulate(self.exact.build(), self.t_end, sample_interval=self.sample_interval, progress=None)
 
     def gaps(self, t: Floats, q: Floats, meshes: bool) -> Floats:
         """Return the gaps of both balls over the plate [m], shape [n, 2], of polyhedra or of balls."""

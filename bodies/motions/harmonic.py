@@ -55,4 +55,9 @@ class Harmonic(Motion):
     @property
     def time_scale(self) -> float:
         """The period [s]."""
+        return self.period
+
+    @property
+    def period(self) -> float:
+        """The period [s]."""
         return 1.0 / self.frequency

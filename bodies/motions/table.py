@@ -135,6 +135,11 @@ class Table(Motion):
         return _evaluate_periodic if self.periodic else _evaluate
 
     @property
+    def period(self) -> float | None:
+        """The time from the first row to the last [s]; None if the table is not periodic."""
+        return self.times[-1] - self.times[0] if self.periodic else None
+
+    @property
     def time_scale(self) -> float:
         """2 pi times the smallest ratio of the largest velocity to acceleration, acceleration to jerk [s]."""
         return self._time_scale

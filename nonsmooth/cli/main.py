@@ -10,8 +10,8 @@ from importlib import import_module
 from typing import Any
 
 from nonsmooth.cli.commands import COMMANDS
-from nonsmooth.cli.report.messages import complain, warn_plainly
-from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning
+from nonsmooth.cli.report.messages import complain, discard_output, warn_plainly
+from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning, UnknownName
 
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
@@ -27,6 +27,11 @@ class _Version(argparse.Action):
         parser.exit()
 
 
+def _command(words: Sequence[str]) -> str:
+    """Name of the command in a request; "" if it has none."""
+    return next((word for word in words if not word.startswith("-")), "")
+
+
 def parser(words: Sequence[str]) -> argparse.ArgumentParser:
     """Return the parser of all commands. Only the command that the request names gets its options."""
     top = argparse.ArgumentParser(
@@ -38,7 +43,7 @@ def parser(words: Sequence[str]) -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     commands = top.add_subparsers(title="commands", required=True, metavar="COMMAND")
-    named = next((word for word in words if not word.startswith("-")), "")
+    named = _command(words)
     for name, (module, text) in COMMANDS.items():
         command = commands.add_parser(name, help=text, allow_abbrev=False)
         if name == named:
@@ -54,7 +59,24 @@ def main(words: Sequence[str] | None = None) -> int:
     words : sequence of str, optional
         Arguments after the program's name; by default ``sys.argv[1:]``.
     """
-    words = sys.argv[1:] if words is None else words
+    try:
+        try:
+            return _execute(sys.argv[1:] if words is None else words)
+        finally:
+            if sys.stdout is not None:
+                sys.stdout.flush()  # argparse prints its help without a flush
+    except BrokenPipeError:
+        # the reader has closed the pipe because it needs no more lines, as `head` does
+        discard_output()
+        return DONE
+
+
+def _execute(words: Sequence[str]) -> int:
+    """Execute one command; return the exit status. Errors become lines on standard error."""
+    named = _command(words)
+    if named and named not in COMMANDS:
+        complain(str(UnknownName("command", named, COMMANDS)))
+        return WRONG_REQUEST
     arguments = parser(words).parse_args(words)
     with warnings.catch_warnings():
         warnings.simplefilter("always", NonsmoothWarning)

@@ -28,3 +28,8 @@ class Motion(Component, ABC):
     @abstractmethod
     def time_scale(self) -> float:
         """Shortest time over which the motion changes [s]; infinite at rest."""
+
+    @property
+    def period(self) -> float | None:
+        """Time after which the motion repeats [s]; None, the default, if it does not repeat."""
+        return None

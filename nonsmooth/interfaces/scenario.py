@@ -130,7 +130,7 @@ class Scenario(Component, ABC):
         own = {f"{name} [{self.unit_of(name)}]": x for name, x in self.coordinates(solution).items()}
         system = solution.system
         bodies = zip(system.bodies, system.names.bodies, strict=True)
-        labels = [f"{label} {name} [{unit}]" for body, label in bodies for name, unit in body.q_labels]
+        labels = [charts.verbatim(f"{label} {name} [{unit}]") for body, label in bodies for name, unit in body.q_labels]
         drawn = own or dict(zip(labels, solution.q.T, strict=True))
         return {"coordinates": charts.histories({y: {"": (solution.t, x)} for y, x in drawn.items()}, self.title)}
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.charts import line
+from nonsmooth.charts import line, verbatim
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.request import numbers_of, read_times
@@ -112,7 +112,7 @@ def part_of(where: str, part: str, parts: Sequence[str]) -> int:
 def draw_lines(ax: Axes, solution: Solution, numbers: Sequence[int], times: Floats, values: Floats) -> None:
     """Draw values, shape [n, number of contacts], over times [s], with a legend; NaN interrupts a line."""
     for place, (number, value) in enumerate(zip(numbers, values.T, strict=True)):
-        ax.plot(times, value, label=solution.system.contacts[number].name, **line(place))
+        ax.plot(times, value, label=verbatim(solution.system.contacts[number].name), **line(place))
     over_time(ax, solution)
     beside(ax, title_of(numbers, solution))
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.charts import marker
+from nonsmooth.charts import marker, verbatim
 from nonsmooth.plot.arguments import (
     Contacts,
     axes_of,
@@ -176,7 +176,7 @@ def impulses(
     size = (events.listed_impulse[:, 0], np.hypot(*events.listed_impulse[:, 1:].T))[which]
     for place, number in enumerate(numbers):
         struck = (events.listed == number) & (size > 0.0)
-        style, name = marker(place), solution.system.contacts[number].name
+        style, name = marker(place), verbatim(solution.system.contacts[number].name)
         ax.vlines(times[struck], 0.0, size[struck], color=style["color"], linewidth=0.9)
         ax.plot(times[struck], size[struck], markersize=4, label=name, **style)
     over_time(ax, solution)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nonsmooth.charts import verbatim
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.replay import check_recorded
@@ -59,7 +60,8 @@ def modes(solution: Solution, contacts: Contacts | None = None, ax: Axes | None 
             )  # fmt: skip
         struck = times[(events.listed == number) & (events.listed_impulse[:, 0] > 0.0)]
         ax.vlines(struck, lane - 0.5, lane + 0.5, color="black", linewidth=0.7, zorder=3)
-    ax.set_yticks(range(len(numbers)), [solution.system.contacts[number].name for number in numbers], fontsize=8)
+    names = [verbatim(solution.system.contacts[number].name) for number in numbers]
+    ax.set_yticks(range(len(numbers)), names, fontsize=8)
     ax.set_ylim(len(numbers) - 0.4, -0.6)
     over_time(ax, solution)
     ax.grid(visible=False, axis="y")

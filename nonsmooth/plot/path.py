@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
+from nonsmooth.charts import verbatim
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.request import numbers_of
 from nonsmooth.interfaces import Body
@@ -62,7 +63,7 @@ def path(
     row = times_of(_WHERE, solution, times)
     origin = solution.history("position", times=row, of=one)["position"][:, frame]
     across, up = (origin[:, _AXES.index(letter)] for letter in plane)
-    name, ax = solution.system.name_of(one), axes_of(ax)
+    name, ax = verbatim(solution.system.name_of(one)), axes_of(ax)
     ax.plot(across, up, color="black", linewidth=1.2, label=name if frame == 0 else f"{name}, frame {frame}")
     ax.plot(across[:1], up[:1], linestyle="none", marker="o", fillstyle="none", color="black", label="start")
     ax.plot(across[-1:], up[-1:], linestyle="none", marker="s", color="black", markersize=5, label="end")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from nonsmooth.charts import verbatim
 from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.plot.arguments import axes_of, beside, times_of
@@ -54,7 +55,7 @@ def phase_portrait(
     if len(jumps) > 0:
         ax.plot(_ways(x, jumps), _ways(y, jumps), color="#d55e00", linewidth=1.0, linestyle=":", label="event")
     ax.plot(*_first(x, y), linestyle="none", marker="o", fillstyle="none", color="black", label="start")
-    ax.set_xlabel(f"{coordinate} [{unit}]")
+    ax.set_xlabel(verbatim(f"{coordinate} [{unit}]"))
     ax.set_ylabel(f"its rate [{'1/s' if unit == '1' else f'{unit}/s'}]")
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import io
 import math
 import sys
+import threading
 from abc import ABC, abstractmethod
+from multiprocessing import parent_process
 from typing import TYPE_CHECKING, TextIO, final
 
 if TYPE_CHECKING:
@@ -47,12 +49,14 @@ class Bar(Display):
     ----------
     stream : file
         The terminal.
+    patience : float
+        Wall time before the bar appears [s].
     """
 
-    patience, interval = 1.0, 0.2
+    interval = 0.2
 
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream
+    def __init__(self, stream: TextIO, patience: float = 1.0) -> None:
+        self._stream, self.patience = stream, patience
         self._bar: Progress | None = None
 
     def show(self, part: float, reached: str, details: str) -> None:
@@ -103,6 +107,40 @@ class Lines(Display):
 
 
 @final
+class SameLine(Display):
+    """A line that is written again and again at the same place, as the output of a notebook allows.
+
+    Parameters
+    ----------
+    stream : file
+        The output.
+    patience : float
+        Wall time before the line appears [s].
+    """
+
+    interval = 0.5
+
+    def __init__(self, stream: TextIO, patience: float = 1.0) -> None:
+        self._stream, self.patience = stream, patience
+        self._length = 0
+
+    def show(self, part: float, reached: str, details: str) -> None:
+        """Write the line over the one before."""
+        self._write(f"{reached} ({details})")
+
+    def close(self) -> None:
+        """Erase the line."""
+        if self._length:
+            self._write("")
+            self._write("")
+
+    def _write(self, text: str) -> None:
+        self._stream.write(f"\r{text.ljust(self._length)}")
+        self._stream.flush()
+        self._length = len(text)
+
+
+@final
 class Quiet(Display):
     """Shows nothing: ``continuation(..., display=Quiet())``."""
 
@@ -113,6 +151,30 @@ class Quiet(Display):
 
     def close(self) -> None:
         """Do nothing."""
+
+
+_LONG = 3.0
+"""Wall time after which a run that nobody watches otherwise shows its progress [s]."""
+
+
+def of_long_run() -> Display | None:
+    """Return a display on standard error for a run of more than 3 s, if a person can see it; else None.
+
+    A person sees the terminal, or the output of a notebook. Runs in other threads and processes have no display,
+    because their bars would overwrite one another.
+    """
+    stream = sys.stderr
+    if stream is None or threading.current_thread() is not threading.main_thread() or parent_process() is not None:
+        return None
+    if stream.isatty():
+        return Bar(stream, _LONG)
+    return SameLine(stream, _LONG) if _is_notebook() else None
+
+
+def _is_notebook() -> bool:
+    """True if this process is the kernel of a notebook. IPython is not imported for this."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return hasattr(shell, "kernel")
 
 
 def on_standard_error() -> Display:

@@ -18,7 +18,7 @@ from typing import NoReturn, final
 
 from nonsmooth.checks import check_count, check_kind
 from nonsmooth.engine.memory import owners
-from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.errors import STUCK, InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checkpoint import Checkpoint
@@ -481,7 +481,7 @@ class Model:
         finally:
             loop.sink.close()
         if has_failed:
-            raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
+            raise RunFailed(f"{solution.message} What was computed is in the error's `solution`; {STUCK}.", solution)
         return solution
 
     def _out_of_memory(self, error: MemoryError) -> RunFailed:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine, Scenario
+from nonsmooth.progress import ProgressMeter, TimeReached, of_long_run
 from nonsmooth.results.output import Output
 from nonsmooth.results.overwriting import check_free
 from nonsmooth.runs.checks import check_times
@@ -53,7 +55,7 @@ def simulate(
     sample_interval: float | None = None,
     engine: Engine | None = None,
     until: Until | None = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = True,
     output: Output | Path | str | None = None,
 ) -> Solution:
     """Simulate a system from t = 0: assemble it and run it once.
@@ -70,9 +72,10 @@ def simulate(
         Engine with its options; :class:`EventDriven` by default.
     until : callable, optional
         A condition that ends the run (:meth:`nonsmooth.Model.run`).
-    progress : callable, optional
+    progress : callable or bool, optional
         ``progress(time, t_end)`` [s], called repeatedly, also within a long impact.  An exception ends the run and is
-        raised.
+        raised.  By default a run of more than 3 s shows a bar on standard error, if this is a terminal or the output
+        of a notebook; False or None shows none.
     output : Output, Path or str, optional
         A folder to which events and samples are appended during the run (:meth:`nonsmooth.Model.run`).  The system is
         stored there, too, if all of its classes are installed; otherwise give it to :func:`open_solution`.
@@ -102,14 +105,20 @@ def simulate(
     if output is not None:
         check_free(Output.to(output))
     model = Model.of(system, _engine(engine))
-    return model.run(t_end, sample_interval=sample_interval, until=until, progress=progress, output=output)
+    with contextlib.ExitStack() as stack:
+        if isinstance(progress, bool):
+            display = of_long_run() if progress else None
+            progress = None if display is None else TimeReached(stack.enter_context(ProgressMeter(display)))
+        return model.run(t_end, sample_interval=sample_interval, until=until, progress=progress, output=output)
 
 
 def _engine(given: Engine | None) -> Engine:
     return EventDriven() if given is None else given
 
 
-def run_scenario(scenario: Scenario, engine: Engine | None = None, *, progress: Progress | None = None) -> Solution:
+def run_scenario(
+    scenario: Scenario, engine: Engine | None = None, *, progress: Progress | bool | None = True
+) -> Solution:
     """Simulate a scenario until its end time.
 
     Parameters
@@ -118,8 +127,8 @@ def run_scenario(scenario: Scenario, engine: Engine | None = None, *, progress: 
         The scenario with its parameters.
     engine : Engine, optional
         Engine with its options; :class:`EventDriven` by default.
-    progress : callable, optional
-        Called as ``progress(t, t_end)`` with the time reached and the end time [s].
+    progress : callable or bool, optional
+        Called as ``progress(t, t_end)`` with the time reached and the end time [s]; otherwise as for :func:`simulate`.
 
     Returns
     -------

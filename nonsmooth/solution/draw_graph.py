@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.charts import verbatim
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.solution.modes import ContactModes, TransitionGraph, grouped
 
@@ -176,7 +177,7 @@ def _caption(graph: TransitionGraph, many: bool) -> str:
     names = f"From the right: {', '.join(graph.contacts)}."
     if len(names) > _LONGEST_LINE:
         names = "Contacts stand in the order of solution.system.contacts."
-    return f"{text}\n{names}"
+    return f"{text}\n{verbatim(names)}"
 
 
 def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGraph) -> str:
@@ -212,7 +213,7 @@ def _draw_nodes(
             linewidth=2.2 if mode == graph.start else 1.0,
         )  # fmt: skip
         nodes[mode] = axis.add_patch(node)
-        text = label if passes or numbered else f"{label}\n{_percent(share)}"
+        text = verbatim(label if passes or numbered else f"{label}\n{_percent(share)}")
         axis.text(x, y, text, ha="center", va="center", fontsize=8.5, zorder=4, linespacing=1.2)
     return nodes
 
@@ -271,5 +272,5 @@ def _list_words(
     rows = []
     for number, (mode, n) in enumerate(visits.items(), 1):
         share = "impact" if mode in graph.passing else _percent(graph.shares[mode])
-        rows.append(f"{number:>2}  {n:>5} x  {share:>7}  {words[mode]}")
+        rows.append(f"{number:>2}  {n:>5} x  {share:>7}  {verbatim(words[mode])}")
     panel.text(0.0, 0.5, "\n".join(rows), fontsize=7.5, family="monospace", va="center", linespacing=1.7)

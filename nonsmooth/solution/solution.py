@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nonsmooth.errors import STUCK
 from nonsmooth.interfaces import Body
 from nonsmooth.notices import say
 from nonsmooth.solution.end import Counters, End, EndSource, RunStatus
@@ -208,9 +209,10 @@ class Solution:
         """Status, end time, message, numbers of samples and events, energy residual, and findings of the checks."""
         from nonsmooth.solution.checks import findings
 
+        read = f"; {STUCK}" if self.status in (RunStatus.SUSPECT, RunStatus.FAILED) else ""
         return (
             f"Solution({self.status} at t = {self.t_end:.9g} s: {self.message}; {len(self.t)} samples, "
-            f"{len(self.events)} events, energy residual {self.energy.residual:.1e}{findings(self)})"
+            f"{len(self.events)} events, energy residual {self.energy.residual:.1e}{findings(self)}{read})"
         )
 
     def _repr_html_(self) -> str:

@@ -277,7 +277,7 @@ def _free_flight(body: Body) -> None:
     system = System([body], gravity=9.81)
     system.set_start(body, q, u)
     duration = min(_FALLS / _rate(body, block_of(body, (0.0, q, u))), 1.0)
-    residual = simulate(system, duration, sample_interval=duration).energy.residual
+    residual = simulate(system, duration, sample_interval=duration, progress=None).energy.residual
     if not (math.isfinite(residual) and residual <= 1e-7):
         raise Broken(f"after {duration:g} s the account leaves {residual:g} of the energy unexplained")
 

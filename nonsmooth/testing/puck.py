@@ -231,7 +231,9 @@ def run(
         velocity_tolerance=min(2e-8, _FINE * puck.speed),
         time_tolerance=min(1e-12, _FINE * puck.length / puck.speed),
     )
-    return simulate(over_slab(puck, height, u, laws, **place), t_end, sample_interval=t_end, engine=engine)
+    return simulate(
+        over_slab(puck, height, u, laws, **place), t_end, sample_interval=t_end, engine=engine, progress=None
+    )
 
 
 def over_slab(

@@ -21,6 +21,24 @@ def test_every_figure_of_the_gallery(call: Call, tmp_path: Path) -> None:
     assert all(path.stat().st_size > 1000 for path in paths)
 
 
+def test_parameters_of_the_figures(call: Call, tmp_path: Path) -> None:
+    plain, other = (tmp_path / name for name in ("plain", "other"))
+    assert call("figures", "tiny", "--out", str(plain))[0] == 0
+    assert call("figures", "tiny", "--out", str(other), "--set", "radius=0.02")[0] == 0
+    drawn = [(folder / "height_0.1.png").read_bytes() for folder in (plain, other)]
+    assert drawn[0] != drawn[1]
+
+
+@pytest.mark.parametrize(
+    ("word", "said"), [("radios=1", "Did you mean 'radius'?"), ("radius=-1", "Tiny.radius must be > 0 [m]")]
+)
+def test_a_wrong_parameter_of_the_figures(call: Call, tmp_path: Path, word: str, said: str) -> None:
+    status, _, errors = call("figures", "tiny", "--out", str(tmp_path / "new"), "--set", word)
+    assert status == 2
+    assert said in errors
+    assert not (tmp_path / "new").exists()
+
+
 def test_after_ctrl_c_no_figure_of_half_a_run(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def impatient(t: float, t_end: float) -> None:
         signal.raise_signal(signal.SIGINT)

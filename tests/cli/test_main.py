@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from collections.abc import Callable
 from importlib.metadata import version
 
@@ -11,6 +12,7 @@ from nonsmooth.cli.report.messages import say
 from nonsmooth.storage.files import FileError
 
 Call = Callable[..., tuple[int, str, str]]
+Start = Callable[..., subprocess.Popen[str]]
 
 
 def test_version(call: Call) -> None:
@@ -21,7 +23,6 @@ def test_version(call: Call) -> None:
     "words",
     [
         (),
-        ("rum", "tiny"),
         ("list", "planets"),
         ("show",),
         ("run",),
@@ -35,6 +36,32 @@ def test_a_request_that_cannot_be_read_is_wrong(call: Call, words: tuple[str, ..
     assert status == 2
     assert output == ""
     assert "usage: nonsmooth" in errors
+
+
+@pytest.mark.parametrize("words", [("list",), ("--help",), ("run", "--help"), ("--version",)])
+def test_a_closed_pipe_ends_quietly(start: Start, words: tuple[str, ...]) -> None:
+    process = start(*words)
+    assert process.stdout is not None
+    assert process.stderr is not None
+    process.stdout.close()  # before the first line is written, as `head` does after its last
+    # the broken entries of the plug-in are warned of
+    assert [line for line in process.stderr if not line.startswith("warning: ")] == []
+    assert process.wait() == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("figure", "dumbbell"), "Unknown command 'figure'. Did you mean 'figures'? Known: basin, "),
+        (("Run", "tiny"), "Did you mean 'run'? "),
+        (("quux",), "Unknown command 'quux'. Known: basin, "),
+    ],
+)
+def test_an_unknown_command_gets_the_nearest(call: Call, words: tuple[str, ...], said: str) -> None:
+    status, output, errors = call(*words)
+    assert (status, output) == (2, "")
+    assert said in errors
+    assert errors.count("\n") == 1
 
 
 @pytest.mark.fast_cases(8)
@@ -54,7 +81,7 @@ def test_a_request_that_cannot_be_read_is_wrong(call: Call, words: tuple[str, ..
         (("figures", "tinny", "--out", "x"), "Did you mean 'tiny'"),
         (("show", "dumbell"), "Did you mean 'dumbbell'"),
         (("run", "dumbell"), "Did you mean 'dumbbell'? Known: "),
-        (("run", "plate"), "Unknown scenario 'plate'. That is a body. Known: "),
+        (("run", "plate"), "'plate'. That is a body. Known: "),
         (("run", "system.json"), "must end in .toml, .yaml, .yml, but it is 'system.json'. Scenario files are TOML or"),
         (("run", "system.toml"), "must be a file that can be read"),
         (("run", "scenario.py"), "must have the form file.py:Class, but it is 'scenario.py'"),

@@ -22,11 +22,23 @@ STUCK = ("block_on_belt", "--section", "x=0.5", "--settle", "20", "--within", "x
 def test_an_orbit(call: Call, tmp_path: Path) -> None:
     status, output, _ = call("orbit", *ASKED, "--out", str(tmp_path / "out"))
     assert status == 0
-    assert "multipliers -0.34612213+0.72124855j" in output
+    assert output.startswith("stable, largest multiplier 0.8\n")
+    assert "-0.34612213+0.72124855j" in output
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["multipliers.csv", "multipliers.png"]
     status, _, errors = call("orbit", *ASKED, "--out", str(tmp_path / "out"))
     assert status == 2
     assert "--overwrite" in errors
+
+
+@pytest.mark.parametrize(("gamma", "word"), [("0.8", "stable, "), ("1.2", "unstable, ")])
+def test_the_verdict_comes_first(call: Call, gamma: str, word: str) -> None:
+    """The period of the table is taken; beyond Gamma = 1.049 the orbit of one period doubles."""
+    status, output, _ = call("orbit", *START, "--set", f"gamma={gamma}", "--within", "z,vz")
+    assert status == 0
+    lines = output.splitlines()
+    assert lines[0].startswith(f"{word}largest multiplier ")
+    assert [line.split() for line in lines if "period" in line] == [["period", "0.04", "s"]]
+    assert ["multiplier", "magnitude", "error"] in [line.split() for line in lines]
 
 
 @pytest.mark.slow
@@ -89,8 +101,8 @@ def test_an_orbit_without_a_period(call: Call) -> None:
     within = "phi_m,phi_s,y rate,phi_m rate,phi_s rate"
     status, output, _ = call("orbit", "woodpecker", "--section", "phi_m=0", "--settle", "1", "--within", within)
     assert status == 0
-    assert "period 0.14597606" in output
-    assert "besides 1 along the motion" in output
+    assert "0.14597606" in output
+    assert "multiplier 1 along the motion" in output
 
 
 @pytest.mark.fast_cases(3)
@@ -99,7 +111,7 @@ def test_an_orbit_without_a_period(call: Call) -> None:
     [
         (("orbit", *BALL, "--period", "-1"), "period must be positive and finite, but it is -1.0"),
         (("orbit", *BALL, "--period", "0.04", "--within", "z,vx2"), "'vx2'"),
-        (("orbit", *BALL), "must be given, or a section in its place"),
+        (("orbit", "woodpecker"), "No body of it is driven periodically. Add --period SECONDS, or --section"),
         (("orbit", *BALL, "--section", "z=0:up"), "must have the form NAME=LEVEL or NAME=LEVEL:falling"),
         (("continue", *ASKED, "--over", "gamma=0.7"), "--over gamma must have the form LOW:HIGH, "),
         (

@@ -56,6 +56,7 @@ def test_draws(tmp_path: Path) -> None:
         (["--over", "gamma=1:2:x"], "whole number"),
         (["--over", "gamma=1:b:3"], "LOW:HIGH:N"),
         (["--over", "gamma=1:2"], "LOW:HIGH:N"),
+        (["--over", "gamma=1:2"], "or 0.5:0.9 for a range, with --sample."),
         (["--over", "gamma=-1:2:3"], "must be >= 0"),
         (["--over", "gamma=nan:2:3"], "lower end first"),
         (["--over", "gamma=1:2:3", "--over", "gamma=1,2"], "come once"),

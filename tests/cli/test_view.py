@@ -78,11 +78,13 @@ def test_a_folder_of_results_is_opened_as_it_ran(call: Call, opened: list[str], 
     np.testing.assert_array_equal(arrays["event_time"], ns.open_solution(folder).events.time)
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(5)
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("no_such",), "no_such"),
+        (("nofolder",), "'nofolder' is neither a folder nor a scenario. `nonsmooth list"),
+        (("tinny",), "'tinny' is neither a folder nor a scenario. Did you mean the scenario 'tiny'?"),
+        (("plate",), "That is a body."),
         (("tiny", "--set", "no=1"), "no"),
         (("{folder}",), "solution.zarr"),
         (("{folder}", "--set", "t_end=1"), "--set"),
@@ -115,4 +117,5 @@ def test_of_a_run_that_fails_what_was_computed_is_shown(call: Call, opened: list
     status, _, errors = call("view", "tiny", "--set", "mode=nan law")
     assert status == 1
     assert "not finite" in errors
+    assert "see the page 'Stuck?' of the documentation\n" in errors
     assert decoded(_page(opened[0]))[0]["status"] == "failed"

@@ -73,6 +73,7 @@ def test_a_file_says_what_python_says(path: Path) -> None:
             "radius = -1.0",
             "bodies.ball: Ball.radius must be > 0 [m], but it is -1.0. It is",
         ),
+        ("radius = 0.01", 'radius = "0.01"', "but it is '0.01'. It is text: take off the quotes."),
         ("radius = 0.01", 'radius = "a"', "bodies.ball: Ball.radius must be a finite number, but it is 'a'."),
         ("radius = 0.01", "", "bodies.ball.radius must be given, but it is None. It is the radius [m]."),
         (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import plot
 from nonsmooth.engine.memory.modes import Cause
+from nonsmooth.solution.draw_graph import draw
+from nonsmooth.solution.modes import transition_graph
 
 GRAVITY = 9.81
 HEIGHT, RESTITUTION = 0.1, 0.8
@@ -35,6 +38,29 @@ def _bounce(times: Any) -> tuple[Any, Any, Any]:
     speed = np.where(k < 0, 0.0, GRAVITY * fall * RESTITUTION ** (k + 1.0))
     since = times - start
     return impacts, np.where(k < 0, HEIGHT, 0.0) + speed * since - GRAVITY / 2 * since**2, speed - GRAVITY * since
+
+
+def test_dollar_signs_of_names_are_shown_as_they_are(tmp_path: Path) -> None:
+    """Two of them would make a formula, which fails here, as matplotlib knows no such symbol."""
+    ball, plate = Ball(0.01), Plate()
+    system = ns.System([ball, plate])
+    system.name(ball, r"5 $\oops$ ball")
+    system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.5))
+    system.place(ball, position=(0.0, 0.0, 0.011))
+    solution = ns.simulate(system, 0.05)
+    for drawn in (
+        plot.gaps(solution),
+        plot.modes(solution),
+        plot.impulses(solution),
+        plot.path(solution, ball),
+        plot.phase_portrait(solution, r"5 $\oops$ ball z"),
+    ):
+        assert isinstance(drawn.figure, Figure)
+        drawn.figure.savefig(tmp_path / "picture.png")
+    draw(transition_graph(solution)).savefig(tmp_path / "picture.png")
+    legend = plot.gaps(solution).get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == [r"plate - 5 \$\oops\$ ball"]
 
 
 def test_the_gap_of_a_ball_that_bounces(bounces: ns.Solution) -> None:

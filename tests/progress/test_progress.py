@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
 
@@ -14,7 +17,9 @@ from nonsmooth.progress import (
     Quiet,
     RangeCovered,
     RunsDone,
+    SameLine,
     TimeReached,
+    of_long_run,
     on_standard_error,
 )
 
@@ -47,6 +52,37 @@ def test_a_short_run_says_nothing(kind: type[Lines] | type[Bar]) -> None:
     stream = _Terminal()
     _shown(kind(stream), 0.9)
     assert stream.getvalue() == ""
+
+
+@pytest.mark.parametrize("kind", [Bar, SameLine])
+def test_a_display_waits_as_long_as_it_is_told(kind: type[Bar] | type[SameLine]) -> None:
+    stream = _Terminal()
+    _shown(kind(stream, 3.0), 2.9)
+    assert stream.getvalue() == ""
+    _shown(kind(stream, 3.0), 6.0)
+    assert "t = " in stream.getvalue()
+
+
+def test_the_line_of_a_notebook_is_erased() -> None:
+    stream = io.StringIO()
+    _shown(SameLine(stream, 1.0), 6.0)
+    *shown, blank, end = stream.getvalue().split("\r")
+    assert len(shown) > 5
+    assert all(one.startswith("t = ") for one in shown[1:])
+    assert (blank.strip(), end) == ("", "")
+
+
+def test_a_long_run_is_shown_only_where_a_person_sees_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stderr", io.StringIO())
+    assert of_long_run() is None
+    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: SimpleNamespace(kernel=1)))
+    assert isinstance(of_long_run(), SameLine)
+    monkeypatch.setattr("sys.stderr", _Terminal())
+    assert isinstance(of_long_run(), Bar)
+    with ThreadPoolExecutor(1) as pool:
+        assert pool.submit(of_long_run).result() is None
+    monkeypatch.setattr("sys.stderr", None)
+    assert of_long_run() is None
 
 
 def test_a_quiet_display_shows_nothing(capsys: pytest.CaptureFixture[str]) -> None:

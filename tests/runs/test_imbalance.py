@@ -36,6 +36,7 @@ def test_the_span_and_the_bodies_are_named() -> None:
     """The other ball is far from the plate."""
     run = _bouncing(Dummy(_book))
     assert run.status == "suspect"
+    assert repr(run).endswith("; see the page 'Stuck?' of the documentation)")
     found = re.search(r"Most of it came about from t = (\S+) s to (\S+) s, in contacts of 'ball 1'\. ", run.message)
     assert found is not None
     begin, end = map(float, found.groups())

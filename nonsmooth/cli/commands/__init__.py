@@ -23,6 +23,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "orbit": ("orbit", "find a periodic orbit and its multipliers"),
     "continue": ("orbit", "follow a periodic orbit along a parameter"),
     "bifurcation": ("orbit", "sample a motion once a period for each value of a parameter"),
+    "compile": ("compile", "compile the engine ahead of the first run"),
     "new": ("new", "write a package to start from"),
 }
 """Module in this package, and summary for the help, of each command."""

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from nonsmooth.cli.execute import outputs
 from nonsmooth.cli.execute.perform import Interrupt
 from nonsmooth.cli.parse.options import Command, Option
+from nonsmooth.cli.parse.request import SET, assignments
 from nonsmooth.cli.report.messages import complain
+from nonsmooth.parameters import from_all_words, with_defaults
 from nonsmooth.plugins import registry
 from nonsmooth.progress import ProgressMeter, on_standard_error
 from nonsmooth.results.output import Output
@@ -18,6 +21,7 @@ from nonsmooth.runs.simulate import run_scenario
 
 _OPTIONS = (
     Option("scenario", "a name of `nonsmooth list scenarios`", metavar="SCENARIO"),
+    replace(SET, text=f"{SET.text}; a figure that compares values of this parameter keeps its own values"),
     Option("--out", "folder of the figures, empty or new", metavar="DIR", is_required=True),
     outputs.OVERWRITE,
 )
@@ -26,6 +30,10 @@ _OPTIONS = (
 def _execute(arguments: argparse.Namespace) -> bool:
     """Draw and save the figures; print their paths; return whether all could be saved."""
     owner = registry.load("scenarios", arguments.scenario)
+    if arguments.set:
+        name, values = arguments.scenario, assignments(arguments.set)
+        made = from_all_words(owner, values, name, "--set {name}=VALUE")
+        owner = with_defaults(owner, {name: getattr(made, name) for name in values})
     saver = outputs.Saver.of_pictures(Output.to(arguments.out).folder, arguments.overwrite)
     drawn = _draw(owner)
     if drawn is None:

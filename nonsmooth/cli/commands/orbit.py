@@ -15,9 +15,10 @@ from nonsmooth.cli.execute.outputs import OVERWRITE, Saver
 from nonsmooth.cli.parse import values
 from nonsmooth.cli.parse.options import Command, Option, flag, given, names
 from nonsmooth.cli.parse.request import SCENARIO, SET, TRUST, job
+from nonsmooth.cli.report import orbit_report
 from nonsmooth.cli.report.messages import say, tell
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
+from nonsmooth.interfaces import Motion, Scenario
 from nonsmooth.studies import Family, orbits
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit, values_of
 
@@ -55,7 +56,7 @@ _ORBIT = (
     _PICTURE,
     OVERWRITE,
 )
-_PERIOD = Option.of(orbits.orbit, "period", metavar="SECONDS")
+_PERIOD = Option.of(orbits.orbit, "period", form="that of the driven bodies by default", metavar="SECONDS", kind=float)
 _BRANCH = (
     Option.of(orbits.continuation, "period", form=values.PERIOD, metavar="SECONDS"),
     _required(orbits.continuation, "span", name="over", form="the parameter and its ends", metavar="NAME=LOW:HIGH"),
@@ -84,10 +85,36 @@ _BIFURCATION = (
 
 def _orbit(arguments: argparse.Namespace) -> bool:
     saver = Saver.of_pictures(arguments.out, arguments.overwrite)
-    found = _found(arguments, lambda _: arguments.period)
-    say(str(found))
+    found = _found(arguments, lambda scenario: _period(arguments, scenario))
+    say(orbit_report.as_text(found))
     numbers = "\n".join(map(str, found.multipliers))
     return saver.diagram("multipliers", lambda: orbits.pictures.multipliers(found), numbers)
+
+
+def _period(arguments: argparse.Namespace, scenario: Scenario) -> float | None:
+    """Return the period of a request [s], by default that of the driven bodies; None if a section is given.
+
+    Raises
+    ------
+    InvalidInput
+        If no period and no section is given, and the driven bodies have no single period.
+    """
+    if arguments.period is not None or arguments.section is not None:
+        given_period: float | None = arguments.period
+        return given_period
+    periods = {motion.period for motion in _motions(scenario)} - {None}
+    if len(periods) != 1:
+        rule = "must be given, or a section in its place"
+        many = ", ".join(f"{period:.9g} s" for period in sorted(filter(None, periods)))
+        why = f"Its driven bodies have different periods: {many}." if many else "No body of it is driven periodically."
+        raise InvalidInput("orbit: period", rule, None, f"{why} Add --period SECONDS, or --section NAME=LEVEL.")
+    return periods.pop()
+
+
+def _motions(scenario: Scenario) -> list[Motion]:
+    """Return the motions of the driven bodies of a scenario."""
+    motions = (getattr(body, "motion", None) for body in scenario.build().bodies)
+    return [motion for motion in motions if isinstance(motion, Motion)]
 
 
 def _continue(arguments: argparse.Namespace) -> bool:

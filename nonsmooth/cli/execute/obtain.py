@@ -11,7 +11,7 @@ from nonsmooth.cli.execute.perform import Compute, Progress, computed
 from nonsmooth.cli.parse.options import Option
 from nonsmooth.cli.parse.request import ENGINE, LAW, RUN_WORDS, SET, TRUST, Job, check_stored, job
 from nonsmooth.cli.report.messages import tell
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, UnknownRun
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.plugins import file, registry
 from nonsmooth.results.opening import open_solution, stored_setup
@@ -51,8 +51,23 @@ class Obtained:
 
 
 def obtain(command: str, arguments: argparse.Namespace) -> Obtained:
-    """Return the run of a request: read from its folder, or computed from its scenario."""
+    """Return the run of a request: read from its folder, or computed from its scenario.
+
+    Raises
+    ------
+    UnknownRun
+        If there is no folder and no scenario of this name.
+    """
+    _check_known(arguments.run)
     return _stored(command, arguments) if Path(arguments.run).is_dir() else _computed(arguments)
+
+
+def _check_known(word: str) -> None:
+    """Raise UnknownRun unless a word is a folder, a file, or the name of a component."""
+    is_path = Path(word).exists() or Path(word).suffix
+    # a component of another kind gets a message that names its kind
+    if not is_path and word not in registry.names("scenarios") and not registry.kinds_named(word):
+        raise UnknownRun(word, registry.names("scenarios"))
 
 
 def job_of(output: Output, folder: SolutionFolder, is_trusted: bool) -> tuple[str, Job]:

@@ -13,7 +13,7 @@ from nonsmooth.cli.execute.outputs import Saver, without_display
 from nonsmooth.cli.parse.request import Job
 from nonsmooth.cli.report import run_report
 from nonsmooth.cli.report.messages import complain, tell
-from nonsmooth.errors import InvalidInput, PluginError, RunFailed
+from nonsmooth.errors import STUCK, InvalidInput, PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.progress import ProgressMeter, TimeReached, on_standard_error
 from nonsmooth.results.description import UNFINISHED
@@ -133,6 +133,7 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
         kept = cast("Solution | None", error.solution)
         message = kept.message if kept else str(error)
         complain(message)
+        tell(STUCK)
         return kept, "failed", message
     except (PluginError, FileError) as error:
         complain(str(error))
@@ -142,6 +143,7 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
         return None, "interrupted", "interrupted before the run began"
     if solution.status == "suspect":
         complain(f"suspect: {solution.message}")
+        tell(STUCK)
     return solution, solution.status, solution.message
 
 

@@ -22,6 +22,7 @@ OVER = (
 PERIOD = "a number, or N/NAME or Npi/NAME if the parameter NAME of --over is the frequency"
 _DRAWS: Mapping[str, Callable[..., Sampling]] = {"random": random, "sobol": sobol, "latin_hypercube": latin_hypercube}
 _GRID, _RANGE = "LOW:HIGH:N, or values apart by commas", "LOW:HIGH"
+_SAMPLED = ", or 0.5:0.9 for a range, with --sample"
 _EXAMPLE = "For example --over restitution=0.5:0.9:41"
 _PERIOD = re.compile(r"(?P<count>\d*\.?\d*)\s*(?P<pi>pi)?\s*/\s*(?P<name>\S+)")
 
@@ -41,7 +42,7 @@ def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
             raise InvalidInput(f"--over {name}", "must come once", word, "Leave one out.")
         named[name] = values
     if sample is None:
-        return grid(**{name: _values(name, word) for name, word in named.items()})
+        return grid(**{name: _values(name, word, _SAMPLED) for name, word in named.items()})
     kind, _, count = sample.partition(":")
     if kind not in _DRAWS:
         raise UnknownName("--sample", kind, _DRAWS)
@@ -118,11 +119,12 @@ def _cut(word: str) -> tuple[str, str]:
     return name, values
 
 
-def _values(name: str, word: str) -> NDArray[Any]:
+def _values(name: str, word: str, more: str = "") -> NDArray[Any]:
+    """Return the values of a list or a grid; ``more`` is another form that messages name."""
     if ":" in word:
         *parts, n = word.split(":")
         if len(parts) != 2:
-            raise _refusal(name, _GRID, word)
+            raise _refusal(name, _GRID, word, more)
         ends = _numbers(name, parts, _GRID)
         if not ends[0] < ends[1]:
             raise InvalidInput(f"--over {name}", "must be a range, the lower end first", word, f"{_EXAMPLE}.")
@@ -143,8 +145,8 @@ def _numbers(name: str, words: list[str], form: str) -> tuple[float, float]:
     return low, high
 
 
-def _refusal(name: str, form: str, word: str) -> InvalidInput:
-    return InvalidInput(f"--over {name}", f"must have the form {form}", word, f"{_EXAMPLE}, or 0.5:0.9 for a range.")
+def _refusal(name: str, form: str, word: str, more: str = "") -> InvalidInput:
+    return InvalidInput(f"--over {name}", f"must have the form {form}", word, f"{_EXAMPLE}{more}.")
 
 
 def _count(thing: str, word: str) -> int:

@@ -34,12 +34,17 @@ def say(text: str) -> None:
         # imported on use: `nonsmooth --help` starts faster without it
         from nonsmooth.storage.files import FileError
 
-        with contextlib.suppress(OSError):  # otherwise the interpreter writes again at exit, and fails
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        discard_output()
         if isinstance(error, BrokenPipeError):
             # the reader has closed the pipe because it needs no more lines, as `head` does
             return
         raise FileError("standard output", error) from error
+
+
+def discard_output() -> None:
+    """Send standard output to nowhere, because the interpreter writes the rest at exit, and would fail again."""
+    with contextlib.suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def tell(text: str) -> None:

@@ -16,6 +16,7 @@ import hashlib
 import json
 import os
 import uuid
+from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -96,6 +97,12 @@ def write(name: str, machine_code: MachineCode) -> None:
         # a full disk, or on Windows another process that reads the file: each process then compiles
         with contextlib.suppress(OSError):
             part.unlink()
+
+
+def written(names: Iterable[str]) -> int:
+    """Number of names whose file is in the folder that is written to. The files are not read."""
+    folder = folders()[1]
+    return 0 if folder is None else sum((folder / _file_name(name)).exists() for name in names)
 
 
 def _file_name(name: str) -> str:

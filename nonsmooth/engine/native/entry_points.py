@@ -14,6 +14,7 @@ import importlib
 import inspect
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -24,7 +25,7 @@ from nonsmooth.engine.memory.declare import Singleton
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.native.address_calls import by_address
 from nonsmooth.engine.native.callees import KERNELS, Kernel, callees_of
-from nonsmooth.engine.native.code_files import read
+from nonsmooth.engine.native.code_files import read, written
 from nonsmooth.engine.native.compiler import KEEPS_FILES, entry_address, kernel_dispatcher, shim_address
 from nonsmooth.engine.native.entries import Fingerprint, own_name
 from nonsmooth.engine.native.folders import folders
@@ -32,7 +33,10 @@ from nonsmooth.engine.native.loader import load
 from nonsmooth.engine.native.machine_code import EntryPoint, add_entry
 from nonsmooth.engine.native.signatures import signature_of, workspace_with
 from nonsmooth.notices import say
+from nonsmooth.progress import Bar, ProgressMeter, Quiet
 
+_POLL = 0.1
+"""Time between two counts of the functions that other processes have compiled [s]."""
 _STUB = "def stub_{name}({names}): return call(ws.model.entry_points[{index}], {names})"
 
 
@@ -156,7 +160,9 @@ def compile_apart(names: tuple[str, ...]) -> None:
     # numba's own files are found when an entry point is compiled in this process
     if not KEEPS_FILES:
         return
-    say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
+    is_terminal = sys.stderr is not None and sys.stderr.isatty()
+    if not is_terminal:
+        say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
     # without a folder to write files to nothing could be handed over: this process compiles
     if folders()[1] is None:
         return
@@ -164,9 +170,15 @@ def compile_apart(names: tuple[str, ...]) -> None:
     n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
     # the end of the block waits for both processes
     with contextlib.ExitStack() as stack:
-        for ordered in (names, names[::-1])[:n]:
-            if (helper := _helper(ordered)) is not None:
-                stack.enter_context(helper)
+        meter = stack.enter_context(ProgressMeter(Bar(sys.stderr) if is_terminal else Quiet()))
+        helpers = [helper for ordered in (names, names[::-1])[:n] if (helper := _helper(ordered)) is not None]
+        for helper in helpers:
+            stack.enter_context(helper)
+        while any(helper.poll() is None for helper in helpers):
+            n_written = written(names)
+            words = f"compiling the engine once: {n_written} of {len(names)} functions"
+            meter.show(n_written / len(names), lambda _, words=words: (words, ""))  # type: ignore[misc]
+            time.sleep(_POLL)
 
 
 def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.charts import COLOURS, line
+from nonsmooth.charts import COLOURS, line, verbatim
 from nonsmooth.plot.arguments import axes_of, pyplot
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
 from nonsmooth.studies.derivatives.forward import Sensitivity
@@ -61,7 +61,7 @@ def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -
     ax.vlines(found.events, 0.0, 1.0, transform=ax.get_xaxis_transform(), color="0.75", linewidth=0.7, zorder=0)
     ax.set_xlim(0.0, float(found.t[-1]))
     title = f"Change of {coordinate} per relative change of a parameter; grey: events"
-    return finish(ax, "time [s]", f"change of {coordinate} [{unit(system, number)}]", title, grid="y")
+    return finish(ax, "time [s]", verbatim(f"change of {coordinate} [{unit(system, number)}]"), title, grid="y")
 
 
 def fitted(found: Fit, label: str, columns: Sequence[str] = ()) -> Figure:

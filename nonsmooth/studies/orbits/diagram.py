@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nonsmooth.charts import verbatim
 from nonsmooth.checks import floats
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engines.event_driven import EventDriven
@@ -96,7 +97,7 @@ class Diagram:
         ax.plot(over, self.points.ravel(), mark, markersize=2.0, color=colour, fillstyle="none", label=label)
         ax.set_xlabel(self.label)
         few_ticks(ax)
-        ax.set_ylabel(f"{self.coordinate}, once a period [{self.unit}]")
+        ax.set_ylabel(verbatim(f"{self.coordinate}, once a period [{self.unit}]"))
         dotted(ax, (value for value, text in zip(self.values.tolist(), self.failures, strict=True) if text))
         for value in self.values[self.settling].tolist():
             ax.axvline(value, color="0.8", linewidth=0.8, zorder=0)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.charts import COLOURS
+from nonsmooth.charts import COLOURS, verbatim
 from nonsmooth.checks import floats, is_finite
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
@@ -100,7 +100,7 @@ class ItineraryDiagram:
         ax.locator_params(axis="y", integer=bool(np.all(self.values % 1.0 == 0.0)))
         failed = sum(map(bool, self.failures))
         words = f"; {failed} of {len(self.values)} runs failed (white)" if failed else ""
-        names = [self.words[kind].replace(" of '", "\nof '") for kind in kinds]
+        names = [verbatim(self.words[kind].replace(" of '", "\nof '")) for kind in kinds]
         entries = [Patch(label=name, **_fill(place)) for place, name in enumerate(names)]
         title = f"Colours: the last event; strokes: events{words}"
         return finish(ax, "phase of the period [1]", self.label, title, grid="", legend=entries)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nonsmooth.charts import verbatim
 from nonsmooth.plot.arguments import axes_of
 from nonsmooth.studies.orbits.branch import Branch
 from nonsmooth.studies.orbits.periodic import Orbit
@@ -70,4 +71,4 @@ def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes 
             places = [one.value for one in points], [shown(one.orbit) for one in points]
             ax.plot(*places, mark, color=VERMILION, label=word)
     few_ticks(ax)
-    return finish(ax, found.orbits[0].family.label(found.name), label)
+    return finish(ax, found.orbits[0].family.label(found.name), verbatim(label))
