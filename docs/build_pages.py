@@ -1,7 +1,7 @@
-"""Make what the pages of the gallery show of their scenarios: ``python docs/build_pages.py [NAME ...]``.
+"""Make the generated parts of the site: ``python docs/build_pages.py [NAME ...]``.
 
 Each scenario is run with its defaults.  Its view and picture go to docs/pages/gallery/views, where pages link to them;
-its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.
+its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.  So do the commands of the reference.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from command_pages import command_page
 from parameter_tables import markdown, table
 from PIL import Image
 
@@ -92,6 +93,8 @@ def _criteria(found: tuple[Criterion, ...]) -> str:
 
 def main() -> None:
     """Build the scenarios named, or all and the list of them."""
+    PARTS.mkdir(exist_ok=True)
+    (PARTS / "commands.md").write_text(command_page(), encoding="utf-8")
     names = sys.argv[1:] or sorted(registry.names("scenarios"))
     # the first one alone, as it compiles the engine
     cards = [build(names[0])]
