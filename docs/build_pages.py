@@ -1,7 +1,8 @@
 """Make the generated parts of the site: ``python docs/build_pages.py [NAME ...]``.
 
 Each scenario is run with its defaults.  Its view and picture go to docs/pages/gallery/views, where pages link to them;
-its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.  So do the commands of the reference.
+its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.
+The commands of the reference (``command_pages.py``) go there, too.
 """
 
 from __future__ import annotations
