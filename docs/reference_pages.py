@@ -27,27 +27,21 @@ class ReferencePages(griffe.Extension):
     def on_package(self, *, pkg: griffe.Module, **_: Any) -> None:
         """Mark the names of one package, and modules that have no other names."""
         for name in listed("reference"):
-            found = _found(pkg, name)
-            if found is not None:
-                found.public = False
+            _hide(pkg, name)
         _hide_empty(pkg)
 
 
-def _found(pkg: griffe.Module, name: str) -> griffe.Object | None:
-    """Object of a name, where it is defined; None if that is another package."""
-    while True:
-        first, *rest = name.split(".")
-        if first != pkg.name or not rest:
-            return None
+def _hide(pkg: griffe.Module, name: str) -> None:
+    """Hide a name where it is defined, and where a package of this one imports it from there."""
+    first, *rest = name.split(".")
+    if first == pkg.name and rest:
         found: griffe.Object | griffe.Alias = pkg
         for depth, part in enumerate(rest, 1):
             found = found.members[part]
             if isinstance(found, griffe.Alias):
-                name = ".".join([found.target_path, *rest[depth:]])
+                _hide(pkg, ".".join([found.target_path, *rest[depth:]]))
                 break
-        else:
-            assert isinstance(found, griffe.Object)
-            return found
+        found.public = False
 
 
 def _hide_empty(module: griffe.Module) -> bool:
