@@ -28,33 +28,43 @@ class ReferencePages(griffe.Extension):
         """Mark the names of one package, and modules that have no other names."""
         for name in listed("reference"):
             _hide(pkg, name)
-        _hide_empty(pkg)
+        _hide_rest(pkg)
 
 
 def _hide(pkg: griffe.Module, name: str) -> None:
-    """Hide a name where it is defined, and where a package of this one imports it from there."""
+    """Hide a name of a package where it is defined."""
     first, *rest = name.split(".")
-    if first == pkg.name and rest:
-        found: griffe.Object | griffe.Alias = pkg
-        for depth, part in enumerate(rest, 1):
-            found = found.members[part]
-            if isinstance(found, griffe.Alias):
-                _hide(pkg, ".".join([found.target_path, *rest[depth:]]))
-                break
-        found.public = False
+    if first != pkg.name or not rest:
+        return
+    found: griffe.Object | griffe.Alias = pkg
+    for depth, part in enumerate(rest, 1):
+        if part not in found.members:
+            return  # the build reports the page that lists an unknown name
+        found = found.members[part]
+        if isinstance(found, griffe.Alias):
+            return _hide(pkg, ".".join([found.target_path, *rest[depth:]]))
+    found.public = False
 
 
-def _hide_empty(module: griffe.Module) -> bool:
-    """Hide modules all of whose names are on pages for users; return whether this one has another name."""
-    own = [one for one in module.members.values() if not one.is_alias and not one.name.startswith("_")]
-    # each module must be visited, so that this is a list
-    inner = [_hide_empty(one) for one in own if isinstance(one, griffe.Module)]
-    for name in ("departures", "__post_init__"):
-        for one in own:
-            if isinstance(one, griffe.Class) and name in one.members:
-                one.members[name].public = False
-    names = [one for one in own if not isinstance(one, griffe.Module) and one.has_docstrings]
-    shown = any(inner) or any(one.public is not False for one in names) or not (inner or names)
-    if not shown:
+def _hide_rest(module: griffe.Module) -> bool:
+    """Hide imported names, machinery of components, and modules without a name; return whether this module is shown."""
+    names, modules = False, []
+    for name, one in module.members.items():
+        if isinstance(one, griffe.Alias):
+            one.public = False
+        elif isinstance(one, griffe.Module):
+            if not name.startswith("_"):
+                modules.append(_hide_rest(one))
+        elif not name.startswith("_") and one.has_docstrings:
+            names = names or one.public is not False
+        for part in ("departures", "__post_init__") if isinstance(one, griffe.Class) else ():
+            if part in one.members:
+                one.members[part].public = False
+    if module.public is None and not names and not any(modules) and _has_names(module):
         module.public = False
     return module.public is not False
+
+
+def _has_names(module: griffe.Module) -> bool:
+    """Return whether a module has a name that is not imported, or another module."""
+    return any(not one.is_alias and not name.startswith("_") for name, one in module.members.items())
