@@ -42,7 +42,8 @@ def _hide(pkg: griffe.Module, name: str) -> None:
             return  # the build reports the page that lists an unknown name
         found = found.members[part]
         if isinstance(found, griffe.Alias):
-            return _hide(pkg, ".".join([found.target_path, *rest[depth:]]))
+            _hide(pkg, ".".join([found.target_path, *rest[depth:]]))
+            return
     found.public = False
 
 
