@@ -49,7 +49,7 @@ def _hide(pkg: griffe.Module, name: str) -> None:
 
 def _hide_rest(module: griffe.Module) -> bool:
     """Hide imported names, machinery of components, and modules without a name; return whether this module is shown."""
-    names, modules = False, []
+    names, modules = list[bool](), list[bool]()
     for name, one in module.members.items():
         if isinstance(one, griffe.Alias):
             one.public = False
@@ -57,15 +57,11 @@ def _hide_rest(module: griffe.Module) -> bool:
             if not name.startswith("_"):
                 modules.append(_hide_rest(one))
         elif not name.startswith("_") and one.has_docstrings:
-            names = names or one.public is not False
+            names.append(one.public is not False)
         for part in ("departures", "__post_init__") if isinstance(one, griffe.Class) else ():
             if part in one.members:
                 one.members[part].public = False
-    if module.public is None and not names and not any(modules) and _has_names(module):
+    # a module without documented names has its own docstring
+    if (names or modules) and not any(names) and not any(modules):
         module.public = False
     return module.public is not False
-
-
-def _has_names(module: griffe.Module) -> bool:
-    """Return whether a module has a name that is not imported, or another module."""
-    return any(not one.is_alias and not name.startswith("_") for name, one in module.members.items())
