@@ -2,7 +2,8 @@
 
 Each scenario is run with its defaults.  Its view and picture go to docs/pages/gallery/views, where pages link to them;
 its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them. So do the
-matrix of shapes that touch each other (:mod:`shape_matrix`) and the errors of contacts (:mod:`pair_errors`).
+matrix of shapes that touch each other (:mod:`shape_matrix`) and the errors of contacts (:mod:`pair_errors`). So do the
+commands of the reference (:mod:`command_pages`).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import Any
 
 import pair_errors
 import shape_matrix
+from command_pages import command_page
 from parameter_tables import markdown, table
 from PIL import Image
 
@@ -126,6 +128,8 @@ def _row(one: Criterion) -> tuple[str, ...]:
 
 def main() -> None:
     """Build the scenarios named, or all and the list of them."""
+    PARTS.mkdir(exist_ok=True)
+    (PARTS / "commands.md").write_text(command_page(), encoding="utf-8")
     names = sys.argv[1:] or sorted(
         registry.names("scenarios"),
         key=lambda name: (name not in _BY_APPEAL, name in _BY_APPEAL and _BY_APPEAL.index(name), name),

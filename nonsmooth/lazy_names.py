@@ -46,4 +46,8 @@ def lazy_names(package: str, file: str) -> Names:
         setattr(sys.modules[package], name, value)
         return value
 
-    return get, lambda: sorted({*vars(sys.modules[package]), *modules}), sorted(modules)
+    def directory() -> list[str]:
+        """Public names and names such as ``__file__``: completion in an editor shows no helper of the package."""
+        return sorted({*modules, *(name for name in vars(sys.modules[package]) if re.fullmatch(r"__\w+__", name))})
+
+    return get, directory, sorted(modules)

@@ -27,6 +27,14 @@ def test_each_name_is_there_and_listed(package: ModuleType) -> None:
 
 
 @PACKAGES
+def test_dir_shows_public_names_only(package: ModuleType) -> None:
+    """The other names are those that Python gives to every module."""
+    shown = {name for name in dir(package) if not (name.startswith("__") and name.endswith("__"))}
+    assert shown == {*package.__all__}
+    assert {"__all__", "__doc__", "__name__"} <= {*dir(package)}
+
+
+@PACKAGES
 def test_no_name_is_a_module_too(package: ModuleType) -> None:
     """An import of the module would replace what the name stands for."""
     modules = {module.name for module in pkgutil.iter_modules(package.__path__)}
