@@ -1,7 +1,7 @@
-"""Draw the six moving pictures of the README and the first page: ``python docs/wall_pictures.py docs/pages/figures [NAME ...]``.
+"""Draw the moving pictures of README and first page: ``python docs/wall_pictures.py docs/pages/figures [NAME ...]``.
 
-Names are those of ``PICTURES``.  Each picture is written as ``wall_NAME.webp``, 240 pixels wide and smaller than
-250 kB.  The pictures of the gallery are stills; these move.
+Names are those of ``PICTURES``: six systems of the wall, and the run of the ten lines.  Each picture is written as
+``wall_NAME.webp``, some 240 pixels wide and smaller than 250 kB.  The pictures of the gallery are stills; these move.
 """
 
 from __future__ import annotations
@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import nonsmooth as ns
-from bodies import Ball, DrivenBody, Hinge
-from laws import EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.interfaces import Scenario
+from bodies import Ball, DrivenBody, Hinge, OpenBox
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from scenarios.dice_throw import DiceThrow
 from scenarios.dumbbell import DumbbellScenario
 from scenarios.polyhedron_stack import PolyhedronStack
@@ -72,17 +71,24 @@ def cradle() -> ns.System:
     return system
 
 
-def _of(scenario: Scenario) -> Callable[[], ns.System]:
-    return scenario.build
+def ten_lines() -> ns.System:
+    """Two balls in an open box, the example of the README."""
+    box, first, second = OpenBox(0.1, 0.1), Ball(0.02), Ball(0.02)
+    system = ns.System([box, first, second])
+    system.contact_all(ns.ContactLaws(normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.8)))
+    system.place(first, position=(-0.04, 0.0, 0.2), velocity=(0.6, 0.1, 0.0))
+    system.place(second, position=(0.04, 0.01, 0.1))
+    return system
 
 
 PICTURES = {
     "cradle": Picture(cradle, t_end=0.59, speed=0.2, view="front"),
-    "dice": Picture(_of(DiceThrow(speed=0.3, spin=25.0)), t_end=0.5, speed=0.15),
-    "dumbbell": Picture(_of(DumbbellScenario(mode="drift")), t_end=0.2, speed=0.08),
-    "tippe_top": Picture(_of(TippeTop()), t_end=2.4, speed=0.8, view="side"),
-    "woodpecker": Picture(_of(Woodpecker()), t_end=0.292, speed=0.1, view="front"),
-    "tower": Picture(_of(PolyhedronStack()), t_end=0.09, speed=0.03),
+    "dice": Picture(DiceThrow(speed=0.3, spin=25.0).build, t_end=0.5, speed=0.15),
+    "dumbbell": Picture(DumbbellScenario(mode="drift").build, t_end=0.2, speed=0.08),
+    "tippe_top": Picture(TippeTop().build, t_end=2.4, speed=0.8, view="side"),
+    "woodpecker": Picture(Woodpecker().build, t_end=0.292, speed=0.1, view="front"),
+    "tower": Picture(PolyhedronStack().build, t_end=0.09, speed=0.03),
+    "ten_lines": Picture(ten_lines, t_end=1.2, speed=0.4),
 }
 
 
