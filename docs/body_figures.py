@@ -15,7 +15,7 @@ import numpy as np
 from law_axes import make_axes
 
 import nonsmooth as ns
-from bodies import (
+from nonsmooth.bodies import (
     Ball,
     Coordinate,
     DrivenBody,
@@ -29,7 +29,7 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 
 _BLUE, _RED, _GROUND = "tab:blue", "tab:red", "0.35"
 

@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 
 import laws
 import nonsmooth as ns
-from bodies import Ball, Plate
+from nonsmooth.bodies import Ball, Plate
 from nonsmooth.parameters import UnusualValue
 
 _RADIUS = 0.01

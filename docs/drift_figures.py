@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import nonsmooth as ns
-from laws import (
+from nonsmooth.laws import (
     EnergeticImpact,
     JohnsonImpact,
     MonoStiffnessImpact,
@@ -26,8 +26,8 @@ from laws import (
 from nonsmooth import charts
 from nonsmooth.interfaces import ImpactLaw
 from nonsmooth.system.replacing import with_laws
-from scenarios.dumbbell import DumbbellScenario
-from scenarios.dumbbell.trace import note
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
+from nonsmooth.scenarios.dumbbell.trace import note
 
 Ran = tuple[DumbbellScenario, ns.Solution]
 

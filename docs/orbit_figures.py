@@ -20,7 +20,7 @@ from nonsmooth.studies import continuation, hysteresis, orbit
 from nonsmooth.studies.attractors.pictures import basins as draw_basins
 from nonsmooth.studies.orbits.pictures import branch as draw_branch
 from nonsmooth.studies.orbits.pictures import multipliers
-from scenarios.bouncing_ball import BouncingBall
+from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 _QUIET = progress.Quiet()
 

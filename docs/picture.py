@@ -14,7 +14,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import nonsmooth as ns
-from scenarios.dumbbell import DumbbellScenario
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 PICTURE = Path(__file__).parent / "pages" / "figures" / "drift.webp"
 _WORDS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]

@@ -8,8 +8,8 @@ from pathlib import Path
 import matplotlib
 
 import nonsmooth as ns
-from bodies import Ball, Plate
-from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.bodies import Ball, Plate
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 
 
 def main() -> None:

@@ -10,7 +10,7 @@ import matplotlib
 import numpy as np
 
 from nonsmooth import studies
-from scenarios.bouncing_ball import BouncingBall
+from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 
 def main() -> None:

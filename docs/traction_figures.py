@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 import laws
 import nonsmooth as ns
-from bodies import Ball, Plate
+from nonsmooth.bodies import Ball, Plate
 
 _G, _RADIUS = 9.81, 0.01
 _MASS = Ball(_RADIUS).total_mass

@@ -17,8 +17,8 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import nonsmooth as ns
-from bodies import Ball, OpenBox, Plate, Wall
-from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.bodies import Ball, OpenBox, Plate, Wall
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 
 _CHROMIUM = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
 _READY = "document.documentElement.dataset.ready === 'yes'"

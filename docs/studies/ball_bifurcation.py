@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from nonsmooth.studies.orbits import continuation, hysteresis, orbit
 from nonsmooth.studies.orbits.pictures import branch as draw_branch
-from scenarios.bouncing_ball import BouncingBall
+from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 E, PERIOD, RANGE = 0.8, 0.04, (0.3, 1.3)
 FOLD = math.pi * (1.0 - E) / (1.0 + E)

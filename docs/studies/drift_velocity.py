@@ -16,7 +16,7 @@ from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
 
 from nonsmooth import Solution, studies
-from scenarios.dumbbell import DumbbellScenario
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 LAWS = ["energetic", "mono_stiffness", "moreau", "poisson", "newton", "plastic"]
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from nonsmooth import State
 from nonsmooth.studies import Family, fit
 from nonsmooth.studies.derivatives.pictures import fitted
-from scenarios.dumbbell import DumbbellScenario
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 TRUE, NOISE = {"restitution": 0.65, "friction": 0.2}, 2e-5
 TIMES = np.linspace(0.01, 0.2, 20)

@@ -23,7 +23,7 @@ from tests.benchmarks.spheres import MuJoCoBox, PyBulletBox, own_depth
 CHAINS = (10, 30, 100, 300, 1000)
 BOXES = ((10, 0.15, 2.0), (100, 0.3, 0.2))
 """Number of balls, width of the box [m], end time [s]; the longer a box with many balls runs, the more of them lie."""
-MUJOCO_STEP, PYBULLET_STEP = 1e-4, 1e-3
+MUJOCO_STEPS, PYBULLET_STEP = (1e-4, 1e-3), 1e-3
 REPETITIONS = 3
 
 
@@ -65,7 +65,7 @@ def boxes() -> None:
         solution = simulate(system, t_end, sample_interval=scenario.sample_interval)
         assembled = time.perf_counter() - began - solution.counters.wall_seconds
         others: dict[str, MuJoCoBox | PyBulletBox] = {
-            "MuJoCo 1e-4 s": MuJoCoBox(scenario, MUJOCO_STEP),
+            **{f"MuJoCo {step:.0e} s": MuJoCoBox(scenario, step) for step in MUJOCO_STEPS},
             "PyBullet 1e-3 s": PyBulletBox(scenario, PYBULLET_STEP),
         }
         depths = [own_depth(scenario, solution), *(other.deepest(t_end) for other in others.values())]
