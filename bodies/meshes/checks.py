@@ -164,10 +164,10 @@ def _check_shells(thing: str, vertices: Vector, faces: Integers) -> None:
 
 
 MOST_PAIRS = 2_000_000_000
-"""Most pairs of triangles that overlap along the axis of the sweep and are examined, which takes minutes."""
+"""Largest number of pairs of triangles that are examined; so many pairs take minutes."""
 _CHUNK = 2_000_000
 _STRIPS, _WIDE = 1000, 4.0
-"""Largest number of strips; least width of a strip, relative to the mean extent of the triangles."""
+"""Largest number of strips of the sweep, and least width of a strip relative to the mean extent of the triangles."""
 _ROUNDED = 1e-12
 """Bound of the round-off of a place in the last strip, relative to the largest extent."""
 _SHALLOW = 1e-6

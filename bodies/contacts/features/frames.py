@@ -49,9 +49,9 @@ turned_by = compiled(turned)
 def across(
     x: float, y: float, z: float, axis_x: float, axis_y: float, axis_z: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the component of (x, y, z) along a unit axis, the size of the rest, and a unit vector along the rest.
+    """Split (x, y, z) by a unit axis: component along the axis, length of the part across it, unit vector of this part.
 
-    The unit vector is perpendicular to the axis even if the rest is zero.
+    The unit vector is perpendicular to the axis even if the part across the axis is zero.
     """
     along = x * axis_x + y * axis_y + z * axis_z
     x, y, z = x - along * axis_x, y - along * axis_y, z - along * axis_z

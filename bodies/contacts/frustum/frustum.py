@@ -156,7 +156,10 @@ def tip_past_rim(
 
 
 _WAYS = 12
-"""Number of lines round an apex or a foot; in a contact, none of them may point far into the touched face."""
+"""Number of unit vectors, evenly round the axis, that describe the directions of the surface at an apex or a foot.
+
+A face touches the apex or the foot only if none of these vectors points far into the face.
+"""
 
 
 def set_back(first: Frustum) -> Numbers:
@@ -175,7 +178,7 @@ def set_back(first: Frustum) -> Numbers:
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield the apex of a cone: place [m], unit vectors down the side, name; another frustum has no apex."""
+    """Yield the apex of a cone: place [m], unit vectors down the side, name. Other frustums yield nothing."""
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:

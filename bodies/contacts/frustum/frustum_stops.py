@@ -182,7 +182,9 @@ def on_rim(
     part: int,
     tilt: float,
 ) -> Answer:
-    """Return the stop of a rim, or of the apex; the search starts on the side ``direction`` of the axis.
+    """Return the point of a rim, or the apex, that is nearest to the core, with gap and normal; nan if there is none.
+
+    The search starts on the side ``direction`` of the axis.
 
     The first normal lies between the normal of the side and the normal of the cap, at the fraction |tilt| of the way.
     A negative ``tilt`` starts instead with the direction from the rim to the core's centre, if it is between both.

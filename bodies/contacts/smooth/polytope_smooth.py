@@ -30,9 +30,9 @@ from .smooth_newton import widest_from, write_surface
 Numbers = tuple[float, ...]
 
 COUNTS, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = 6, 9, 10, 11, 12, 13, 14
-"""Indices in the header: first of the numbers of vertices, edges and faces, then the offset of every part."""
+"""Indices in the header: of the numbers of vertices, edges and faces; then of the offsets of the six lists by name."""
 EDGE, FACE = 4, 6
-"""How many numbers an edge and a face have.
+"""Length of the row of an edge and of the row of a face, respectively.
 
 An edge: both vertices, the face on its left, the face on its right (-1 for none).  A face: outward normal, distance of
 its plane from the origin [m], beginning and length of its loop.
