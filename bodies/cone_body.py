@@ -19,8 +19,8 @@ class ConeBody(SolidBody):
     """A free solid cone about the third body axis.
 
     The apex is above the mass centre. On a plane the cone stands on three small feet of the base, ``foot_height`` high.
-    Tilted by more than 3 foot_height / radius [rad], it touches with its rim only. ``radius`` and ``height`` of a rounded
-    cone are those of the sharp cone with the same base and side.
+    Tilted by more than 3 foot_height / radius [rad], it touches with its rim only. ``radius`` and ``height`` of a
+    rounded cone are those of the sharp cone with the same base and side.
     """
 
     radius: float = parameter(doc="radius of the base", unit="m", above=0.0, usual=(1e-5, 10.0))

@@ -21,7 +21,7 @@ VIEWS = {
 _FAR = 6.0
 """Extent of the whole motion, relative to the extent of the bodies at a time, above which the camera follows them."""
 _ROOM = 0.06
-"""Margin on each side, relative to the larger extent."""
+"""Margin of the picture on each side of the scene, relative to the larger extent of the scene."""
 
 
 @final

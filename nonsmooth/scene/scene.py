@@ -141,7 +141,7 @@ class Scene:
 
 
 def _looks(body: Body) -> Iterator[tuple[int, Look]]:
-    """Frame and look of each visible shape of a body; small marks on a frame count as one hull."""
+    """Frame and look of each visible shape of a body; very small shapes are merged into one hull."""
     for frame, shapes in enumerate(body.frames):
         looks = [shape.look for shape in shapes]
         reach = max((float(np.max(np.abs(look.vertices))) for look in looks if not look.sheet), default=0.0)

@@ -118,7 +118,7 @@ def _step_address(function: Callable[..., Any], typed: Any, signature: str, fing
 
 def compile_entry(name: str) -> tuple[str, int]:
     """Compile an entry point in this process and write its file; returns its signature and its address."""
-    # this module imports all those that define entry points
+    # this module imports all modules that define entry points
     importlib.import_module("nonsmooth.engine.events.event_loop")
     function, signature = SOURCES[name]
     with _uncollected():
@@ -188,7 +188,8 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 def compile_entries(names: tuple[str, ...]) -> None:
     """Compile entry points into files, one after another, in a process of :func:`compile_apart`.
 
-    Those on disk are left out: the other process, which takes them in the opposite order, may have compiled them.
+    Entry points on disk are left out: the other process, which takes the names in the opposite order, may have compiled
+    them.
     """
     with _uncollected():
         for name in names:
