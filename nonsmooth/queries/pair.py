@@ -95,7 +95,7 @@ def library_names() -> tuple[str, ...]:
 
 
 _ROUND_OFF, _LEAST = 1e-9, 1e-12
-"""Difference of two methods that counts as round-off: relative to the gap, and absolute [m]."""
+"""Difference of two methods that may be round-off: part relative to the gap, and absolute part [m]."""
 
 _MOST_PIECES = 2000
 """Most pieces of a surface whose contacts are prepared: it takes a second, for 100 000 pieces many minutes."""

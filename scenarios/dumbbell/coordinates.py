@@ -20,7 +20,7 @@ NAMES = ("x1", "y1", "z1", "theta", "beta", "gamma")
 """Centre of ball 1 [m] and the 3-2-1 angles of Eq. (2) [rad]."""
 _UNITS = dict(zip(NAMES, 3 * ["m"] + 3 * ["rad"], strict=True))
 UNITS = _UNITS | {f"{name}_rate": f"{unit}/s" for name, unit in _UNITS.items()}
-"""Their units and those of their rates, by name."""
+"""Units of the coordinates and of their rates, by name."""
 
 
 @dataclass(frozen=True)

@@ -99,7 +99,7 @@ class PatchNear(ContactKinematics, ABC):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return those of the evaluator, and no patch."""
+        """Return the parameters of the evaluator, with an empty candidate."""
         return {**self.values, "candidate": NO_CANDIDATE}
 
     @property

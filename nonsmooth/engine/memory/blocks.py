@@ -43,7 +43,7 @@ A load writes ``FORCE`` [N] on the second body, the point where it acts at ``LOA
 from __future__ import annotations
 
 POSITION, ROTATION, VELOCITY, SPIN, ACCELERATION, SPIN_ACCELERATION, JACOBIAN = 0, 3, 12, 15, 18, 21, 24
-"""Positions of the parts of a frame."""
+"""Offsets of the parts in the block of a frame."""
 FRAME = JACOBIAN
 """Floats of frame motion at the head of a body's output block."""
 GAP, NORMAL, TANGENT, POINT_A, POINT_B, SIDE_A, SIDE_B, FEATURE, PAST_END = 0, 1, 4, 7, 10, 13, 21, 29, 30
