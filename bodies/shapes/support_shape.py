@@ -183,7 +183,7 @@ _COARSEST, _TIMES = 24, 4
 
 
 def spiral(count: int) -> tuple[Vector, float]:
-    """Return unit vectors all round, shape [count, 3], and an angle [rad] within which any direction has one."""
+    """Return unit vectors all round, shape [count, 3], and a bound [rad] of any direction's angle to the nearest."""
     i = np.arange(count) + 0.5
     z, angle = 1.0 - 2.0 * i / count, math.pi * (1.0 + math.sqrt(5.0)) * i
     r = np.sqrt(1.0 - z * z)

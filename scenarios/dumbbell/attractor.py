@@ -83,7 +83,7 @@ class Settled:
 
     @functools.cached_property
     def scales(self) -> tuple[float, float]:
-        """Amplitude [m] and peak speed [m/s] of the plate; at least those of an amplitude of 1e-3 ball radii."""
+        """Amplitude [m] and peak speed [m/s] of the plate; at least the values for an amplitude of 1e-3 ball radii."""
         scenario = self.motion.scenario
         length = max(scenario.amplitude, 1e-3 * scenario.radius)
         return length, 2.0 * math.pi * scenario.frequency * length
@@ -101,7 +101,7 @@ class Settled:
         """Period of the motion in plate periods; None if it does not repeat.
 
         Gaps and gap rates at all samples are compared with their values p plate periods before.  They determine tilt
-        and tilt rate.  The horizontal position and the angles theta and gamma do not count.
+        and tilt rate.  The horizontal position and the angles theta and gamma are not compared.
         """
         if self.cycles < _SHORTEST_TAIL:
             return None

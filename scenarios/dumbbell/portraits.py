@@ -25,7 +25,7 @@ _STATEMENTS: Mapping[str, str] = {
 }
 """Titles of the figures with all three modes, by angle."""
 _TURN = 1e-9
-"""Range of an angle [rad] and of its rate [rad/s] below which the angle counts as constant."""
+"""Range of an angle [rad] and of its rate [rad/s] below which the angle is treated as constant."""
 
 IMPACT: dict[str, Any] = {"color": "tab:red", "linestyle": "none", "marker": "o", "fillstyle": "none", "markersize": 6}
 _DIAMOND = IMPACT | {"marker": "D"}

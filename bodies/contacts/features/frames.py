@@ -94,7 +94,7 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
 
 @compiled
 def write_tangent(a: Floats, out: Floats) -> None:
-    """Write the first tangent for the normal in ``out``; it depends only on the normal in axes of the first body."""
+    """Write the first tangent for the normal in ``out``, a function of the normal in the axes of the first body."""
     x, y, z = tangent_of(
         a[ROTATION] * out[NORMAL] + a[ROTATION + 3] * out[NORMAL + 1] + a[ROTATION + 6] * out[NORMAL + 2],
         a[ROTATION + 1] * out[NORMAL] + a[ROTATION + 4] * out[NORMAL + 1] + a[ROTATION + 7] * out[NORMAL + 2],

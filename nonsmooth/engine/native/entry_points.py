@@ -126,7 +126,7 @@ def compile_entry(name: str) -> tuple[str, int]:
 
 
 def compile_shim(shim: Callable[..., Any], signature: str, key: str) -> int:
-    """Compile a shim and write it to the file of its key, unless this is empty; returns its address."""
+    """Compile a shim, which calls a plug-in's function; write it to the file of ``key``, if any; return its address."""
     with _uncollected():
         return shim_address(shim, signature, key)
 
