@@ -23,7 +23,7 @@ A rotation is a change of matrix elements, and a translation is relative to the 
 @final
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """Box of all visible parts over a run; a sheet, which is unbounded, counts by its point nearest to the other parts.
+    """Box of all visible parts over a run; an unbounded sheet adds only its point nearest to the other parts.
 
     Attributes
     ----------

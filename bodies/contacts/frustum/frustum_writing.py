@@ -50,7 +50,7 @@ def past_border(gap: float, over: float, astray: float, overlap: float, size: fl
 
 @compiled
 def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat: bool) -> float:
-    """Return the sine of the angle from an outward normal to the normals of a rim: the upper (``up`` 1) or lower (-1)."""
+    """Return the sine of the angle from an outward normal to the normals of a rim: upper if ``up`` is 1, else lower."""
     if flat:
         return -radial
     return float(max(-radial, -up * (frustum[COS] * axial - frustum[SIN] * radial)))

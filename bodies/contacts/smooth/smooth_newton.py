@@ -41,7 +41,7 @@ _SAMPLES = 8
 _NOWHERE = 1e-300
 """Gauge of a centre, which is 0, to divide by."""
 _ON_SURFACE = 1e-12
-"""What the gauge of a point of the surface is off 1 at most."""
+"""Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 
 
 @compiled

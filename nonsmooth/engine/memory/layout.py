@@ -9,7 +9,7 @@ PARTS = 48
 PART_END = 7
 """Floats of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
-"""Positions of the integrated energies."""
+"""Positions of the energies that are integrated with the state."""
 N_ACCOUNTS = 4
 """Number of energies integrated with the state: work of driven bodies, friction loss, gross exchange, work of loads."""
 BOOKED = 4
