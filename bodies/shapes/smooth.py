@@ -30,12 +30,12 @@ class SmoothShape(ConvexShape):
 
     @property
     def boxy(self) -> bool:
-        """True if it has flat points, so that no evaluator may divide by its curvatures."""
+        """True if the shape has flat points, so that no evaluator may divide by its curvatures."""
         return self.core[0] > 0.0 and self.core[3] < 2.0 and self.core[4] <= 2.0
 
     @property
     def mixed(self) -> bool:
-        """True if one of its two powers makes it flat and the other one makes it sharp."""
+        """True if one of the two powers makes the shape flat and the other power makes it sharp."""
         return self.core[0] > 0.0 and (self.core[3] - 2.0) * (self.core[4] - 2.0) < 0.0
 
     @property

@@ -111,7 +111,7 @@ def face_normals(corners: Floats) -> Floats:
 def corner_normals(mesh: ShadedMesh) -> Floats:
     """Unit normal at each corner of each triangle, shape [m, 3, 3], for smooth shading.
 
-    It is the mean of the normals of those faces at the vertex that meet the face of the triangle without an edge.
+    It is the mean of the normals of the faces at the vertex that meet the triangle's face without a visible edge.
     """
     normals = face_normals(mesh.vertices[mesh.triangles])
     vertex, face = mesh.triangles.ravel(), np.repeat(np.arange(len(mesh.triangles)), 3)

@@ -98,7 +98,7 @@ _ROUND_OFF, _LEAST = 1e-9, 1e-12
 """Difference of two methods that may be round-off: part relative to the gap, and absolute part [m]."""
 
 _MOST_PIECES = 2000
-"""Most pieces of a surface whose contacts are prepared: it takes a second, for 100 000 pieces many minutes."""
+"""Largest number of pieces of a surface whose contacts are prepared, in a second; 100 000 pieces take many minutes."""
 
 
 @final

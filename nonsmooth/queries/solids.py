@@ -35,7 +35,7 @@ def by_planes(one: Placed, two: Placed) -> DistanceResult:
     Raises
     ------
     TooManyPieces
-        If the solids have so many pieces that it would take minutes.
+        If the solids have so many pieces that the query would take minutes.
     """
     if not (one.solid.hollow or two.solid.hollow):
         return _of_convex(_only(one), _only(two), _size(one, two))

@@ -24,7 +24,7 @@ from nonsmooth.system.system import System
 Places = Sequence[Sequence[Place]]
 """Places of the frames of all bodies, body by body."""
 _NAMED = 3
-"""Most pairs that a warning names; it counts the others."""
+"""Largest number of pairs that a warning names; it gives only the number of further pairs."""
 
 
 class UndeclaredOverlap(NonsmoothWarning):

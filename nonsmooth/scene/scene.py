@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _FEWEST = 600
 """Fewest times at which a run is drawn, if necessary between samples, so that ballistic motion is seen as a curve."""
 _SPECK = 1e-2
-"""Size of a shape or a gap that is too small to be seen, relative to the extent of the shapes on its frame."""
+"""Largest size of a shape or gap that cannot be seen, relative to the extent of the shapes on its frame."""
 
 
 @final

@@ -140,7 +140,7 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
 
 
 def _across(points: list[Vector]) -> Iterable[Vector]:
-    """Unit vectors across the line or plane through two or three points, with both signs; else those of the axes."""
+    """Unit vectors, with both signs, across the line or plane through two or three points, else along the axes."""
     if len(points) == 3:
         normal = np.cross(points[1] - points[0], points[2] - points[0])
         ways = [normal / np.linalg.norm(normal)]

@@ -92,7 +92,7 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Lower bound of the depth of one solid inside the other, hollow one [m]; 0 if a tolerance covers it.
+    """Lower bound of the depth of one solid inside the other, which is hollow [m]; 0 if a tolerance covers it.
 
     The pieces of the two must not overlap by more than the tolerance.
     """

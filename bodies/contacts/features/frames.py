@@ -85,7 +85,7 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
     # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits if the normal points down
     square = x * x + y * y
     if square < _ROUND_OFF:
-        # the tangent must not follow round-off: faces that lie on each other keep it while the bodies turn
+        # the tangent must not follow round-off: faces that lie on each other keep their tangent while the bodies turn
         length = math.sqrt(1.0 - x * x)
         return length, -x * y / length, -x * z / length
     grow = (1.0 - z) / square

@@ -146,7 +146,7 @@ def _above(surface: Floats, at: int, aim: Aim) -> float:
 
 @compiled
 def _above_box(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a lower bound of the distance of the body from all points in the box of a node, by such a plane."""
+    """Return a lower bound of the distance of the body from the box of a node, by a plane under the body."""
     x = surface[at + 3] if aim[0] > 0.0 else surface[at]
     y = surface[at + 4] if aim[1] > 0.0 else surface[at + 1]
     z = surface[at + 5] if aim[2] > 0.0 else surface[at + 2]

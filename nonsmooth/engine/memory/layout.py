@@ -31,6 +31,6 @@ IMPACT_STATE = 8
 IMPACT_GUARDS = 3
 """Number of guards of a contact within an impact: rate, energy and friction."""
 SINGULAR = 1e-10
-"""Size of a pivot or of a remaining column that counts as zero, relative to the largest one."""
+"""Size of a pivot or of a remaining column, relative to the largest one, up to which it is treated as zero."""
 NO_PAIR = -1
 """Number of the pair of a contact if the overlap of its shapes is not checked."""
