@@ -17,8 +17,9 @@ class CandidateSearch:
     """Search for pairs of near features of two shapes, if the pairs are too many for a contact each.
 
     The search serves all contacts that one call of ``between`` returns.  Each contact gets one pair as the argument
-    ``candidate`` of its evaluator.  This vector has three numbers, the first of which is 0 without a pair, and the
-    largest distance [m] that the features may move relative to each other before the next search.
+    ``candidate`` of its evaluator.  This vector has four numbers.  Three describe the pair; the first of them is 0
+    without a pair.  The fourth is the largest distance [m] that the features may move relative to each other before the
+    next search.
 
     Attributes
     ----------

@@ -169,10 +169,11 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
 def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
     """Return how far a crossing is past its ends [m], negative before them.
 
-    ``gap`` is the gap of the cores, ``over`` the distance past the ends of both features, ``sine`` the sine of the
-    angle between them, and ``astray`` the sine of the angle by which the normal leaves their normals.  An overlap
-    of sharp features near their ends is as wide as deep, so that the contact ends before them.  If ``overlap`` is
-    negative, a contact point is that deep inside the other body, and the contact extends up to the ends.
+    ``gap`` is the gap of the cores and ``over`` the distance past the ends of both features [m].  ``sine`` is the sine
+    of the angle between the features, and ``astray`` the sine of the angle by which the normal leaves
+    their normals.  An overlap of sharp features near their ends is as wide as deep, so that the contact ends before
+    them.  If ``overlap`` is negative, a contact point is that deep inside the other body, and the contact extends up to
+    the ends.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
     if gap < 0.0 and overlap >= -DEEP * size:

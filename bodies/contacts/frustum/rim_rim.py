@@ -30,7 +30,10 @@ _PARALLEL = 0.01
 _BOTH = 1e-9
 """Angle round the rim, from the line of centres, within which both halves see the same crossing [rad]."""
 _ASIDE = 0.01
-"""Part of the reach by which the normal of two rims at a distance is beyond the normals of a side, at the least."""
+"""Least distance, relative to the reach, by which the normal of two rims that are apart lies past a side's normals.
+
+With a smaller distance, the contact of a rim over the side takes the place of the contact of the rims.
+"""
 _LEAN = 0.02
 """Sine of the largest angle between the normal of overlapping rims and the range of normals of the rims."""
 _BESIDE, _NARROWINGS = 20.0, 40

@@ -25,8 +25,8 @@ SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CO
 NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
 """Length of the row of each part, and its numbers in order:
 
-- a node: lowest and highest coordinates, the node that follows where this one is left out, where the list of its
-  members begins, and their number, 0 but in leaves, and the patches of all members below, as the bits of a number;
+- a node: lowest and highest coordinates, the next node if this one is left out, the index of its list of
+  members, and their number, 0 except in leaves, and the patches of all members below, as the bits of a number;
 - a face: outward normal, distance of its plane from the origin, patch;
 - a triangle: vertices, face, for every edge the outward normal in the plane and its distance from the origin, whether
   its face ends there, then the vectors that point out of the body at the three edges and at the three vertices;
