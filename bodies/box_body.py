@@ -37,7 +37,7 @@ class BoxBody(SolidBody):
 
     @property
     def spin(self) -> int:
-        """-1, also for a cube: contact points and forces turn with it, so that body axes suit its spin better."""
+        """-1, also for a cube: the spin is integrated in body axes, as contact points and forces turn with the box."""
         return -1
 
     @property

@@ -18,8 +18,8 @@ from .solid_body import SolidBody
 class ConeBody(SolidBody):
     """A free solid cone about the third body axis.
 
-    The apex is above the mass centre. On a plane it stands on three feet, and the rim is set back by their height.
-    Tilted by more than 3 foot_height / radius [rad] it touches with its rim only. ``radius`` and ``height`` of a
+    The apex is above the mass centre. On a plane the cone stands on three small feet of the base, ``foot_height`` high.
+    Tilted by more than 3 foot_height / radius [rad], it touches with its rim only. ``radius`` and ``height`` of a
     rounded cone are those of the sharp cone with the same base and side.
     """
 

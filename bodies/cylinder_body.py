@@ -18,8 +18,8 @@ from .solid_body import SolidBody
 class CylinderBody(SolidBody):
     """A free solid cylinder about the third body axis.
 
-    On a plane it stands on three feet, and the rims are set back by their height. Tilted by more than
-    3 foot_height / radius [rad] it touches with a rim only. ``radius`` and ``half_length`` include the rounding.
+    On a plane it stands on three small feet of a face, ``foot_height`` high. Tilted by more than
+    3 foot_height / radius [rad], it touches with a rim only. ``radius`` and ``half_length`` include the rounding.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))

@@ -29,7 +29,7 @@ _WORDS: dict[str, Word] = {
     "angular_velocity": (3, (0.0, 0.0, 0.0), "rad/s"),
 }
 _RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=7, n_u=6)
-"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
+"""Indices of coordinate rates, force, inverse mass matrix and energies in the output block, in this order."""
 
 
 def _evaluate(
@@ -214,9 +214,9 @@ class FreeBody(Body):
     def spin(self) -> int:
         """Offset of the angular velocity in u, 3, for a symmetric top; else -1.
 
-        In space axes the spin of a symmetric top changes slowly, the spin of another body as fast as the body turns.
-        Between steps the components along body axes are then only as accurate as the attitude.  A ball would gain too
-        little to be worth that, so that it has -1.
+        The offset makes the engine integrate the angular velocity in space axes.  In these axes the angular velocity of
+        a symmetric top changes slowly, that of another body as fast as the body turns.  Between steps, components along
+        body axes are then only as accurate as the attitude.  A ball would gain too little in exchange.
         """
         return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
 

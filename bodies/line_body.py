@@ -19,7 +19,7 @@ from .values import Word, check_carried, direction, read_start, unit_quaternion,
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
 _RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=1, n_u=1)
-"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
+"""Indices of coordinate rates, force, inverse mass matrix and energies in the output block, in this order."""
 
 
 def _evaluate(

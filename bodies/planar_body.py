@@ -25,7 +25,7 @@ _WORDS: dict[str, Word] = {
     "angular_velocity": (0, 0.0, "rad/s"),
 }
 _RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=3, n_u=3)
-"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
+"""Indices of coordinate rates, force, inverse mass matrix and energies in the output block, in this order."""
 
 
 def _evaluate(

@@ -44,5 +44,5 @@ class SolidBody(FreeBody):
     @property
     @final
     def shapes(self) -> tuple[Shape, ...]:
-        """The shape about the mass centre."""
+        """The only shape of the body, with the mass centre at the origin of the frame; a tuple of one."""
         return (self.centred_shape,)

@@ -39,5 +39,5 @@ class SuperellipsoidBody(SolidBody):
 
     @property
     def inertia(self) -> tuple[float, float, float]:
-        """Moments, from those of the shape at density 1 [kg m^2]."""
+        """Moments of inertia [kg m^2], from the moments of the shape at density 1."""
         return moments_of(self.centred_shape, self.total_mass)

@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
 _LAYER = 2.6
-"""Distance of the layers at the start, relative to the radius, so that balls of two layers cannot overlap."""
+"""Distance of neighbouring layers of balls at the start, relative to the radius: more than 2, so that none overlap."""
 _PLAY = 0.45
 """Largest random shift of a ball at the start, relative to its margin in its cell; 0.5 would touch the next cell."""
 _ROOT = math.sqrt(0.5)

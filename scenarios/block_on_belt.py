@@ -75,7 +75,7 @@ class BlockOnBelt(Scenario):
 
     @property
     def reach(self) -> float:
-        """Upper bound of the elongation [m]: the sum of F_s / k, of both speeds / sqrt(k / m), and of the start."""
+        """Upper bound of the elongation [m]: F_s / k + (belt speed + block speed) / sqrt(k / m) + start elongation."""
         swing = (self.belt_speed + abs(self.start_velocity)) * math.sqrt(self.mass / self.stiffness)
         return self.static_force / self.stiffness + swing + abs(self.elongation)
 

@@ -39,9 +39,9 @@ _PIPS = {
     5: ((-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1)),
     6: ((-1, -1), (-1, 0), (-1, 1), (1, -1), (1, 0), (1, 1)),
 }
-"""Places of the pips on a face, across and along."""
+"""Places of the pips on a face, across and along, by the number of eyes; unit: the distance of two pips."""
 _PIP, _APART, _SIDES = 0.16, 0.5, 16
-"""Radius of a pip and distance of pips, relative to half an edge; sides of the polygon that is drawn for a pip."""
+"""Radius of a pip and distance of neighbouring pips, relative to half an edge; number of sides of a drawn pip."""
 _SHADES = ("#e69f00", "#56b4e9", "#009e73", "#cc79a7", "#d55e00", "#0072b2")
 """Colours of the dice; black as in ``charts.COLOURS`` would hide the edges."""
 

@@ -117,7 +117,7 @@ class Dominoes(Scenario):
         return solution.q[:, 2::3]
 
     def strikes(self, solution: Solution) -> Floats:
-        """Return when the second, the third, ... domino was struck [s]; those that were not are left out."""
+        """Return when the second, the third, ... domino was struck [s]; dominoes that were not struck are left out."""
         events = solution.events
         moving = np.abs(events.u_after[:, 5::3]) > _MOVES
         struck = np.any(moving, axis=0)

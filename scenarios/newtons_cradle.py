@@ -148,7 +148,7 @@ class NewtonsCradle(Scenario):
 
 
 def _velocities(runs: Mapping[str, tuple[NewtonsCradle, Solution]], words: str) -> Figure:
-    """Draw the velocity of every ball relative to the speed of the strikers; balls count from the far end."""
+    """Draw the velocity of every ball relative to the speed of the strikers; balls are numbered from the far end."""
     struck = {label: row.velocities(solution)[::-1] / row.speed for label, (row, solution) in runs.items()}
     figure = charts.comparison(
         {},

@@ -29,20 +29,20 @@ def draw_solids(
     shades: Sequence[str],
     marks: Sequence[tuple[Floats, Floats]] = (),
 ) -> None:
-    """Draw polyhedra where they are; those behind first.
+    """Draw polyhedra at their places, from the farthest to the nearest.
 
     Parameters
     ----------
     axis : matplotlib axes
-        Where to, in millimetres.
+        Axes on which the polyhedra are drawn, in millimetres.
     solids : sequence of Polyhedron
-        Their shapes.
+        Shapes of the polyhedra.
     poses : array
         Position [m] and unit quaternion of each, shape [n, 7].
     azimuth, elevation : float
-        Where the eye is, from x towards y and over the ground [rad].
+        Angles of the direction to the eye: from x towards y, and above the ground [rad].
     shades : sequence of str
-        Colours, one each.
+        Colour of each polyhedron.
     marks : sequence of tuple of array
         White flat pieces on the faces of every solid: outward normal, shape [3], and corners [m], shape [n, 3].
     """

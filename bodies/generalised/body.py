@@ -160,7 +160,7 @@ class GeneralisedBody(Body):
 
     @property
     def scales(self) -> tuple[Vector, Vector]:
-        """Those of the coordinates; that of the work is the kinetic energy of the velocities' scales."""
+        """Scales of coordinates and velocities; the work's scale is the kinetic energy at the velocity scales [J]."""
         q = np.array([coordinate.scale for coordinate in self.coordinates])
         u = np.array([coordinate.rate_scale for coordinate in self.coordinates])
         if self.power is None:
@@ -174,7 +174,7 @@ class GeneralisedBody(Body):
         return math.inf if self.forcing_period is None else self.forcing_period
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
-        """Return q and u from q and u [n], by default those of the coordinates.
+        """Return q and u of a start, shape [n] each, from q and u; by default the starts of the coordinates.
 
         Raises
         ------

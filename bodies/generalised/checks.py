@@ -212,7 +212,7 @@ def _form(role: str) -> str:
 
 
 class Sampler:
-    """Calls the functions of a body as the engine does, with guard numbers around the output of each."""
+    """Calls the functions of a body as the engine does, and notices if one writes past the end of its output."""
 
     def __init__(self, name: str, equations: Equations, constants: Mapping[str, Value]) -> None:
         self.name = name
@@ -242,7 +242,7 @@ class Sampler:
         where = f"at q = {q.tolist()}, u = {u.tolist()}"
         try:
             self._call(0.0, np.concatenate([q, beyond]), np.concatenate([u, beyond]), out)
-        except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # from functions that run uncompiled
+        except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # raised by uncompiled functions
             raise InvalidInput(
                 f"{self.name}", f"must have functions that do not fail {where}", error, "Look at its functions."
             ) from error

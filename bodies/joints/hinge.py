@@ -23,7 +23,7 @@ class Hinge(RowsJoint):
     axis : tuple of float
         Unit vector of the axis in the frame of the first body, shape [3].
     second_axis : tuple of float, optional
-        The same in the frame of the second body; equal to ``axis`` by default.
+        Unit vector of the axis in the frame of the second body, shape [3]; by default equal to ``axis``.
     """
 
     axis: Point = (0.0, 1.0, 0.0)

@@ -132,7 +132,7 @@ class RowsJoint(Joint, ABC):
 
     @property
     def ends(self) -> Vector:
-        """The two points [m], shape [2, 3]."""
+        """Points of the joint in the frames of the first and the second body [m], shape [2, 3]."""
         return np.array([self.first, self.second], dtype=float)
 
 
@@ -183,7 +183,7 @@ def _carried(frame: Floats, out: Floats, place: int, along: float, i: int) -> fl
 
 @compiled
 def _relative(a: Floats, b: Floats, out: Floats, o: int, i: int) -> float:
-    """Return component i of the velocity of the row's point on the second body minus that of its point on the first."""
+    """Return component i of the relative velocity of a row's two points [m/s], second body minus first body."""
     j, k = (i + 1) % 3, (i + 2) % 3
     first = a[VELOCITY + i] + a[SPIN + j] * (out[o + POINT_A + k] - a[k]) - a[SPIN + k] * (out[o + POINT_A + j] - a[j])
     second = b[VELOCITY + i] + b[SPIN + j] * (out[o + POINT_B + k] - b[k]) - b[SPIN + k] * (out[o + POINT_B + j] - b[j])

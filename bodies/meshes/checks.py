@@ -164,12 +164,12 @@ def _check_shells(thing: str, vertices: Vector, faces: Integers) -> None:
 
 
 MOST_PAIRS = 2_000_000_000
-"""Most pairs of triangles that overlap along the axis of the sweep and are examined, which takes minutes."""
+"""Largest number of pairs of triangles that are examined; so many pairs take minutes."""
 _CHUNK = 2_000_000
 _STRIPS, _WIDE = 1000, 4.0
-"""Largest number of strips; least width of a strip, relative to the mean extent of the triangles."""
+"""Largest number of strips of the sweep, and least width of a strip relative to the mean extent of the triangles."""
 _ROUNDED = 1e-12
-"""Bound of the round-off of a place in the last strip, relative to the largest extent."""
+"""Bound of the round-off of a coordinate in the last strip, relative to the largest extent."""
 _SHALLOW = 1e-6
 """Least distance of both ends of a crossing edge from the triangle's plane, relative to the largest extent.
 
@@ -202,7 +202,7 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
     start, end = (begin_of_strip + side[triangle, axes[0]] - np.min(low[:, axes[0]]) for side in (low, high))
     order = np.argsort(start, kind="stable")
     triangle, strip, start, end = triangle[order], strip[order], start[order], end[order]
-    # the places of the last strips are rounded more than those of the first
+    # coordinates of the last strips are larger than those of the first strips, and so is their round-off
     ends = np.searchsorted(start, end + _ROUNDED * size, side="right")
     counts = np.maximum(ends - np.arange(len(triangle)) - 1, 0)
     total, begin = 0, 0
@@ -219,7 +219,7 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
         for axis in (axes[1], axes[2], axes[0]):
             near = (low[one, axis] <= high[two, axis]) & (low[two, axis] <= high[one, axis])
             one, two, where = one[near], two[near], where[near]
-        # a pair that shares several strips counts in the first of them only
+        # a pair that shares several strips is counted only in the first of them
         both = np.maximum(low[one, axes[1]], low[two, axes[1]])
         own = _strip_of(both, np.min(low[:, axes[1]]), width) == where
         one, two = one[own], two[own]
@@ -247,7 +247,7 @@ def _strip_of(place: Vector, origin: float, width: float) -> Integers:
 def _cross(faces: Integers, corners: Vector, one: Integers, two: Integers, depth: float) -> NDArray[np.bool_]:
     """Return whether an edge of each first triangle passes through the second one, shape [n].
 
-    An edge that shares a vertex with the second triangle does not count.
+    An edge that shares a vertex with the second triangle is left out.
     """
     found = np.zeros(len(one), dtype=bool)
     a, b, c = (corners[two, i] for i in range(3))

@@ -13,9 +13,9 @@ from nonsmooth.interfaces.body import Vector
 from .topology import Integers, neighbours
 
 FLATNESS = 1e-6
-"""Depth of a dent that counts as none, over the largest extent: files with few digits have such dents in flat faces."""
+"""Depth up to which a dent is ignored, relative to the largest extent: files with few digits dent flat faces."""
 _SINGLE = 5e-7
-"""The same over the largest coordinate: single precision, of bodies that lie far from the origin."""
+"""Depth up to which a dent is ignored, relative to the largest coordinate: the round-off of single precision."""
 BENT = 2e-7
 """Facets of the hull that stand out of a plane by less than this part of the largest coordinate are one face: they are
 bent by single precision."""

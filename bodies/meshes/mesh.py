@@ -76,7 +76,7 @@ class Mesh:
 
     @property
     def volume_ratio(self) -> float:
-        """Volume over that of the convex hull; 1 for a convex body."""
+        """Volume relative to the volume of the convex hull; 1 for a convex body."""
         return self.volume / self.hull.volume
 
     @functools.cached_property

@@ -111,7 +111,7 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
                 np.array(loaded.faces, dtype=np.int64).reshape(-1, 3),
             )
     except ModuleNotFoundError as error:
-        # from formats that need a further package, and from readers that take a broken file for another format
+        # raised if the format needs a further package, or if a reader takes a broken file for another format
         package = error.name or str(error).rpartition(" ")[2].strip("'")
         raise InvalidInput(
             thing,

@@ -18,18 +18,18 @@ from .features import Bools, Features
 from .topology import Integers
 
 _AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
-"""Pairs of near faces that are looked at together, and more of which are refused."""
+"""Largest number of pairs of near faces that are examined at once (for memory), and in all (more are refused)."""
 _SAMPLE = 1000
 """Faces by which pairs are counted beforehand; surfaces with fewer have not enough of them."""
 _COSTS = np.array([[3500.0, 6.5e-5], [0.0, 2.9e-7], [90.0, 0.0], [170.0, 3e-6]])
 """Memory [B] and time [s] of triangles, edges and corners; of near faces, all and at once; of those in conflict."""
 _MUCH, _LONG = 1.2e8, 2.0
-"""Memory [B] and time [s] from which contacts are announced."""
+"""Memory [B] and time [s] of the preparation of contacts, respectively, from which a notice announces it."""
 Reach: TypeAlias = Callable[[Integers, Integers], Vector]
 Search: TypeAlias = Callable[[int], Iterator[tuple[Integers, Integers, Bools]]]
 """Yields the numbers of two near faces, of one pair in so many, and whether they are in conflict."""
 _ABOVE = 1e-9
-"""Height over a plane, in sizes of the surface, from which a face counts as standing out of it."""
+"""Height over a plane, relative to the size of the surface, above which a face protrudes from the plane."""
 _AROUND = 1.1
 """Factor on the radius of the touching body, for what it may touch while it overlaps or is not quite there."""
 

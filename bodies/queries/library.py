@@ -21,9 +21,9 @@ from ..shapes.triangle_mesh import TriangleMesh
 from .geometries import MAKERS, GeometryMaker, Made
 
 _DOUBT = 1e-3
-"""Part of distance and size by which an answer may exceed the lower bound, which is no better than the direction."""
+"""Largest excess of a distance over its lower bound, relative to distance and size: its direction is inexact."""
 _BELOW = 1e-7
-"""The same by which it may be below: points of the bodies are not."""
+"""Largest amount by which a distance may be below its bound, relative to distance and size."""
 _FLAT = TriangleMesh, ConvexHull, Box, Sphere
 """Kinds of which libraries tell distances to round-off, beside one another."""
 _LEAST = 1e-12

@@ -154,7 +154,7 @@ def on_axis(center: Point, axis: Point, height: float) -> Point:
 
 
 FEET_OF_FACE = 3
-"""Number of feet of a face: fewer would not hold it, and the normal forces of more would not be unique."""
+"""Number of feet of a face: fewer would not support it, and the normal forces of more feet would not be unique."""
 CIRCLE = 2.0 / 3.0
 """Radius of the circle of feet, relative to the radius R of the face.
 

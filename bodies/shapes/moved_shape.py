@@ -78,7 +78,7 @@ class MovedShape(SmoothShape):
         return self.shape.length + float(np.linalg.norm([self.x, self.y, self.z]))
 
     def support(self, direction: Vector) -> Vector:
-        """Return the farthest point of the moved shape [m]."""
+        """Return the point of the moved shape that lies farthest along a direction [m]."""
         return self._placed(self.shape.farthest(np.asarray(direction) @ self._axes))
 
     @property

@@ -19,7 +19,8 @@ from .support_function import FUNCTION, OF_FUNCTION, support_of
 class SmoothShape(ConvexShape):
     """A convex shape without edges, known by the numbers of a core.
 
-    Its radii of curvature are finite and continuous.  If it is boxy, its curvatures are, and are 0 at flat points.
+    Its radii of curvature are finite and continuous.  A boxy shape has finite and continuous curvatures instead, which
+    are 0 at its flat points.
     """
 
     @property
@@ -29,17 +30,17 @@ class SmoothShape(ConvexShape):
 
     @property
     def boxy(self) -> bool:
-        """True if it has flat points, so that no evaluator may divide by its curvatures."""
+        """True if the shape has flat points, so that no evaluator may divide by its curvatures."""
         return self.core[0] > 0.0 and self.core[3] < 2.0 and self.core[4] <= 2.0
 
     @property
     def mixed(self) -> bool:
-        """True if one of its two powers makes it flat and the other one makes it sharp."""
+        """True if one of the two powers makes the shape flat and the other power makes it sharp."""
         return self.core[0] > 0.0 and (self.core[3] - 2.0) * (self.core[4] - 2.0) < 0.0
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The core with its radius."""
+        """One convex part: the core with its radius."""
         core = self.core
         a, b, c, p, q, radius = core[:6]
         place, axes = np.array(core[6:9]), np.array(core[9:18]).reshape(3, 3)
@@ -50,7 +51,7 @@ class SmoothShape(ConvexShape):
 
 
 _STEP, _LAST_NODE = 0.125, 4.75
-"""Step and last node of the double exponential quadrature over an angle."""
+"""Distance of the nodes, and the last node, of the double exponential quadrature over an angle; both without unit."""
 
 
 def core_numbers(

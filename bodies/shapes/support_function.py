@@ -13,11 +13,11 @@ Support: TypeAlias = tuple[float, float, float, float, float, float, float, floa
 
 
 OF_FUNCTION = math.inf
-"""Power of a core whose points are those of a function of its own."""
+"""Value of the power of a core whose farthest points come from a user's function."""
 FUNCTION = 18
-"""Where in such a core the function's address stands, its parameters behind it."""
+"""Index of the address of the user's function in the numbers of a core; its parameters follow."""
 _TURN = 3e-4
-"""Angle over which such points are differentiated [rad]; the error is of its fourth power."""
+"""Angle over which the points of a user's function are differentiated [rad]; the error is of its fourth power."""
 
 
 @compiled
@@ -35,7 +35,7 @@ def support_of(core: Floats, x: float, y: float, z: float) -> Support:
 
 @compiled
 def _by_function(core: Floats, x: float, y: float, z: float) -> Support:
-    """Return the same by the points that a function finds, and by differences of them."""
+    """Return the support function of a core given by a user's function: by its points, and by their differences."""
     px, py, pz = call_support(core, FUNCTION, x, y, z)
     # across the direction, (t, u) right-handed with it
     if abs(z) < 0.7:
@@ -78,7 +78,7 @@ def _slope(core: Floats, x: float, y: float, z: float, tx: float, ty: float, tz:
 
 @compiled
 def support_by(a: float, b: float, c: float, p: float, q: float, x: float, y: float, z: float) -> Support:
-    """Return the same by semi-axes and powers."""
+    """Return the support function of a core given by semi-axes a, b, c and powers p, q, at a unit vector."""
     if a == 0.0:
         h = 0.0
         return h, h, h, h, h, h, h, h, h, h
@@ -139,7 +139,7 @@ def _norm_and_gradient(
 
 @compiled
 def norm_of(a: float, b: float, c: float, p: float, q: float, x: float, y: float, z: float) -> Support:
-    """Return the same norm with two derivatives, powers of 2 and more."""
+    """Return ((|a x|^q + |b y|^q)^(p/q) + |c z|^p)^(1/p), its gradient and its second derivatives; powers from 2 on."""
     if p == 2.0 and q == 2.0:
         aa, bb, cc = a * a, b * b, c * c
         h = math.sqrt(aa * x * x + bb * y * y + cc * z * z)

@@ -176,14 +176,14 @@ Support = Callable[[Vector], Vector]
 """A function that returns the farthest points [m] along directions, shape [n, 3] both."""
 _TURN = 1e-3
 _WAYS, _FIRST, _LAST, _CLOSER = 4, 0.15, 1e-4, 0.8
-"""Searches for a flat place: their number, first and last step [rad], and ratio of a step to the step before."""
+"""Number of searches for a flat place; their first and last step [rad]; ratio of a step to the step before."""
 _ROUND = [(math.cos(0.25 * math.pi * i), math.sin(0.25 * math.pi * i)) for i in range(8)]
 _COARSEST, _TIMES = 24, 4
-"""Edges round the coarsest mesh; number of meshes, each twice as fine as the one before."""
+"""Number of edges round the coarsest mesh, and number of meshes, each twice as fine as the mesh before."""
 
 
 def spiral(count: int) -> tuple[Vector, float]:
-    """Return unit vectors all round, shape [count, 3], and an angle [rad] within which any direction has one."""
+    """Return unit vectors all round, shape [count, 3], and a bound [rad] of any direction's angle to the nearest."""
     i = np.arange(count) + 0.5
     z, angle = 1.0 - 2.0 * i / count, math.pi * (1.0 + math.sqrt(5.0)) * i
     r = np.sqrt(1.0 - z * z)
@@ -203,8 +203,9 @@ def least_radius(support: Support, directions: Vector) -> float:
 def largest_radius(support: Support, directions: Vector, points: Vector) -> float:
     """Return the largest radius of curvature found by searches for flat places [m].
 
-    A flat place has a single normal, which no given direction meets.  Farthest points of directions on both sides of
-    it lie far apart.  Each search therefore goes, in ever smaller steps, to the direction with the largest distance.
+    A flat place has a single normal, which is in general none of the given directions.  On both sides of this normal,
+    the farthest points along two neighbouring directions lie far apart.  Each search therefore goes, in ever smaller
+    steps, to the direction with the largest distance of these points.
     """
     beside = points[np.argsort(directions @ directions.T, axis=1)[:, -5:]]
     apart = np.max(np.linalg.norm(beside - points[:, None], axis=2), axis=1)

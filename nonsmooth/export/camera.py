@@ -21,7 +21,7 @@ VIEWS = {
 _FAR = 6.0
 """Extent of the whole motion, relative to the extent of the bodies at a time, above which the camera follows them."""
 _ROOM = 0.06
-"""Margin on each side, relative to the larger extent."""
+"""Margin of the picture on each side of the scene, relative to the larger extent of the scene."""
 
 
 @final
@@ -70,7 +70,7 @@ class Camera:
 def _bounds(film: Film, flat: Floats, pieces: Sequence[DrawnMesh]) -> tuple[Floats, Floats]:
     """Lower and upper corners of the rectangle around pieces at each time [m], shape [n, 2] each.
 
-    Sheets count at the first time only.
+    Sheets are included at the first time only.
     """
     low, high = np.full((len(film.times), 2), np.inf), np.full((len(film.times), 2), -np.inf)
     for i in range(len(film.times)):

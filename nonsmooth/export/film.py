@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 _BODIES = ("#6fa8dc", "#f2b36b", "#7cc08f", "#d98fb8", "#b9a3e3", "#9fb8ad", "#d8c66a", "#8fc7d4")
 _HELD, _SHEET, _LINK, _JOINT = "#aab2bd", "#dfe4ea", "#5b6675", "#8c6d46"
 _ROUND, _TURNED = 100, 0.72
-"""Least number of triangles of a solid with a pattern, which shows its rotation, and the shade of the pattern."""
+"""Pattern that shows the rotation of a solid: least number of triangles of a solid that gets it, and its brightness."""
 _CELLS, _MOST_CELLS = 10, 40
-"""Number of cells along a sheet, and its upper bound if the motion is long compared with the bodies."""
+"""Least and largest number of chequered cells along a sheet; in between, a cell has a fixed size of 2 ``unit``."""
 
 
 @final
@@ -58,7 +58,9 @@ class DrawnMesh:
 @final
 @dataclass(frozen=True, eq=False)
 class Film:
-    """Meshes of a run, and tracks that carry them: tracks of frames first, then of sheets, then of strokes.
+    """Meshes of a run, and tracks, the motions that carry them.
+
+    Tracks of frames come first, then those of sheets, then those of strokes.
 
     A sheet shows an infinite plane.  A stroke is a load, a joint or a link between two points.  A point x of a track is
     at ``origin + axes @ (scale x)``; ``scale`` stretches only the first axis.
@@ -164,7 +166,7 @@ def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
 def _sheet(
     part: FrameLook, origin: Floats, axes: Floats, low: Floats, high: Floats, unit: float
 ) -> tuple[Floats, ShadedMesh]:
-    """Places of the rectangle that shows an infinite plane [m], shape [n, 3], and its mesh.
+    """Centre of the rectangle that shows an infinite plane, at each time [m], shape [n, 3], and its mesh.
 
     The rectangle stays under the bodies if the plane slides in itself.  It covers the box from ``low`` to ``high`` [m],
     projected along the normal at the first time, with a margin.

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _SEEN = 0.05
-"""Time for which an arrow is shown, unless the next one of the contact begins before [s]."""
+"""Time for which an arrow is shown [s], unless the next arrow of the same contact begins earlier."""
 
 
 @final

@@ -12,7 +12,7 @@ from nonsmooth.histories.arrays import Floats, Integers
 _SIDES, _RINGS = 12, 6
 """Number of sides of a bar, and of parts of its length, so that pictures can sort the parts by depth."""
 _CREASE = np.cos(0.6)
-"""Cosine of the angle between faces, 0.6 rad, above which they have an edge between them."""
+"""Cosine of 0.6 rad: two faces at a larger angle have a visible edge between them."""
 
 
 @final
@@ -69,7 +69,7 @@ def arrow() -> ShadedMesh:
 def along_axes(ways: Floats) -> Floats:
     """Axes as columns, shape [n, 3, 3]; the first axis has the direction of ``ways``, shape [n, 3].
 
-    The axes turn no more than the directions do.  A way of length zero counts as the direction x.
+    The axes turn no more than the directions do.  A zero vector is replaced by the direction x.
     """
     length = np.linalg.norm(ways, axis=1, keepdims=True)
     first = np.where(length > 0.0, ways / np.where(length > 0.0, length, 1.0), [1.0, 0.0, 0.0])
@@ -111,7 +111,7 @@ def face_normals(corners: Floats) -> Floats:
 def corner_normals(mesh: ShadedMesh) -> Floats:
     """Unit normal at each corner of each triangle, shape [m, 3, 3], for smooth shading.
 
-    It is the mean of the normals of those faces at the vertex that meet the face of the triangle without an edge.
+    It is the mean of the normals of the faces at the vertex that meet the triangle's face without a visible edge.
     """
     normals = face_normals(mesh.vertices[mesh.triangles])
     vertex, face = mesh.triangles.ravel(), np.repeat(np.arange(len(mesh.triangles)), 3)

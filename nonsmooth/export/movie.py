@@ -31,7 +31,7 @@ _RULES = {
 _MOST = 1000
 """Largest number of pictures, because all are in memory until the file is written."""
 _SEEN = 0.12
-"""Time for which an impact is marked [s watched]."""
+"""Duration in the film for which an impact is marked [s]."""
 _DIGITS = np.array([1 << 16, 1 << 8, 1])
 _LOOKED_AT = 8
 """Largest number of pictures from which the colours of a GIF are chosen."""

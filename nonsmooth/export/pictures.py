@@ -30,7 +30,7 @@ LOOKS: dict[str, dict[str, Any]] = {
 }
 """Marker and colour of each kind of mark."""
 _NARROWEST = 0.4
-"""Least length of the shorter side, relative to the longer side."""
+"""Least length of the shorter side of a picture, relative to its longer side."""
 _HEAD, _LEAST = 26, 230
 """Height of the margins for text above and below, and least width of a picture for the text [pixels]."""
 

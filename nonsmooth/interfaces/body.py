@@ -21,7 +21,7 @@ UNITS_OF_Q, UNITS_OF_U = ("m", "rad", "1", "J"), ("m/s", "rad/s", "1/s", "W")
 """Units that coordinates and velocities may have; a coordinate in [J] is a work that a body integrates."""
 POSE_LABELS: NamesAndUnits = tuple(zip(("x", "y", "z", "q0", "q1", "q2", "q3"), "mmm1111", strict=True))
 TWIST_LABELS: NamesAndUnits = tuple(zip(("vx", "vy", "vz", "wx", "wy", "wz"), 3 * ["m/s"] + 3 * ["rad/s"], strict=True))
-"""Labels of a free body: position and unit quaternion; here velocity and angular velocity."""
+"""Names and units of a free body's velocities: velocity [m/s], then angular velocity [rad/s]."""
 
 
 class Body(Component, ABC):
@@ -86,11 +86,10 @@ class Body(Component, ABC):
 
     @property
     def spin(self) -> int:
-        """Offset in u of the angular velocity along the axes that the quaternion turns; -1, the default, without one.
+        """Offset in u of an angular velocity in body axes that the engine integrates in space axes; -1 if none.
 
-        The quaternion's rate must be half the product of the quaternion and this angular velocity.  The engine then
-        integrates the angular velocity in axes fixed in space, in which that of a symmetric top changes as slowly as
-        its axis turns.
+        The quaternion's rate must be half the product of the quaternion and this angular velocity.  In space axes, the
+        angular velocity of a symmetric top changes only as slowly as its axis turns.
         """
         return -1
 
@@ -111,7 +110,7 @@ class Body(Component, ABC):
 
     @property
     def scales(self) -> tuple[Vector, Vector]:
-        """Sizes of q and u below which errors count as absolute, shapes [n_q] and [n_u].
+        """Sizes of q and u below which the tolerance of a step is absolute, not relative; shapes [n_q] and [n_u].
 
         By default they follow from the units: the length of the body, the speed of a fall through this length, and 1
         for angles, pure numbers and all other units.

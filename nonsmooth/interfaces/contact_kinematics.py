@@ -14,23 +14,25 @@ from nonsmooth.parameters import Component, Value
 @final
 @dataclass(frozen=True, eq=False)
 class CandidateSearch:
-    """A search for the features of two shapes that may be near each other, where they are too many for a contact each.
+    """Search for pairs of near features of two shapes, if the pairs are too many for a contact each.
 
-    Its contacts are those of one ``between`` whose ``candidates`` it is, one after the other; their evaluators take
-    what was found as the vector ``candidate``: three numbers, the first of them 0 where they hold no features, and how
-    far these may come from each other until they are looked for again [m].
+    The search serves all contacts that one call of ``between`` returns.  Each contact gets one pair as the argument
+    ``candidate`` of its evaluator.  This vector has four numbers.  Three describe the pair; the first of them is 0
+    without a pair.  The fourth is the largest distance [m] that the features may move relative to each other before the
+    next search.
 
     Attributes
     ----------
     function : callable
-        A plain function ``find(a, b, out, ...)`` of the frame blocks of the bodies.  ``out[0]`` is a distance [m]; it
-        writes there how many pairs of features may be no farther from each other, and behind it three numbers of each,
-        the first of which is not 0, of one more than there are contacts at most.
+        A plain function ``find(a, b, out, ...)`` of the frame blocks of the bodies.  On entry, ``out[0]`` is a distance
+        [m].  The function writes there the number of pairs of features that may be within this distance.  Behind it, it
+        writes three numbers of each pair, the first of which is not 0, for at most one pair more than there are
+        contacts.
     values : mapping
-        Its parameters.
+        Parameters of the function by name.
     counts : mapping
-        For each first number that it writes, how many there are of the second and of the third, whole numbers from 0:
-        what a file says that was found has to be among these.
+        Numbers of possible values of the second and of the third number, integers from 0, by the first number.  They
+        serve to check pairs that are read from a file.
     """
 
     function: Callable[..., None]
@@ -64,7 +66,7 @@ class ContactKinematics(Component, ABC):
 
     @property
     def candidates(self) -> CandidateSearch | None:
-        """The search that tells which features this contact is of at present; None if they are given."""
+        """Search that finds the pair of features of this contact; None if the pair never changes."""
         return None
 
     @property

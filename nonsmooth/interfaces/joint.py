@@ -34,5 +34,5 @@ class Joint(Component, ABC):
 
     @property
     def ends(self) -> Vector:
-        """Where it holds the bodies, each point in its frame [m], shape [2, 3], to be drawn; the origins by default."""
+        """Point of the joint in the frame of each body [m], shape [2, 3], for drawings; by default the two origins."""
         return np.zeros((2, 3))

@@ -113,7 +113,7 @@ class Scenario(Component, ABC):
         return known.get(coordinate) or known.get(_NUMBER.sub("", coordinate), "")
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u}, coordinates and velocities at the end; by default those of all bodies of the system."""
+        """Return {q, u}, coordinates and velocities at the end; by default of all bodies of the system."""
         return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:

@@ -18,7 +18,7 @@ from nonsmooth.queries.result import EXACT, DistanceResult
 from nonsmooth.system.pairing import installed_pair
 
 _HALVINGS = 40
-"""Most halvings of the reach of a search that finds more features than the contacts can hold."""
+"""Largest number of times that the distance of a search is halved, because it finds more pairs than contacts."""
 
 
 class _Given:
@@ -46,7 +46,7 @@ class _Searched:
         self._most = len(contacts)
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Geometry block of each pair of features within a reach [m], with the reach, halved if there are too many."""
+        """Geometry block of each pair of features within ``reach`` [m], and ``reach``, halved if there are too many."""
         found, n = np.zeros(1 + CANDIDATE * (self._most + 1)), 0
         for _ in range(_HALVINGS):
             found[0] = reach
@@ -93,7 +93,7 @@ class Contacts:
         self._extent = first.extent + second.extent
 
     def least(self, one: Place, two: Place) -> DistanceResult | None:
-        """Least gap of features that face each other; None if no features do. Its bounds equal the gap, unproved."""
+        """Least gap of features that face each other, None if no features do. Both bounds are the gap, unproved."""
         a, b = np.zeros(FRAME), np.zeros(FRAME)
         for block, (position, axes) in zip((a, b), (one, two) if self._in_order else (two, one), strict=True):
             block[:3], block[3:12] = position, axes.ravel()

@@ -68,7 +68,7 @@ def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
 
 
 def touching(size: Any) -> Any:
-    """Largest gap or overlap that counts as touching [m], for the size of a body [m]; also at the start of a run."""
+    """Largest gap or overlap of two bodies that touch [m]: 1e-6 of the size [m], at least 1e-9 m."""
     return np.maximum(1e-9, 1e-6 * size)
 
 

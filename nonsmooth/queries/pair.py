@@ -95,10 +95,10 @@ def library_names() -> tuple[str, ...]:
 
 
 _ROUND_OFF, _LEAST = 1e-9, 1e-12
-"""Difference of two methods that counts as round-off: relative to the gap, and absolute [m]."""
+"""Difference of two methods that may be round-off: part relative to the gap, and absolute part [m]."""
 
 _MOST_PIECES = 2000
-"""Most pieces of a surface whose contacts are prepared: it takes a second, for 100 000 pieces many minutes."""
+"""Largest number of pieces of a surface whose contacts are prepared, in a second; 100 000 pieces take many minutes."""
 
 
 @final
@@ -192,13 +192,13 @@ class ShapePair:
         if told is not None and not told.overlap:
             assert self._library is not None
             bound = self._library.result(told)
-            # contact points lie on the shapes: a gap below the lower bound of the library proves it wrong
+            # contact points lie on the shapes: a gap below the lower bound of the library proves this bound wrong
             if found is None or found.gap >= bound.lower:
                 return self._within(found, bound)
         return self._within(found, self._by_planes(*self._placed(one, two)))
 
     def _within(self, found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
-        """Distance by contacts with the bounds of another method; the result of that method if it excludes it."""
+        """Distance by contacts, with the bounds of another method; if these exclude it, the result of that method."""
         if found is None:
             return bound
         # bounds by planes may be equal up to round-off; contacts see some shapes smaller than their solids

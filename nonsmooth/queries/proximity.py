@@ -18,7 +18,7 @@ from nonsmooth.system.system import System
 
 NEAR, TOUCHING, OVERLAPPING = "near", "touching", "overlapping"
 _PART = 0.1
-"""Default of the largest gap of bodies that count as near, relative to the extent of the smaller body."""
+"""Default of the largest gap of bodies that are listed as near, relative to the extent of the smaller body."""
 
 
 @final

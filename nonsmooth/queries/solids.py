@@ -14,7 +14,7 @@ from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.solids.separation import nearest
 
 _CLOSE, _ROUND_OFF = 1e-13, 1e-14
-"""Error of a search for nearest points, and overlap that counts as touching; relative to the size of the solids."""
+"""Allowed error of nearest points, and largest overlap that is treated as touching; both relative to the size."""
 _SAME = 1e-9
 """Largest difference of a gap by contacts from the planes and points that prove it, relative to the size."""
 _MOST_PAIRS = 4_000_000
@@ -35,7 +35,7 @@ def by_planes(one: Placed, two: Placed) -> DistanceResult:
     Raises
     ------
     TooManyPieces
-        If the solids have so many pieces that it would take minutes.
+        If the solids have so many pieces that the query would take minutes.
     """
     if not (one.solid.hollow or two.solid.hollow):
         return _of_convex(_only(one), _only(two), _size(one, two))
@@ -116,7 +116,7 @@ def _overlapping(out: Penetration) -> DistanceResult:
 
 
 def _of_pieces(one: Placed, two: Placed) -> DistanceResult:
-    """Distance of two solids that do not overlap: the least of their pieces, in order of the distances of boxes."""
+    """Distance of two solids that do not overlap: the least distance of their pieces, those with near boxes first."""
     way = _middle(two) - _middle(one)
     reach = float(np.linalg.norm(two.support(-way) - one.support(way))) if np.any(way) else _size(one, two)
     (low, high), (below, above) = one.bounds, two.bounds

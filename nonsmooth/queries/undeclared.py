@@ -24,7 +24,7 @@ from nonsmooth.system.system import System
 Places = Sequence[Sequence[Place]]
 """Places of the frames of all bodies, body by body."""
 _NAMED = 3
-"""Most pairs that a warning names; it counts the others."""
+"""Largest number of pairs that a warning names; it gives only the number of further pairs."""
 
 
 class UndeclaredOverlap(NonsmoothWarning):
@@ -40,8 +40,9 @@ class UndeclaredContact(NonsmoothWarning):
 class Undeclared:
     """Undeclared pairs of bodies of a system, between which contacts may have been forgotten.
 
-    Pairs of driven bodies, of one mechanism, with a declared contact (even of some shapes only), and pairs that the
-    user excluded do not count.  A system without any contact has no undeclared pairs: nothing in it is meant to touch.
+    Left out are pairs of driven bodies, pairs of one mechanism, pairs with a declared contact (even of some shapes
+    only), and pairs that the user excluded.  A system without any contact has no undeclared pairs: nothing in it is
+    meant to touch.
 
     Attributes
     ----------

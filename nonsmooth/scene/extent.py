@@ -12,15 +12,18 @@ from nonsmooth.histories.arrays import Floats
 from nonsmooth.scene.scene import FrameLook, Scene
 
 _ROUND = 1.0
-"""Margin of a sheet around the moving bodies, relative to their size, so that they are seen to stand on it."""
+"""Margin of a sheet around the moving bodies, relative to their size, so that the bodies are seen to stand on it."""
 _STILL = 1e-9
-"""Change of a pose that is round-off, relative to the extent."""
+"""Largest change of the relative pose of two sheets that do not move relative to each other: round-off.
+
+A rotation is a change of matrix elements, and a translation is relative to the diagonal of the box of the run.
+"""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """Box of all visible parts over a run; a sheet, which is unbounded, counts by its point nearest to the other parts.
+    """Box of all visible parts over a run; an unbounded sheet adds only its point nearest to the other parts.
 
     Attributes
     ----------

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _FEWEST = 600
 """Fewest times at which a run is drawn, if necessary between samples, so that ballistic motion is seen as a curve."""
 _SPECK = 1e-2
-"""Size of a shape or a gap that is too small to be seen, relative to the extent of the shapes on its frame."""
+"""Largest size of a shape or gap that cannot be seen, relative to the extent of the shapes on its frame."""
 
 
 @final
@@ -141,7 +141,7 @@ class Scene:
 
 
 def _looks(body: Body) -> Iterator[tuple[int, Look]]:
-    """Frame and look of each visible shape of a body; small marks on a frame count as one hull."""
+    """Frame and look of each visible shape of a body; very small shapes are merged into one hull."""
     for frame, shapes in enumerate(body.frames):
         looks = [shape.look for shape in shapes]
         reach = max((float(np.max(np.abs(look.vertices))) for look in looks if not look.sheet), default=0.0)

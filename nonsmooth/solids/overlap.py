@@ -20,7 +20,7 @@ from nonsmooth.interfaces.solid import Piece, Vector
 from nonsmooth.solids.separation import Point, as_point, combined, cross, dot, minus
 
 _EXACT, _CLOSE = 0.1, 1e-3
-"""Relative error of a depth: in :func:`depth`, where a bound is enough, and in :func:`penetration`."""
+"""Largest relative error of the depth: in :func:`depth`, which needs only a bound, and in :func:`penetration`."""
 _ROUND_OFF = 1e-14
 _MOST = 400
 """Most steps of a search for the depth. The bound is valid after any number of steps, but less close."""
@@ -60,7 +60,7 @@ def depth(one: Piece, two: Piece, tolerance: float) -> float:
     one, two : Piece
         The sets, in the same axes.
     tolerance : float
-        Overlap that counts as touching [m].
+        Largest overlap that is treated as touching [m].
     """
 
     def farthest(direction: Vector) -> Vector:
@@ -90,7 +90,7 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
     one, two : Piece
         The sets, in the same axes.
     tolerance : float
-        Overlap that counts as touching [m].
+        Largest overlap that is treated as touching [m].
     """
     points: dict[Point, tuple[Vector, Vector]] = {}
     best: list[tuple[float, Point]] = []
@@ -110,7 +110,8 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
     if lower == 0.0:
         return None
     upper, normal = min(best)
-    # the points of both sets whose difference is the point of that face nearest to the origin
+    # `corner` are the corners of the face nearest to the origin, and `lower` is the distance of this face. The points
+    # of the two sets are those whose difference is the face's point nearest to the origin
     first, second = combined(lower * np.array(unit), corner, (points[point] for point in corner))
     return Penetration(min(lower, upper), upper, np.array(normal), first, second)
 
@@ -139,7 +140,7 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
 
 
 def _across(points: list[Vector]) -> Iterable[Vector]:
-    """Unit vectors across the line or plane through two or three points, with both signs; else those of the axes."""
+    """Unit vectors, with both signs, across the line or plane through two or three points, else along the axes."""
     if len(points) == 3:
         normal = np.cross(points[1] - points[0], points[2] - points[0])
         ways = [normal / np.linalg.norm(normal)]
@@ -156,7 +157,7 @@ def _across(points: list[Vector]) -> Iterable[Vector]:
 def _expanded(
     corners: list[Point], farthest: Callable[[Vector], Vector], tolerance: float, exact: float
 ) -> tuple[float, list[Point], Point]:
-    """Depth, 0 within the tolerance, with corners and normal of the face at this distance from the origin."""
+    """Depth [m], 0 within the tolerance, and corners and normal of the polytope's face nearest to the origin."""
     points = list(corners)
     faces = [_face(points, *trio) for trio in ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2))]
     size = max(math.hypot(*point) for point in points)
@@ -176,7 +177,7 @@ def _expanded(
 
 
 def _pushed_out(points: list[Point], faces: list[_Face], least: float) -> list[_Face]:
-    """Faces of the convex hull of a polytope and the last of ``points``, which is outside of it."""
+    """Faces of the convex hull of a polytope and of the last of ``points``, a point outside of the polytope."""
     top = points[-1]
     kept: list[_Face] = []
     rims: set[tuple[int, int]] = set()

@@ -19,7 +19,7 @@ from nonsmooth.solids.placed import Placed, near_pairs, nested
 from nonsmooth.solids.separation import separation
 
 _EXACT = 1e-13
-"""Gap that counts as zero, relative to the extent of both solids together and the height."""
+"""Gap at which the search for a meeting ends, relative to the extent of both solids together plus the height."""
 _MOST = 1000
 
 
@@ -51,7 +51,7 @@ class Passage:
 
     @functools.cached_property
     def tolerance(self) -> float:
-        """Distance by which the gap may be smaller than the height after the meeting [m]."""
+        """Largest amount by which the gap may be below the height for solids that are still clear [m]."""
         sizes = [float(np.linalg.norm(high - low)) for low, high in (self.one.bounds, self.two.bounds)]
         # the second number is for a point, which has no size
         return max(1e-9 * min(sizes), 1e-15 * max(sizes))
@@ -62,7 +62,7 @@ class Passage:
         return not self._near and nested(self.one, self.two, self.tolerance) == 0.0
 
     def ahead(self) -> float:
-        """Distance of the first solid from its meeting, along the way [m]; infinite without one. It must be clear."""
+        """Distance that the first solid moves to the meeting [m], infinite without a meeting. It must be clear now."""
         pairs = near_pairs(self.one, self.two, self.height, (self._size + self.height) * self.way)
         return self._first(list(pairs), 0.0)
 

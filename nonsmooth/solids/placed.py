@@ -77,7 +77,7 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
     one, two : Placed
         The solids.
     tolerance : float
-        Overlap that counts as touching [m].
+        Largest overlap that is treated as touching [m].
     normal : Vector
         Unit vector from the first to the second, shape [3]. If a plane across it separates them, the result is 0 at
         once.
@@ -92,7 +92,7 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Lower bound of the depth of one solid inside the other, hollow one [m]; 0 if a tolerance covers it.
+    """Lower bound of the depth of one solid inside the other, which is hollow [m]; 0 if a tolerance covers it.
 
     The pieces of the two must not overlap by more than the tolerance.
     """
@@ -122,7 +122,7 @@ def near_pairs(
     one, two : Placed
         The solids.
     margin : float
-        Distance of boxes that still count as meeting [m].
+        Largest distance of two boxes that are treated as meeting [m].
     way : Vector, optional
         Translation of the first solid [m], shape [3]. The boxes of its pieces then contain the whole path.
     """

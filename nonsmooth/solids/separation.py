@@ -30,8 +30,8 @@ class Nearest:
     Attributes
     ----------
     lower : float
-        Lower bound of the distance [m]: along the normal, all of the second set is beyond all of the first by it. At
-        most 0 if the sets overlap.
+        Lower bound of the distance [m]: two planes across the normal, with this distance between them, separate the
+        sets. At most 0 if the sets overlap.
     normal : Vector
         Unit vector from the first to the second, shape [3].
     first, second : Vector
@@ -191,7 +191,7 @@ def _of_triangle(a: Point, b: Point, c: Point) -> _Nearest:
 def _normal(a: Point, b: Point, c: Point) -> Point:
     """Normal of a triangle, with twice its area as length, from its two shorter edges.
 
-    In a thin triangle the two long edges are nearly parallel: their product has an error that moves the height.
+    In a thin triangle the two long edges are nearly parallel, so that round-off in their product would turn the normal.
     """
     edges = minus(b, a), minus(c, b), minus(a, c)
     longest = max(range(3), key=lambda i: dot(edges[i], edges[i]))

@@ -29,7 +29,7 @@ GRAVITY = 9.81
 _SAMPLES_PER_PERIOD = 40
 _SAMPLES = 20000
 _REPEATS = 1e-4
-"""Flight times that differ by less, in table periods, count as the same."""
+"""Largest difference of flight times that are treated as equal [table periods]."""
 
 
 @final

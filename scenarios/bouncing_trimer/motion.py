@@ -18,7 +18,7 @@ _LONGEST = 12
 _CLOSED = 1e-9
 """Largest gap of a trimer at rest on the plate [m]."""
 _REPEATS = 1e-3
-"""Largest difference of gaps that count as equal, relative to the largest gap."""
+"""Largest difference of gaps one period apart in a periodic motion, relative to the largest gap."""
 _REST, _TUMBLING, _IRREGULAR = "rest", "tumbling", "irregular"
 _PERIODS = tuple(f"period_{k}" for k in range(1, _LONGEST + 1))
 NAMES = (_REST, *_PERIODS, _TUMBLING, _IRREGULAR)

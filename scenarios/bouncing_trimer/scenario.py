@@ -34,7 +34,7 @@ _SAMPLES = 40000
 class BouncingTrimer(Scenario):
     """Three balls on a rigid triangle bounce, turn and wander on a plate that vibrates as A sin(2 pi f t).
 
-    The source gives centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  The links
+    The paper below has centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  The links
     between the balls have no mass and no contacts.
 
     References

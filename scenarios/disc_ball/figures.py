@@ -49,7 +49,7 @@ def strike(scenario: DiscBall, solution: Solution) -> Figure:
 
 
 def _body(ax: Axes, place: Floats, radius: float, velocity: Floats, color: str, linestyle: str) -> None:
-    """Draw a body as a circle, and its velocity as an arrow, two radii long for the disc's speed before."""
+    """Draw a body as a circle, and its velocity as an arrow, two radii long for the disc's speed before the strike."""
     from matplotlib.patches import Circle
 
     x, y = place.tolist()

@@ -29,15 +29,15 @@ _LONGEST_TAIL, _SHORTEST_TAIL = 40, 4
 _LONGEST_PERIOD = 8
 """Longest period that is searched for [plate periods]."""
 _PERIOD_TOLERANCE = 0.02
-"""Largest deviation from the motion a period before, relative to the largest motion of the ball or the plate."""
+"""Largest change of a gap or gap rate from period to period in a periodic motion, relative to its largest value."""
 _SECTIONS = 0.9
-"""Fraction of the samples that must repeat; a few are so close to an impact that its exact time decides."""
+"""Fraction of the samples that must repeat; the others may be so close to an impact that its exact time matters."""
 _LEVEL = 0.25
 """Largest difference of the gaps of a level motion, relative to the largest gap."""
 _SYMMETRIC = 0.1
 """Largest sum of the least and the largest tilt of a symmetric motion, relative to their difference."""
 _STANDING = 0.2
-"""Least fraction of the time in contact with the plate, for a ball that counts as standing on it."""
+"""Fraction of the time in contact with the plate from which a ball stands on it, and below which it bounces."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class Settled:
 
     @functools.cached_property
     def scales(self) -> tuple[float, float]:
-        """Amplitude [m] and peak speed [m/s] of the plate; at least those of an amplitude of 1e-3 ball radii."""
+        """Amplitude [m] and peak speed [m/s] of the plate; at least the values for an amplitude of 1e-3 ball radii."""
         scenario = self.motion.scenario
         length = max(scenario.amplitude, 1e-3 * scenario.radius)
         return length, 2.0 * math.pi * scenario.frequency * length
@@ -101,7 +101,7 @@ class Settled:
         """Period of the motion in plate periods; None if it does not repeat.
 
         Gaps and gap rates at all samples are compared with their values p plate periods before.  They determine tilt
-        and tilt rate.  The horizontal position and the angles theta and gamma do not count.
+        and tilt rate.  The horizontal position and the angles theta and gamma are not compared.
         """
         if self.cycles < _SHORTEST_TAIL:
             return None
@@ -169,7 +169,7 @@ class Settled:
         return standing
 
     def _largest_gaps(self) -> list[float]:
-        """Return the largest gap of each ball [m], also between samples, where the acceleration counts as constant."""
+        """Return the largest gap of each ball [m], also between samples, there with a constant acceleration."""
         rate = self.motion.gap_rate
         v0, v1 = rate[:-1], rate[1:]
         turns = (v0 > 0.0) & (v1 < 0.0)

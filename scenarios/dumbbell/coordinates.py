@@ -20,7 +20,7 @@ NAMES = ("x1", "y1", "z1", "theta", "beta", "gamma")
 """Centre of ball 1 [m] and the 3-2-1 angles of Eq. (2) [rad]."""
 _UNITS = dict(zip(NAMES, 3 * ["m"] + 3 * ["rad"], strict=True))
 UNITS = _UNITS | {f"{name}_rate": f"{unit}/s" for name, unit in _UNITS.items()}
-"""Their units and those of their rates, by name."""
+"""Units of the coordinates and of their rates, by name."""
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ def from_state(t: Floats, q: Floats, u: Floats, centre_distance: float) -> tuple
     gamma = np.arctan2(e2[:, 2], e3[:, 2])
     o1, o2, o3 = u[:, 3], u[:, 4], u[:, 5]
     s_g, c_g = np.sin(gamma), np.cos(gamma)
-    # finite if the rod stands upright
+    # the bound keeps the rate finite if the rod stands upright
     theta_rate = (o2 * s_g + o3 * c_g) / np.maximum(c_b, 1e-12)
     beta_rate = o3 * s_g - o2 * c_g
     gamma_rate = o1 - theta_rate * e1[:, 2]

@@ -142,7 +142,7 @@ _NEUTRAL = {
     slip_velocity: "Slip of ball 1 at the end of the run",
     gap_rate: "Normal velocity of ball 1 at the end of the run",
 }
-"""Titles of runs that did not settle into the motion of their mode."""
+"""Titles, by drawing function, for runs that did not settle into the motion of their mode."""
 _STANDS = "Drift: one ball keeps to the plate, the other strikes once per plate period"
 _SLIP = "Drift: the slip of ball 1 is not symmetric, so that friction moves the dumbbell"
 _TILTED = "Jump from a tilt: two single impacts per plate period instead of a double one"
@@ -155,7 +155,7 @@ _OVER_TIME = (
     ("flutter", "fig07_flutter_motion", heights, "Flutter: the balls strike in turn, each every second plate period"),
     ("free", "free_motion", heights, _NEUTRAL[heights]),
 )
-"""Run, file name, drawing and title of the figures over time."""
+"""Figures over time: name of the run, file name, drawing function and title of each."""
 
 
 def paths(runs: Mapping[str, tuple[DumbbellScenario, Solution]], spans: Mapping[str, float], title: str) -> Figure:
@@ -166,7 +166,7 @@ def paths(runs: Mapping[str, tuple[DumbbellScenario, Solution]], spans: Mapping[
         motion = scenario.motion(solution, solution.t_end - spans[mode] / scenario.frequency - 1e-9)
         t, path = motion.t, motion.centre
         times, velocities = _means(settled, t, path)
-        if mode == "flutter":  # the turns of its path are too small to be seen to scale
+        if mode == "flutter":  # its path sways too little across to be seen to scale
             turn = 1e3 * _turn(path)
             path, velocities = (path - path[0]) @ turn, velocities @ turn
             ax.set(xlabel="along the mean path [mm]", ylabel="across it [mm], magnified")
@@ -203,7 +203,7 @@ def _means(settled: Settled, t: Floats, path: Floats) -> tuple[Floats, Floats]:
 
 
 def _show_square(ax: Axes, path: Floats) -> None:
-    """Show a square around the path, to scale."""
+    """Set the limits of the axes to a square around the path, with equal scales."""
     low, high = path.min(axis=0), path.max(axis=0)
     half = 0.58 * float((high - low).max())
     (x, y) = (low + high) / 2.0
@@ -211,7 +211,7 @@ def _show_square(ax: Axes, path: Floats) -> None:
 
 
 def _turn(path: Floats) -> Floats:
-    """Return the rotation matrix, for rows times matrix, that turns the end of the path onto the first axis."""
+    """Return the matrix R for which ``path @ R`` has its displacement from start to end along the first axis."""
     c, s = (path[-1] - path[0]) / max(float(np.hypot(*(path[-1] - path[0]))), 1e-300)
     return np.array([[c, -s], [s, c]])
 

@@ -23,9 +23,9 @@ _STATEMENTS: Mapping[str, str] = {
     "beta": "the tilt: closed, as the normal motion is periodic; jump, not shown, stays level",
     "gamma": "the roll: open in all three modes, the dumbbell rolls along",
 }
-"""What the figures with all three modes show, for their titles."""
+"""Titles of the figures with all three modes, by angle."""
 _TURN = 1e-9
-"""Range of an angle [rad] and of its rate [rad/s] below which the angle counts as constant."""
+"""Range of an angle [rad] and of its rate [rad/s] below which the angle is treated as constant."""
 
 IMPACT: dict[str, Any] = {"color": "tab:red", "linestyle": "none", "marker": "o", "fillstyle": "none", "markersize": 6}
 _DIAMOND = IMPACT | {"marker": "D"}
@@ -128,7 +128,7 @@ def _marks(ax: Axes, x: Floats, y: Floats, chosen: Flags, label: str, style: dic
 
 
 def _arrows(ax: Axes, x: Floats, y: Floats, trace: Trace) -> None:
-    """Show the sense of time at four places."""
+    """Draw four arrowheads on the curve, in the sense of time."""
     smooth = np.flatnonzero(~_struck(trace)[1][:-1] & (np.diff(trace.motion.t) > 0.0))
     head = {"arrowstyle": "-|>", "color": "0.2", "shrinkA": 0, "shrinkB": 0}
     for i in smooth[np.linspace(0, len(smooth) - 1, 6).astype(int)[1:-1]]:

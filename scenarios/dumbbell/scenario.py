@@ -45,7 +45,10 @@ _STARTS: Mapping[str, dict[str, float]] = {
     },
     "free": {"beta0": math.radians(10.0)},
 }
-"""The paper's starts, section 5.1; the vertical velocity of the jump depends on the frequency."""
+"""Parameters of the paper's starts by mode, section 5.1 [SI units, rad].
+
+The vertical velocity of the jump is not listed, because it depends on the frequency.
+"""
 
 _PERIODS: Mapping[str, float] = {"drift": 1.0, "jump": 1.0, "flutter": 2.0}
 """Plate periods after which the paper's motions repeat, section 5."""
@@ -186,7 +189,7 @@ class DumbbellScenario(Scenario):
         return {name: left_out[name] if value is None else value for name, value in super().resolved().items()}
 
     def _hertz_time(self, aspect_ratio: float) -> float:
-        """Return the duration of the slightest impact of a ball of the level dumbbell, by Hertz and gravity [s]."""
+        """Return the duration of the slightest impact of a level dumbbell's ball [s], by Hertz's law and gravity."""
         body, material = self._dumbbell(aspect_ratio), (self.young_modulus, self.poisson_ratio)
         return closing_time(body.level_mass, self.radius, effective_modulus(material, material), GRAVITY)
 

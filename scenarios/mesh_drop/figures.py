@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _AZIMUTH, _ELEVATION = math.radians(30.0), math.radians(25.0)
-"""Direction from which the part is drawn [rad]."""
+"""Azimuth and elevation of the eye in the drawings [rad]."""
 _LIGHT = np.array([-0.48, 0.6, 0.64])
 """Direction towards the light, a unit vector: right, up, towards the eye."""
 _STILL = 1e-9

@@ -35,7 +35,7 @@ _MOMENT: Mapping[str, Any] = {"unit": "kg m^2", "above": 0.0}
 @final
 @dataclass(frozen=True)
 class Rattleback(Scenario):
-    """A rattleback: an ellipsoid that starts to rattle, stops and spins back.
+    """An ellipsoid on a plane whose principal axes of inertia are turned against the axes of its surface.
 
     Spun in one sense it spins for long; spun in the other one it begins to rattle, stops and spins back.  Kane and
     Levinson let the same body roll; here it has Coulomb friction, so that it can slip.

@@ -62,9 +62,9 @@ def paths(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Figur
 
 
 def _lowest(disc: RollingDisc, run: Solution) -> tuple[Floats, str]:
-    """Return the path of the lowest point [m], shape [n, 2], and the end of its label.
+    """Return the path of the lowest point [m], shape [n, 2], and the text that ends its label.
 
-    Of a path with many turns only the last ones are returned, and the label says so.
+    Of a path with many turns only the last turns are returned; the text gives their number.
     """
     rates = disc.precession(run)
     turns = float(np.sum(np.diff(run.t) * (rates[1:] + rates[:-1]))) / (4.0 * np.pi)

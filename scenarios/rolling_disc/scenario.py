@@ -123,7 +123,7 @@ class RollingDisc(Scenario):
         return {**position, "tilt": self.tilts(solution), "precession": self.precession(solution)}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return tilt and precession rate at the end, that rate over that of steady rolling, and losses."""
+        """Return tilt and precession rate at the end, precession rate / rate of steady rolling, and losses."""
         ends = _tilt_and_precession(solution.q_end[None], solution.u_end[None])
         tilt, rate = (float(end[0]) for end in ends)
         return {
@@ -136,7 +136,7 @@ class RollingDisc(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the precession at the end of slow settling, and the time that it took, over those of the theory."""
+        """Return criteria for slow settling: precession at the end and duration, both relative to the theory."""
         slow = 1e-2 * self.tilt**2
         if self.pace != 1.0 or self.spin != 0.0 or self.viscosity > slow or self.tilt > 0.3:
             return ()

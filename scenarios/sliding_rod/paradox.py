@@ -44,7 +44,7 @@ class RodContact:
         return 1.0 / self.mass + ahead * (ahead - friction * below) / self.inertia
 
     def free_acceleration(self, tilt: float, rate: float, gravity: float) -> float:
-        """Return b of g'' = A lambda_N + b [m/s^2]; if b is positive and A too, the end lifts off."""
+        """Return b of g'' = A lambda_N + b [m/s^2]; if A and b are positive, the end lifts off."""
         return self.half_length * math.sin(tilt) * rate**2 - gravity
 
     def critical_friction(self, tilt: float) -> float:

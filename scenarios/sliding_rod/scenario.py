@@ -139,7 +139,7 @@ class SlidingRod(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return criteria: whether the start is in the paradox; for e = 0, rate and slip after the impact there."""
+        """Return criteria: whether the start is in the paradox; if it is and e = 0, rate and slip after the impact."""
         if self.speed <= 0.0 or self.rod.free_acceleration(self.tilt, self.rate, GRAVITY) >= 0.0:
             return ()
         events, rod = solution.events, self.rod

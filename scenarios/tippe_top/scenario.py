@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
 _INVERTED = 8.0
-"""Time after which the top of the source stands on its stem [s]."""
+"""Time after which the published top, the default, stands on its stem [s]."""
 _SHORT = 5.0
 """End time of the gallery's runs with other friction or spin [s]."""
 
@@ -40,8 +40,8 @@ class TippeTop(Scenario):
     """A tippe top turns over and stands on its stem.
 
     The mass centre is below the centre of the large sphere.  Friction acts in a small contact disc that spins
-    (:class:`SpinningCoulomb`), or by Coulomb's law at a point if the disc's radius is zero.  The source also has the
-    disc's friction moment against drilling; this model has none.
+    (:class:`SpinningCoulomb`), or by Coulomb's law at a point if the disc's radius is zero.  Leine and Glocker
+    also have a friction moment of the disc against drilling, which this model omits.
 
     References
     ----------
@@ -217,7 +217,7 @@ class TippeTop(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return criteria: change of Jellett's quantity before the stem touches; last tilt of the top of the source."""
+        """Return criteria: change of Jellett's quantity before the stem touches; last tilt of the published top."""
         summary = self.summarise(solution)
         before = solution.t < (math.inf if summary["stem_down"] is None else summary["stem_down"])
         jellett = self.jellett(solution.q[before], solution.u[before])
@@ -235,7 +235,7 @@ class TippeTop(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the history of the top of the source, and the tilt with other contact discs and spins."""
+        """Return tilt, spins and slip of the published top over time, and tilts for other contact radii and spins."""
         top = cls()
         discs = {"friction at a point": cls(contact_radius=0.0, t_end=_SHORT)}
         discs |= {f"R = {1e3 * r:g} mm": cls(contact_radius=r, t_end=_SHORT) for r in (0.05e-3, 0.1e-3, 0.5e-3, 2e-3)}

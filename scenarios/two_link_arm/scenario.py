@@ -37,7 +37,7 @@ class TwoLinkArm(Scenario):
     """A two-link arm drags its tip on a belt, jams and bounces: Painlevé's paradox.
 
     Above the critical friction no contact force exists while the tip slides: an impact without collision stops the
-    slip.  The source gives springs and dampers.  Their place at the elbow and the speed of the belt are our choice.
+    slip.  Springs and dampers are those of Liu et al.  Their place at the elbow and the belt's speed are our choice.
 
     References
     ----------

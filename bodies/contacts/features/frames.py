@@ -49,9 +49,9 @@ turned_by = compiled(turned)
 def across(
     x: float, y: float, z: float, axis_x: float, axis_y: float, axis_z: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the component of (x, y, z) along a unit axis, the size of the rest, and a unit vector along the rest.
+    """Split (x, y, z) by a unit axis: component along the axis, length of the part across it, unit vector of this part.
 
-    The unit vector is perpendicular to the axis even if the rest is zero.
+    The unit vector is perpendicular to the axis even if the part across the axis is zero.
     """
     along = x * axis_x + y * axis_y + z * axis_z
     x, y, z = x - along * axis_x, y - along * axis_y, z - along * axis_z
@@ -85,7 +85,7 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
     # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits if the normal points down
     square = x * x + y * y
     if square < _ROUND_OFF:
-        # the tangent must not follow round-off: faces that lie on each other keep it while the bodies turn
+        # the tangent must not follow round-off: faces that lie on each other keep their tangent while the bodies turn
         length = math.sqrt(1.0 - x * x)
         return length, -x * y / length, -x * z / length
     grow = (1.0 - z) / square
@@ -94,7 +94,7 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
 
 @compiled
 def write_tangent(a: Floats, out: Floats) -> None:
-    """Write the first tangent for the normal in ``out``; it depends only on the normal in axes of the first body."""
+    """Write the first tangent for the normal in ``out``, a function of the normal in the axes of the first body."""
     x, y, z = tangent_of(
         a[ROTATION] * out[NORMAL] + a[ROTATION + 3] * out[NORMAL + 1] + a[ROTATION + 6] * out[NORMAL + 2],
         a[ROTATION + 1] * out[NORMAL] + a[ROTATION + 4] * out[NORMAL + 1] + a[ROTATION + 7] * out[NORMAL + 2],

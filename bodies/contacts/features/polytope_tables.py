@@ -11,9 +11,9 @@ from ...shapes.polytope import Polytope
 FACE = 5
 """Floats of a face: outward normal, distance of its plane from the origin, depth of the body behind it."""
 EDGE = 13
-"""Floats of an edge: first end, direction, length, and in either face the direction from the edge into it;"""
+"""Floats of an edge: first end, direction, length, and in either face the direction from the edge into it."""
 START, ALONG, LENGTH, INTO_FIRST, INTO_SECOND = 0, 3, 6, 7, 10
-"""where these begin."""
+"""Offsets of these parts in the row of an edge, in the same order."""
 
 Numbers = tuple[float, ...]
 

@@ -127,7 +127,7 @@ def _evaluate(
 
 
 write_vertex = compiled(_evaluate)
-"""The same, for evaluators that call it among others."""
+"""The evaluator, compiled, so that evaluators of other contacts can call it."""
 
 
 def size_of(first: SweptPolytope, second: SweptPolytope) -> float:

@@ -151,7 +151,7 @@ Nearest = tuple[int, float, float, float, float, float]
 The margin is the distance of the nearest point from the nearer end of its edge [m]: 0 at a vertex, infinite on a face.
 """
 _SAME = 1e-14
-"""Relative difference up to which squared distances count as equal: round-off."""
+"""Largest relative difference of squared distances that are treated as equal: round-off."""
 
 
 @compiled

@@ -93,7 +93,7 @@ def write_principal(
 NO_CANDIDATE = (0.0, 0.0, 0.0, 0.0)
 """Candidate of a contact that has no features at present (:class:`nonsmooth.interfaces.CandidateSearch`)."""
 _APART = 1e3
-"""Gap written for bodies that are far apart, relative to the size of the larger body."""
+"""Gap that is written for bodies far apart, whatever their true gap; relative to the size of the larger body."""
 
 
 @compiled

@@ -23,7 +23,7 @@ from ..surface.mesh_point import Corner
 from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
-"""The parts; the flank is the side."""
+"""Numbers of the parts of a frustum; the flank is its side."""
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 """Names of the rims in the names of features."""
 
@@ -39,7 +39,7 @@ def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
 
 @compiled
 def part_number(frustum: Floats, part: int) -> float:
-    """Return the number of a part among those that the frustum has: a disc has one rim and no side."""
+    """Return the number of a part among the parts that the frustum has: a disc has one rim and no side."""
     return 2.0 if frustum[SIDE] == 0.0 and part == HIGH_CAP else float(part)
 
 
@@ -137,8 +137,8 @@ def tip_past_rim(
     A negative result means a contact of the vertex, a positive one a contact of the rim with an edge.  The vertex p,
     relative to the centre of the disc, lies at ``depth`` behind the plane, against n.  If the vertex came through the
     disc itself, all its edges cross the plane well inside of the rim.  An edge that crosses nearer to the rim than
-    ``depth`` came in from the side.  Only an edge that crosses the plane in its half next to the vertex counts.
-    The result is infinite if no edge counts.
+    ``depth`` came in from the side.  Only edges that cross the plane in their half next to the vertex are
+    considered; without such an edge the result is infinite.
     """
     (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
@@ -156,7 +156,10 @@ def tip_past_rim(
 
 
 _WAYS = 12
-"""Number of lines round an apex or a foot; in a contact, none of them may point far into the touched face."""
+"""Number of unit vectors, evenly round the axis, that describe the directions of the surface at an apex or a foot.
+
+A face touches the apex or the foot only if none of these vectors points far into the face.
+"""
 
 
 def set_back(first: Frustum) -> Numbers:
@@ -175,7 +178,7 @@ def set_back(first: Frustum) -> Numbers:
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield the apex of a cone: place [m], unit vectors down the side, name; another frustum has no apex."""
+    """Yield the apex of a cone: place [m], unit vectors down the side, name. Other frustums yield nothing."""
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:

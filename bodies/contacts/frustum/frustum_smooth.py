@@ -48,17 +48,17 @@ Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, f
 _SHALLOW, _SLIGHT = 1e-6, 1e-8
 """Overlap, in units of the size, up to which the first stop is taken without a look at the others; of sharp bodies."""
 _CLOSE = 1e-12
-"""Distance of the centre from the axis that has no direction, in units of the size."""
+"""Distance of the centre from the axis, relative to the size, below which its direction from the axis is undefined."""
 _SAMPLES, _PROJECTIONS = 8, 16
 """Parts of the way between the points of a stop at whose ends a point of both is looked for, and further points."""
 _HIGHER = 1e-14
-"""By how much more the gap of another top is larger, in units of the size: less is round-off of the same one."""
+"""Least difference of the gaps of two different maxima, relative to the size; a smaller difference is round-off."""
 _NEARBY = 1e-3
 """How close to a top steps go that tell only where the search begins [rad]."""
 _DEEP = 0.9
 """Gauge of the frustum's point next to the core's centre, from which on bodies overlap more than a little."""
 _ON_SURFACE = 1e-12
-"""What the gauge of a point of the surface is off 1 at most."""
+"""Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 _TURNS = 8
 """Directions round the axis from which every part is tried where none was found from that of the centre."""
 

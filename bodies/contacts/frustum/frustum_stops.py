@@ -23,9 +23,9 @@ from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
 
 ON_BORDER = 1e-14
-"""How far a point may be over the end of a part, in units of the size, and a normal over that of its cone."""
+"""Largest distance of a point past the end of its part, relative to the size, and of a unit normal past its cone."""
 _NEAR_BORDER = 1e-10
-"""The same where a search found it: it errs in the gap by no more than the square."""
+"""As ``ON_BORDER``, for a result of a search: its error in the gap is only the square of this."""
 _LEAST_LEAN, _MOST_LEAN, _TURNS = 1e-16, 1e-7, 4
 """Leans of a normal next to the axis [rad], and how often it is turned to where it goes over the end."""
 _STEPS, _HALVINGS = 60, 40
@@ -182,7 +182,9 @@ def on_rim(
     part: int,
     tilt: float,
 ) -> Answer:
-    """Return the stop of a rim, or of the apex; the search starts on the side ``direction`` of the axis.
+    """Return the point of a rim, or the apex, that is nearest to the core, with gap and normal; nan if there is none.
+
+    The search starts on the side ``direction`` of the axis.
 
     The first normal lies between the normal of the side and the normal of the cap, at the fraction |tilt| of the way.
     A negative ``tilt`` starts instead with the direction from the rim to the core's centre, if it is between both.

@@ -50,7 +50,7 @@ def _evaluate(
 
 
 write_vertex_ball = compiled(_evaluate)
-"""The same, for evaluators that call it among others."""
+"""The evaluator, compiled, so that evaluators of other contacts can call it."""
 
 
 def check_number(edges: int) -> None:

@@ -24,9 +24,15 @@ from .frustum import axis_in_world, center_in_world, nearest_part, write_part
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
-"""Sine of the angle by which a normal may leave the normals of a rim or an edge, so that near contacts are followed."""
+"""Sine of the largest angle between a contact normal and the range of normals of its rim or edge.
+
+It is not 0, so that a contact is also followed shortly before its normal enters that range.
+"""
 _INSIDE = 4.0
-"""Least distance of an overlap from the ends of its features, relative to its depth, if no point lies in a body."""
+"""Least distance of an overlapping crossing from the ends of its features, relative to its depth.
+
+Closer to an end, an overlap of sharp features is as wide as deep.  The rule holds if no contact point lies in a body.
+"""
 
 
 @compiled
@@ -44,7 +50,7 @@ def past_border(gap: float, over: float, astray: float, overlap: float, size: fl
 
 @compiled
 def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat: bool) -> float:
-    """Return the sine by which an outward normal leaves those of a rim, the upper one if ``up`` is 1, else -1."""
+    """Return the sine of the angle from an outward normal to the normals of a rim: upper if ``up`` is 1, else lower."""
     if flat:
         return -radial
     return float(max(-radial, -up * (frustum[COS] * axial - frustum[SIN] * radial)))
@@ -163,10 +169,11 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
 def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
     """Return how far a crossing is past its ends [m], negative before them.
 
-    ``gap`` is the gap of the cores, ``over`` the distance past the ends of both features, ``sine`` the sine of the
-    angle between them, and ``astray`` the sine of the angle by which the normal leaves their normals.  Near its ends an
-    overlap of sharp features is as wide as deep, so that it does not count there.  If a point of one body is inside of
-    the other, by a negative ``overlap``, it counts up to the ends.
+    ``gap`` is the gap of the cores and ``over`` the distance past the ends of both features [m].  ``sine`` is the sine
+    of the angle between the features, and ``astray`` the sine of the angle by which the normal leaves
+    their normals.  An overlap of sharp features near their ends is as wide as deep, so that the contact ends before
+    them.  If ``overlap`` is negative, a contact point is that deep inside the other body, and the contact extends up to
+    the ends.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
     if gap < 0.0 and overlap >= -DEEP * size:
@@ -223,13 +230,13 @@ def write_crossing(
     """Write the geometry block of a crossing, except the matrices of the frustum.
 
     ``distance`` is the distance of the cores [m], p the point of the frustum in the world.  A crossing moves faster
-    than the bodies, by 1 / sine of its angle: its distance past the ends counts times the sine.
+    than the bodies, by 1 / sine of its angle.  Its distance past the ends is therefore multiplied by the sine.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = frustum[SWEEP]
     gap = distance - radius - sweep
     if past > 0.0:
-        # past its ends an overlap is no contact of this crossing, but shows that another contact was missed
+        # past the ends, an overlap does not belong to this crossing, but shows that another contact was missed
         gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.hypot(gap, max(PARALLEL, sine) * past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)

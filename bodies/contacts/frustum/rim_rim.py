@@ -30,11 +30,14 @@ _PARALLEL = 0.01
 _BOTH = 1e-9
 """Angle round the rim, from the line of centres, within which both halves see the same crossing [rad]."""
 _ASIDE = 0.01
-"""Part of the reach by which the normal of two rims at a distance is beyond those of a side, at the least."""
+"""Least distance, relative to the reach, by which the normal of two rims that are apart lies past a side's normals.
+
+With a smaller distance, the contact of a rim over the side takes the place of the contact of the rims.
+"""
 _LEAN = 0.02
-"""Sine of the angle by which the normal may leave those of the rims where they overlap."""
+"""Sine of the largest angle between the normal of overlapping rims and the range of normals of the rims."""
 _BESIDE, _NARROWINGS = 20.0, 40
-"""So many depths beside a crossing rims enter the other body at the farthest; steps of the search for the place."""
+"""Largest distance from a crossing at which a rim enters the other body, in depths; steps of the search for it."""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 
 

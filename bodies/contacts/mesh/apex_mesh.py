@@ -117,7 +117,7 @@ class ApexMesh(ContactKinematics):
 
     @classmethod
     def of_patches(cls, first: Numbers, second: Features, size: float) -> tuple[ApexMesh, ...]:
-        """Return the same."""
+        """Return the contacts of the apex of a frustum, given by its numbers, with all patches, if it has one."""
         if first[SIDE] == 0.0 or first[1] > 0.0:
             return ()
         patches = patches_for_ball(second, first[SWEEP])

@@ -28,7 +28,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, 
 
 
 write_flank = compiled(_evaluate)
-"""The same, for evaluators that call it among others."""
+"""The evaluator, compiled, so that evaluators of other contacts can call it."""
 
 
 @final

@@ -129,7 +129,7 @@ def _evaluate(
 
 
 write_corner = compiled(_evaluate)
-"""The same, for evaluators that call it among others."""
+"""The evaluator, compiled, so that evaluators of other contacts can call it."""
 
 
 @final

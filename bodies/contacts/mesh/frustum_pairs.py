@@ -61,12 +61,12 @@ In this order: rim over a face, point over a patch, round apex over a patch, cor
 across the side, edge across the first half of a rim, edge across the second half.
 """
 POINT_ROW = 4
-"""How many numbers of a point, a foot or the apex, precede its unit vectors: place [m] and count of these vectors."""
+"""Numbers of a point (a foot or the apex) before its unit vectors: its place, 3 numbers [m], and the vector count."""
 
 
 @compiled
 def _add(kind: float, second: float, third: float, out: Floats, n: int, most: int) -> int:
-    """Append a candidate to the ``n`` in ``out``, unless they are more than ``most``; return the new number."""
+    """Append a candidate to the ``n`` in ``out``, unless n is larger than ``most``; return their new number."""
     if n > most:
         return n
     out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, second, third
@@ -75,7 +75,7 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 
 @compiled
 def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Append a face and a rim to the ``n`` candidates, once for all triangles of the face; return the new number."""
+    """Append a face and a rim to the ``n`` candidates, unless they are there; return the new number of candidates."""
     for i in range(n):
         if out[1 + 3 * i] == RIM and out[2 + 3 * i] == face and out[3 + 3 * i] == upper:
             return n
@@ -84,7 +84,7 @@ def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
 
 @compiled
 def _add_halves(edge: float, rim: int, out: Floats, n: int, most: int) -> int:
-    """Append an edge across either half of a rim to the ``n`` candidates; return the new number."""
+    """Append two candidates, an edge across each half of a rim, to the ``n`` in ``out``; return their new number."""
     n = _add(ACROSS_BACK, edge, float(rim), out, n, most)
     return int(_add(ACROSS_FRONT, edge, float(rim), out, n, most))
 
@@ -102,7 +102,7 @@ def _member_near(
     n: int,
     most: int,
 ) -> int:
-    """Append the candidates of one triangle, edge or corner to the ``n`` in ``out``; return the new number."""
+    """Append the candidates of a triangle, edge or corner, ``member``, to the ``n`` in ``out``; return their number."""
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
     if member < n_triangles:
         t = int(surface[TRIANGLES]) + TRIANGLE * member

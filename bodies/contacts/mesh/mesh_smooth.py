@@ -58,7 +58,7 @@ class MeshSmoothNear(PatchNear):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """A search over the features, with Newton's method on the support function."""
+        """Function that writes the geometry block: a search over features, with Newton's method on the core."""
         return _evaluate_near
 
 
@@ -108,7 +108,7 @@ class MeshSmooth(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """A search over the features, with Newton's method on the support function."""
+        """Function that writes the geometry block: a search over features, with Newton's method on the core."""
         return _evaluate
 
     @property

@@ -58,7 +58,7 @@ class MeshSphereNear(PatchNear):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
+        """Function that writes the geometry block, in closed form."""
         return _evaluate_near
 
 
@@ -162,7 +162,7 @@ class MeshSphere(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
+        """Function that writes the geometry block, in closed form."""
         return _evaluate
 
     @property

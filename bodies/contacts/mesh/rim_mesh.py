@@ -38,7 +38,7 @@ def _evaluate(
 
 
 write_half_rim = compiled(_evaluate)
-"""The same, for evaluators that call it among others."""
+"""The evaluator, compiled, so that evaluators of other contacts can call it."""
 
 
 @final
@@ -68,7 +68,7 @@ class RimMesh(ContactKinematics):
 
     @classmethod
     def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[RimMesh, ...]:
-        """Return the same."""
+        """Return the contacts of all rims of a frustum, given by its numbers, with all convex edges."""
         return tuple(
             cls(crossing, surface)
             for row, surface, name in edges_of(second)

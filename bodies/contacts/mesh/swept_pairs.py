@@ -122,8 +122,11 @@ def corners_over(
 
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
-"""A patch and a vertex of the core, as a ball over it, a corner of the surface, and edges of both: the first of the
-three numbers of a candidate, which the others follow."""
+"""Kinds of candidates, the first of a candidate's three numbers.
+
+In this order: ball about a vertex of the core over a patch, corner of the surface, edges of both bodies.  The numbers
+of the two features follow.
+"""
 _ROW = 5
 """Numbers of a vertex of the core: place, number of its edges, and where the unit vectors along these begin."""
 

@@ -70,7 +70,7 @@ def _between(core: Norm, part: float) -> Norm:
 def _climb(
     first: Norm, second: Norm, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> Answer:
-    """Return the same from the points that a unit normal gives."""
+    """Return gap, point and normal of the largest gap; the search starts from the points of the unit normal given."""
     extent_a, extent_b = max(first[0], max(first[1], first[2])), max(second[0], max(second[1], second[2]))
     size = abs(x) + abs(y) + abs(z) + extent_a + extent_b
     weight = max(extent_a, extent_b)

@@ -30,9 +30,9 @@ from .smooth_newton import widest_from, write_surface
 Numbers = tuple[float, ...]
 
 COUNTS, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = 6, 9, 10, 11, 12, 13, 14
-"""Indices in the header: first of the numbers of vertices, edges and faces, then the offset of every part."""
+"""Indices in the header: of the numbers of vertices, edges and faces; then of the offsets of the six lists by name."""
 EDGE, FACE = 4, 6
-"""How many numbers an edge and a face have.
+"""Length of the row of an edge and of the row of a face, respectively.
 
 An edge: both vertices, the face on its left, the face on its right (-1 for none).  A face: outward normal, distance of
 its plane from the origin [m], beginning and length of its loop.
@@ -233,7 +233,7 @@ def _middle(hull: Floats, face: int) -> Point:
 
 @compiled
 def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> Nearest:
-    """Return gap of the cores, normal, the number of the feature: faces first, then edges, then vertices, and a point.
+    """Return gap of the cores, normal, number of the feature (faces first, then edges, then vertices), and a point.
 
     The point is that of the edge or the vertex.
 
@@ -298,7 +298,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
 
 @compiled
 def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, size: float) -> Nearest:
-    """Return the same for a segment deep in the body: its ends by steps, its side from all round."""
+    """Return gap, normal, feature and point for a segment deep in the body, from its ends and all round its side."""
     best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
     for end in range(2):
         vx, vy, vz = _vertex(hull, end)
@@ -325,7 +325,7 @@ def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z:
 
 @compiled
 def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float) -> Nearest:
-    """Return the same for bodies that overlap, where planes and lines through the smooth one lead astray.
+    """Return gap, normal, feature and point for an overlap in which planes and lines through the smooth body mislead.
 
     Of all features that are a stop that of the widest gap; Newton's method begins in the middle of their normals.
     """

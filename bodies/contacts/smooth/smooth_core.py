@@ -18,7 +18,7 @@ Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, 
 """A rotation, row by row."""
 
 RADIUS = 5
-"""Where the radius stands."""
+"""Index of the radius in the numbers of a core."""
 
 
 @compiled
@@ -50,7 +50,10 @@ def axes_in_world(frame: Floats, core: Floats) -> Axes:
 
 @compiled
 def unit_axes_in_world(frame: Floats, core: Floats) -> Axes:
-    """Return the same, of length 1: within a step a quaternion is not, and the axes are as long as its square."""
+    """Return the axes of a core in the world as columns of length 1.
+
+    Within a step the length L of a quaternion differs from 1, and axes from its matrix have the length L^2.
+    """
     found = axes_in_world(frame, core)
     x, y, z = found[0], found[1], found[2]
     part = 1.0 / math.sqrt(x * x + y * y + z * z)

@@ -41,7 +41,7 @@ _SAMPLES = 8
 _NOWHERE = 1e-300
 """Gauge of a centre, which is 0, to divide by."""
 _ON_SURFACE = 1e-12
-"""What the gauge of a point of the surface is off 1 at most."""
+"""Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 
 
 @compiled
@@ -149,7 +149,7 @@ def _thickness(first: Floats, second: Floats) -> float:
 
 @compiled
 def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
-    """Return the same from the line of centres."""
+    """Return gap, point and normal of the largest gap; the search starts along the line of centres."""
     if not (is_mixed(first) or is_mixed(second)):
         found: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
         return found
@@ -166,7 +166,7 @@ def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z
 def _from_start(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the same from one direction to begin with."""
+    """Return gap, point and normal of the largest gap; the search starts in the direction (sx, sy, sz)."""
     if is_mixed(first) or is_mixed(second):
         mixed: Answer = _by_parts(first, second, turn, x, y, z, sx, sy, sz, 0)
         return mixed
@@ -184,7 +184,9 @@ def _from_start(
 def _in_charts(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the same where one is flat one way and sharp another; beginning where both are ellipsoids.
+    """Return gap, point and normal of the largest gap if a core is flat in one direction and sharp in another.
+
+    The search starts from the normal of the ellipsoids with the same semi-axes.
 
     The gap to a circle that is largest along the axis is that to its middle, and none of the circle's own.
     """
@@ -219,7 +221,7 @@ def _in_charts(
 def _by_parts(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
 ) -> Answer:
-    """Return the same from a direction, if it fails by so many steps from the powers of ellipsoids."""
+    """Return gap, point and normal; a failed search is repeated with powers changed in ``parts`` steps from 2."""
     one, two = (
         (first[0], first[1], first[2], first[3], first[4]),
         (second[0], second[1], second[2], second[3], second[4]),
@@ -232,7 +234,7 @@ def _by_parts(
 def widest_of_round(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the same where the first core is not boxy; it may be a point, or flat, if the second is not."""
+    """Return gap, point and normal of the largest gap if the first core is not boxy; it may be a point or flat."""
     if is_mixed(second) or is_boxy(second):
         if is_mixed(second):
             found: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz)
@@ -252,7 +254,7 @@ def widest_of_round(
 def _from_boxy(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the same by the points of the second core, which is boxy."""
+    """Return gap, point and normal of the largest gap, by the points of the second core, which is boxy."""
     ax, ay, az = back(turn, -x, -y, -z)
     sx, sy, sz = back(turn, -sx, -sy, -sz)
     g, px, py, pz, nx, ny, nz = climb_boxy(second, first, opposite(turn), ax, ay, az, sx, sy, sz)
@@ -265,7 +267,7 @@ def _from_boxy(
 def _by_cuts(
     point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the same for a point outside, where Newton's method did not end.
+    """Return gap, point and normal for a point outside, if Newton's method did not converge.
 
     At a pole with a power just under 2 the curvatures jump from those of a round place to 0.
     """
@@ -293,7 +295,7 @@ def opposite(turn: Axes) -> Axes:
 def _both(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the same for two boxy cores, with the first's point; beginning where one is an ellipsoid."""
+    """Return gap, point of the first core and normal of two boxy cores; the search starts with one an ellipsoid."""
     other = second[0], second[1], second[2], 2.0, 2.0
     g, _, _, _, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
     found: Answer = _from(first, second, turn, x, y, z, nx, ny, nz)

@@ -126,14 +126,14 @@ def _is_near(one: Start, two: Start) -> bool:
 _CUTS, _WIDE = 400, 0.1
 """Most cuts of the ellipsoid method, and radius of its first ellipse, a circle [rad]."""
 _ELLIPSES = 8
-"""Most runs of the ellipsoid method; a run starts at the last answer, as long as answers move far."""
+"""Largest number of runs of the ellipsoid method: as long as its answer is far from its start, it runs again."""
 _HIGHER = 1e-16
 """The ellipsoid method ends if the gap can grow by less than this, relative to the size of the bodies."""
 
 
 @compiled
 def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
-    """Return the largest gap in reach of one run of the ellipsoid method; arguments as in :func:`settle`."""
+    """Return the largest gap that one run of the ellipsoid method finds, and its direction; see :func:`settle`."""
     best: Start = start
     _, nx, ny, nz = start
     tx, ty, tz = tangent_of(nx, ny, nz)

@@ -20,9 +20,9 @@ from .surface_near import patches_near
 from .surface_tables import N_PATCHES, surface_numbers
 
 MOST_EACH = 8
-"""Patches up to which each of them is a contact of its own."""
+"""Largest number of patches of a surface for which each patch is a contact of its own, without a search."""
 NEAR = 1.0
-"""The first number of a candidate; that of the patch follows, and 0."""
+"""Kind of all candidates here, the first of the three numbers; the number of the patch and 0 follow."""
 
 
 def _find(
@@ -99,7 +99,7 @@ class PatchNear(ContactKinematics, ABC):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return those of the evaluator, and no patch."""
+        """Return the parameters of the evaluator, with an empty candidate."""
         return {**self.values, "candidate": NO_CANDIDATE}
 
     @property

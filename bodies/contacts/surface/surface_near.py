@@ -30,8 +30,11 @@ from .surface_tables import (
 from .surface_vertex import ASTRAY, leaning
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
-"""A corner of the second body over a patch of the first, the other way round, and two edges: the first of the three
-numbers of a candidate.  Patch and corner, or the edges of the first and the second body, follow."""
+"""Kinds of candidates, the first of a candidate's three numbers.
+
+In this order: corner of the second body over a patch of the first, corner of the first body over a patch of the second,
+two edges.  The numbers of patch and corner, or of the edges of the first and the second body, follow.
+"""
 FEW = 64
 """Candidates that are enough to look ahead for: all of them are evaluated at every step, so that less far is faster."""
 NARROW = 1e-2

@@ -61,7 +61,9 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class SurfacePairs(ContactKinematics):
-    """The contact of a corner over a face, or of two edges, of two surfaces, that are near each other at present.
+    """One contact of two surfaces: a corner of one over a face of the other, or two edges that cross.
+
+    A search chooses the pair of features anew as the bodies move.
 
     Attributes
     ----------

@@ -111,7 +111,7 @@ def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) ->
 
 @compiled
 def has_patch(surface: Floats, at: int, patch: float) -> bool:
-    """Return whether a node may have members of a patch, or of any where it is below 0."""
+    """Return whether a node may have members of a patch, or of any patch if ``patch`` is negative."""
     return patch < 0.0 or surface[N_PATCHES] > BITS or (int(surface[at + 9]) >> int(patch)) & 1 == 1
 
 

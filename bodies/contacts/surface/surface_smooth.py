@@ -92,7 +92,7 @@ def _least(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
 def _on_face(
     surface: Floats, member: int, core: Floats, turn: Axes, center: Point
 ) -> tuple[float, float, float, float, float]:
-    """Return distance of the core, way past the face, and normal of the plane of a triangle."""
+    """Return distance of the core from the plane of a triangle, distance past its face, and normal."""
     t = int(surface[TRIANGLES]) + TRIANGLE * member
     f = int(surface[FACES]) + FACE * int(surface[t + 9])
     nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
@@ -112,7 +112,7 @@ def _on_face(
 def _on_edge(
     surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, center: Point, size: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the same of the line of an edge; the distance is nan where none was found."""
+    """Return distance of the core from an edge, nan if none was found, distance past the edge, and normal."""
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
     g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (ex, ey, ez), (wx, wy, wz))
@@ -128,7 +128,7 @@ def _on_edge(
 def _on_corner(
     surface: Floats, c: int, core: Floats, point: Floats, turn: Axes, center: Point, size: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the same of a corner."""
+    """Return distance of the core from a corner, distance past the corner, and normal."""
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
     g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (0.0, 0.0, 0.0), (wx, wy, wz))
     past, star = -(nx * wx + ny * wy + nz * wz), int(surface[STARS]) + int(surface[c + 4])
@@ -140,13 +140,13 @@ def _on_corner(
 
 @compiled
 def _above(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a distance that the body keeps at least from a point of the surface, by a plane that it is over."""
+    """Return a lower bound of the distance of the body from a point of the surface, by a plane under the body."""
     return float(aim[3] - aim[0] * surface[at] - aim[1] * surface[at + 1] - aim[2] * surface[at + 2])
 
 
 @compiled
 def _above_box(surface: Floats, at: int, aim: Aim) -> float:
-    """Return the same of all that is in the box of a node."""
+    """Return a lower bound of the distance of the body from the box of a node, by a plane under the body."""
     x = surface[at + 3] if aim[0] > 0.0 else surface[at]
     y = surface[at + 4] if aim[1] > 0.0 else surface[at + 1]
     z = surface[at + 5] if aim[2] > 0.0 else surface[at + 2]

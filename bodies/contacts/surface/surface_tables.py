@@ -21,12 +21,12 @@ Numbers = tuple[float, ...]
 SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CORNERS, STARS, N_FACES, N_PATCHES = (
     range(13)
 )
-"""Where size [m], numbers and offsets of the parts stand."""
+"""Indices of the size [m], of the numbers of parts and of the offsets of parts in the numbers of a surface."""
 NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
-"""Numbers of
+"""Length of the row of each part, and its numbers in order:
 
-- a node: lowest and highest coordinates, the node that follows where this one is left out, where the list of its
-  members begins, and their number, 0 but in leaves, and the patches of all members below, as the bits of a number;
+- a node: lowest and highest coordinates, the next node if this one is left out, the index of its list of
+  members, and their number, 0 except in leaves, and the patches of all members below, as the bits of a number;
 - a face: outward normal, distance of its plane from the origin, patch;
 - a triangle: vertices, face, for every edge the outward normal in the plane and its distance from the origin, whether
   its face ends there, then the vectors that point out of the body at the three edges and at the three vertices;
@@ -36,7 +36,7 @@ NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
 NOTHING = SharedNumbers((0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(4 * [0.0])))
 """The surface of a body without volume: no point is inside of it."""
 BITS = 52
-"""Bits of a number that are exact: with more patches every node counts as having all."""
+"""Number of bits that a float stores exactly; with more patches, every node is treated as having all of them."""
 _LEAF = 4
 """Members of a leaf, at most."""
 

@@ -51,7 +51,7 @@ from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point
 from nonsmooth.engine.numerics.vectors import length
 
 _VANISHED = 1e-9
-"""Normal force that counts as zero when a static bound is reached, relative to that at the start of the step."""
+"""Normal force, relative to its value at the start of the step, below which a reached static bound is a lift-off."""
 
 
 @kernel("Cause(ContactRecord)")

@@ -35,7 +35,7 @@ from nonsmooth.engine.numerics.vectors import length
 NO_PHASES = 0
 """Number of phases of an event that is no impact."""
 _CLOSED, _APPROACHES, _SLIPS = 1, 2, 4
-"""Bits of a code of Eq. (29)."""
+"""Bits of the code of a contact in an event, Eq. (29): closed, approaching, slipping."""
 
 
 @kernel("i8(ContactRecord)")

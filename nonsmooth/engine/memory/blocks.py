@@ -43,11 +43,11 @@ A load writes ``FORCE`` [N] on the second body, the point where it acts at ``LOA
 from __future__ import annotations
 
 POSITION, ROTATION, VELOCITY, SPIN, ACCELERATION, SPIN_ACCELERATION, JACOBIAN = 0, 3, 12, 15, 18, 21, 24
-"""Positions of the parts of a frame."""
+"""Offsets of the parts in the block of a frame."""
 FRAME = JACOBIAN
 """Floats of frame motion at the head of a body's output block."""
 GAP, NORMAL, TANGENT, POINT_A, POINT_B, SIDE_A, SIDE_B, FEATURE, PAST_END = 0, 1, 4, 7, 10, 13, 21, 29, 30
-"""Positions of the parts of a geometry block."""
+"""Offsets of the parts in a geometry block."""
 SLIDE_MATRIX, TURN_MATRIX = 0, 4
 """Positions of the matrices of a surface, from ``SIDE_A`` or ``SIDE_B``; row by row."""
 PAIR = 31
@@ -63,7 +63,7 @@ RESIDUAL, AXIS, MOMENT, ROW_BIAS = 0, 1, 4, 13
 JOINT_ROW = 14
 """Floats of one row of a joint."""
 FORCE, LOAD_POINT, LOAD_MOMENT = 0, 3, 6
-"""Positions of the parts of the block of a load."""
+"""Offsets of the parts in the block of a load."""
 LOAD = 9
 """Floats that a load writes."""
 TRACTION, TRACTION_MOMENT = 0, 2

@@ -13,9 +13,9 @@ Behind the head are the coordinates, the velocities before and after, the energy
 of energies, and :data:`LISTED` floats of each contact that takes part.
 """
 IMPULSES, SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES = 0, 3, 5, 6, 7, 8
-"""Offsets of the parts of the floats that an event has of one contact."""
+"""Offsets of the parts in the row of floats that an event stores for one contact that takes part."""
 LISTED = FEATURES + CANDIDATE
-"""Number of floats that an event has of one contact."""
+"""Number of floats that an event stores for one contact."""
 CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
 """Offsets of the integers at the head of an event. ``TRUNCATED`` is set if its impact was cut short."""
 CODE_HEAD = 5

@@ -9,7 +9,7 @@ PARTS = 48
 PART_END = 7
 """Floats of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
-"""Positions of the integrated energies."""
+"""Positions of the energies that are integrated with the state."""
 N_ACCOUNTS = 4
 """Number of energies integrated with the state: work of driven bodies, friction loss, gross exchange, work of loads."""
 BOOKED = 4
@@ -31,6 +31,6 @@ IMPACT_STATE = 8
 IMPACT_GUARDS = 3
 """Number of guards of a contact within an impact: rate, energy and friction."""
 SINGULAR = 1e-10
-"""Size of a pivot or of a remaining column that counts as zero, relative to the largest one."""
+"""Size of a pivot or of a remaining column, relative to the largest one, up to which it is treated as zero."""
 NO_PAIR = -1
 """Number of the pair of a contact if the overlap of its shapes is not checked."""

@@ -55,7 +55,7 @@ def _rank(declared: Declaration) -> int:
 
 
 _KEPT, _SHORT, _LATE = range(3)
-"""Arrays that outlive a step, those that do not, and those that are late."""
+"""Groups of arrays: arrays that outlive a step, arrays that do not, and late arrays."""
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:

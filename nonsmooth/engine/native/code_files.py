@@ -53,18 +53,18 @@ def read(name: str) -> MachineCode | None:
     Equal names must mean equal functions. The folders are tried in their order. Without a valid file the result is
     None, and the function is compiled. A notice gives the reason if a file that exists is not used.
     """
-    # the first of the pair: all folders that may be read
+    # folders() returns a pair; first all folders that may be read
     for folder in folders()[0]:
         path = folder / _file_name(name)
         try:
             with path.open("rb") as file:
-                # the status of the opened file: one of a path could be that of another file by now
+                # the status of the opened file, because by now the path could lead to another file
                 if not is_safe(os.fstat(file.fileno())):
                     say(f"{path} is not loaded: another user can have written it")
                     continue
                 text = file.read()
         except OSError:
-            # no such file: it may be in the next folder
+            # this folder lacks the file, but the next one may have it
             continue
         # a file is the checksum, 32 bytes, and the content: a line of JSON, and the object code
         checksum, content = text[:_CHECKSUM], text[_CHECKSUM:]
@@ -78,7 +78,7 @@ def read(name: str) -> MachineCode | None:
 
 def write(name: str, machine_code: MachineCode) -> None:
     """Write machine code to the file of a name, unless no folder can be written to. An older file is replaced."""
-    # the second of the pair: the one folder that is written to
+    # folders() returns a pair; second the only folder that is written to
     folder = folders()[1]
     if folder is None:
         say("no folder of yours to keep the compiled engine in: name one in XDG_CACHE_HOME")
@@ -94,7 +94,7 @@ def write(name: str, machine_code: MachineCode) -> None:
             file.write(_checksum(name, content) + content)
         part.replace(path)
     except OSError:
-        # a full disk, or on Windows another process that reads the file: each process then compiles
+        # raised if the disk is full, or on Windows if another process reads the file: each process then compiles
         with contextlib.suppress(OSError):
             part.unlink()
 

@@ -122,7 +122,7 @@ def _step_address(function: Callable[..., Any], typed: Any, signature: str, fing
 
 def compile_entry(name: str) -> tuple[str, int]:
     """Compile an entry point in this process and write its file; returns its signature and its address."""
-    # this module imports all those that define entry points
+    # this module imports all modules that define entry points
     importlib.import_module("nonsmooth.engine.events.event_loop")
     function, signature = SOURCES[name]
     with _uncollected():
@@ -130,7 +130,7 @@ def compile_entry(name: str) -> tuple[str, int]:
 
 
 def compile_shim(shim: Callable[..., Any], signature: str, key: str) -> int:
-    """Compile a shim and write it to the file of its key, unless this is empty; returns its address."""
+    """Compile a shim, which calls a plug-in's function; write it to the file of ``key``, if any; return its address."""
     with _uncollected():
         return shim_address(shim, signature, key)
 
@@ -200,7 +200,8 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 def compile_entries(names: tuple[str, ...]) -> None:
     """Compile entry points into files, one after another, in a process of :func:`compile_apart`.
 
-    Those on disk are left out: the other process, which takes them in the opposite order, may have compiled them.
+    Entry points on disk are left out: the other process, which takes the names in the opposite order, may have compiled
+    them.
     """
     with _uncollected():
         for name in names:

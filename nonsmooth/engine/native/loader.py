@@ -23,7 +23,7 @@ def _linker() -> Any:
 def load(machine_code: MachineCode) -> int:
     """Address of the C function of some machine code. It is valid until the process ends."""
     linker = _linker()
-    # LLVM ends the process if a symbol is missing. Laws that allocate memory or handle exceptions need those of numba
+    # LLVM ends the process if a symbol is missing. Laws that allocate memory or handle exceptions need symbols of numba
     if any(llvm.address_of_symbol(name) is None for name in machine_code.externals):
         importlib.import_module("nonsmooth.engine.native.own_compiler").start_runtime()
     linker.add_object_file(llvm.ObjectFileRef.from_data(machine_code.code))

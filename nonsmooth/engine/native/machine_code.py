@@ -25,7 +25,7 @@ __all__ = ["shared", "unshared"]
 
 
 class EntryPoint(NamedTuple):
-    """An entry point, or a step of an engine, as Python calls it.
+    """Signature and address of an entry point, or of the step of an engine, so that Python can call it.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class EntryPoint(NamedTuple):
 
 
 ENTRIES: dict[str, EntryPoint] = {}
-"""Steps of engines by name, and entry points after :func:`entry_addresses`."""
+"""Steps of engines by name; entry points, too, as soon as :func:`entry_addresses` has been called."""
 _callables: dict[str, Callable[..., Any]] = {}
 """C functions of the entry points and steps that Python has called, by name."""
 
@@ -104,7 +104,7 @@ def prototype_of(name: str) -> Any:
     entry_addresses()
     # "f8(ws, i8)": the type of the result, then those of the arguments, the first of which is ws
     result, _, names = known(ENTRIES, name).signature.partition("(")
-    # a name that is not in C_TYPES is that of an enumeration, whose members are integers
+    # a name that C_TYPES lacks is the name of an enumeration, whose members are integers
     returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
     return ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)
 
@@ -126,7 +126,7 @@ def jit(function: Callable[..., Any]) -> Any:
 
 
 watches: dict[int, Any] = {}
-"""The C functions of interrupt checks by their addresses. Python frees those that are not listed here."""
+"""The C functions of interrupt checks by their addresses. Python would free a function that is not listed here."""
 
 
 def watch_address(function: Callable[[float], float]) -> int:

@@ -22,7 +22,7 @@ from nonsmooth.engine.native.signatures import signature_of
 from nonsmooth.notices import say
 
 KEEPS_FILES = False
-"""Numba keeps the code in files of its own, which each process finds itself."""
+"""Whether another process can compile entry points into files for this one: no, because numba has files of its own."""
 _OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _alive: list[Any] = []
 """All C functions: their code must outlive the last call."""
