@@ -37,9 +37,10 @@ def described(function: Callable[..., Any]) -> str:
 
 
 def raised(function: Callable[..., Any], error: BaseException) -> str:
-    """Text on an error that a function has raised: the error, the line, and the file if that is another one.
+    """Text on an error that a call of a function has raised: the error, a line, and the file where it arose.
 
-    The line is the last one in the function's own file through which the error passed.
+    The line is the last one in the function's own file through which the error passed. The file is named only if the
+    error arose further on, in a function that this line calls.
     """
     frames = traceback.extract_tb(error.__traceback__)
     last = _last_own(function, frames)

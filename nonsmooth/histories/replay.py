@@ -36,11 +36,11 @@ _ACCOUNTED = (
     owners.Totals.closing_loss,
 )
 _MODES = np.array([Mode.OPEN, Mode.STICK, Mode.OPEN, Mode.OPEN, Mode.OPEN, Mode.SLIDE, Mode.OPEN, Mode.OPEN])
-"""Mode of a contact by its code, the bits of Eq. (29), after an event."""
+"""Mode of a contact after an event; the index is the sum of its bits: closed 1, approaching 2, slipping 4, Eq. (29)."""
 _DIRECTION, _RATE, _FACING, _AVERAGED, _FEATURES = (
     place - SLIP_DIRECTION for place in (SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES)
 )
-"""Columns of ``Events.listed_memory``, which begins with the slip direction."""
+"""First columns in ``Events.listed_memory`` of the slip direction, closing rate, faced direction, mode and features."""
 _SAMPLE, _EVENT, _END = range(3)
 _REPLAYS: weakref.WeakKeyDictionary[Track, StateReplay] = weakref.WeakKeyDictionary()
 
@@ -91,7 +91,7 @@ class StateReplay:
         self._booked = np.concatenate([track.booked, events.booked])[order]
         self._event = np.cumsum(kinds[order] == _EVENT) - 1
         self._event_row = np.flatnonzero(kinds[order] == _EVENT)
-        # number of the event whose modes the model has; -2 if it has the modes of no event
+        # number of the event after which the contacts had the modes that the model has now; -2 if there is none
         self._put_event = -2
         self._alone = threading.Lock()
 

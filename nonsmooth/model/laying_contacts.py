@@ -325,7 +325,7 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
 
 
 _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Places in the block of a contact that belong to its geometry."""
+"""Fields of a contact with places in its block for numbers of its geometry, which other laws do not change."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
@@ -344,7 +344,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers}
     for numbers in kinds:
-        # one contact for each kind that these contacts had with the former laws
+        # contacts of one kind have equal laws and geometry; one example for each former kind among these contacts
         examples = {former_kind[number]: number for number in numbers}.values()
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):

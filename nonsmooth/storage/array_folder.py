@@ -206,7 +206,7 @@ class ArrayFolder:
         return self.path / name / self._arrays[name].file(number)
 
     def cut(self, dimension: str, length: int) -> None:
-        """Keep at most ``length`` rows of all arrays over a dimension."""
+        """Shorten all arrays whose first axis is ``dimension`` to at most ``length`` rows."""
         for name, one in self._arrays.items():
             if one.dimensions[:1] == (dimension,):
                 self._arrays[name] = replace(one, shape=(min(length, one.shape[0]), *one.shape[1:]))
@@ -290,7 +290,9 @@ class ArrayFolder:
         return _json({**content, "attributes": {**attributes, "checksum": _checksum(content)}})
 
     def spell_out(self, names: Iterable[str]) -> None:
-        """Write the metadata of some arrays into their own folders too, for readers that do not use those of the group.
+        """Write the metadata of some arrays into their own folders too.
+
+        Some readers of Zarr do not use the metadata of the group, which has those of all arrays.
 
         Raises
         ------

@@ -25,4 +25,4 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "bifurcation": ("orbit", "sample a motion once a period for each value of a parameter"),
     "new": ("new", "write a package to start from"),
 }
-"""Module in this package, and summary for the help, of each command."""
+"""Name of a command -> its module in this package, and its summary in the help."""

@@ -176,7 +176,7 @@ def _save_solution(scenario: Scenario, solution: Solution, saver: Saver, folder:
     with saver.noting(f"{type(scenario).__name__}.coordinates"):
         written = SolutionFolder.held(Output(folder))
         with contextlib.closing(written):
-            # after a full disk the folder has fewer samples than the solution
+            # if the disk was full, the folder is unfinished: it has fewer samples than the coordinates
             if written.status != UNFINISHED:
                 written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
     with saver.noting("saving the events"):
