@@ -241,7 +241,10 @@ def kinds_named(name: str) -> str:
 
 
 def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
-    """Reason why an object of a plug-in is no usable component; None for a dataclass that implements one of ``bases``."""
+    """Reason why an object is no usable component of a plug-in; None for a dataclass that implements one of ``bases``.
+
+    The reason continues a sentence that begins with the name of the object.
+    """
     if not (isinstance(loaded, type) and issubclass(loaded, bases)):
         wanted = " or ".join(base.__name__ for base in bases)
         return f"must be a subclass of {wanted}, not {loaded!r}."

@@ -65,7 +65,7 @@ class ContactResult:
 
     @property
     def _size(self) -> float:
-        """Size of the contact accelerations that cancel each other [m/s^2], the scale of their round-off."""
+        """Size of the terms whose sum is a contact acceleration [m/s^2]: the round-off of the sum is relative to it."""
         delassus = read_delassus(self._memory, len(self.modes))
         return max(float(np.max(np.abs(delassus))) * float(np.max(np.abs(self.normal_force))), 1e-300)
 
@@ -102,7 +102,7 @@ class ContactResult:
 
     @property
     def forces_are_unique(self) -> bool:
-        """Whether only these forces give this motion: :attr:`null_space` is empty.
+        """Whether only these forces give this motion, because :attr:`null_space` is empty.
 
         True is a proof.  False means that the null space has directions.  If a force is at its bound, a change along a
         direction may be possible with one sign only, or, rarely, not at all.

@@ -22,7 +22,10 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, Integers
 
 _NEGLIGIBLE = 0.1
-"""Share of the whole change of the imbalance that the span may omit at each end, so that the span is short."""
+"""Part of the whole change of the imbalance of energy that the reported span of time may omit at each of its ends.
+
+Without this omission the span could be long, although most of the change occurs in a short time.
+"""
 _MODE_AFTER_FALLBACK = 4
 """Column of ``Events.listed_memory`` with the mode after the time-stepping fallback; without fallback it is open."""
 _N_NAMED = 4
@@ -45,14 +48,14 @@ def imbalance_span(solution: Solution) -> str:
         return ""
     first, last = _span(imbalance)
     if first == last:
-        # the imbalance is constant
+        # the imbalance is constant, so that no span contains its change
         return ""
     span = f"Most of it came about from t = {times[first]:.9g} s to {times[last]:.9g} s"
     contacts, has_fallback = _contacts_within(events, times[first], times[last])
     if len(contacts) == 0:
         return f"{span}."
     pairs = [solution.system.contacts[number] for number in np.unique(contacts).tolist()]
-    # the free bodies, each of them once
+    # free bodies of these contacts by identity, so that each body is named once
     bodies = {id(body): body for one in pairs for body in (one.first, one.second) if body.n_u > 0}
     names = [repr(solution.system.name_of(body)) for body in bodies.values()]
     more = f" and {len(names) - _N_NAMED} more" if len(names) > _N_NAMED else ""

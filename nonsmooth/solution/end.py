@@ -14,7 +14,7 @@ from nonsmooth.solution.state import State
 @final
 @dataclass(frozen=True)
 class RunRequest:
-    """End and samples of a run: the arguments that its steps and samples depend on, apart from its start.
+    """Arguments on which the steps and samples of a run depend, apart from its start: end time, samples and condition.
 
     A state does not contain them, because a run may continue to another end time. The folder of a run stores them, so
     that a run that was cut off can be resumed.

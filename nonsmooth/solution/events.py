@@ -120,7 +120,7 @@ class Events:
         row = floats[start[:, None] + np.arange(width)]
         parts = np.cumsum([EVENT_HEAD, n_q, n_u, n_u, n_y - n_q - n_u])
         time_and_energies, q, u_before, u_after, integrated, booked = np.split(row, parts, axis=1)
-        # entry j of the list of an event is j places behind the head of the event
+        # an event is stored as a head and a list of contacts; contact j of the list is j places behind the head
         event = np.repeat(np.arange(len(head)), np.diff(first))
         j = np.arange(int(first[-1])) - first[event]
         pair = head[event] + CODE_HEAD + 2 * j
@@ -183,7 +183,7 @@ class Events:
         return cls(starts[-1], parts[0].n_contacts, read)
 
     def _bits(self, shift: int) -> Integers:
-        """Bits of every contact at every event, shape [n, n_contacts]."""
+        """Three bits of the code of every contact at every event, from bit ``shift`` on, shape [n, n_contacts]."""
         bits = np.zeros((len(self), self.n_contacts), dtype=np.int64)
         bits[self._event_of_entry(), self.listed] = self.codes >> shift & CODE
         return bits
@@ -198,7 +198,7 @@ class Events:
 
     @functools.cached_property
     def during(self) -> Integers:
-        """The bits during the event; in an impact they differ from ``before`` and show the contacts that collide."""
+        """Bits per contact during the event, shape [n, n_contacts]; in an impact they show which contacts collide."""
         return self._bits(DURING)
 
     @functools.cached_property

@@ -183,8 +183,9 @@ def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes,
     """Group the modes of a system of many contacts: graph of the groups, and the name of each group.
 
     Modes of a group have the same range of closed contacts (0, 1, 2, 3 to 4, 5 to 8, ...), of which none, some or all
-    slip.  Impacts are grouped by the range of contacts that strike.  The start, or else the mode with the largest share
-    of the time, represents its group.  Transitions within a group are left out.
+    slip.  Impacts are grouped by the range of contacts that strike.  The graph of the groups represents each group by one
+    mode: by the mode of the start in its group, elsewhere by the mode with the largest share of the time.  Transitions
+    within a group are left out.
     """
     called = {mode: _kind(mode, passing=mode in graph.passing) for mode in graph.shares}
     ranked = sorted(graph.shares, key=lambda mode: (mode != graph.start, -graph.shares[mode]))
