@@ -90,7 +90,10 @@ def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
 
 
 def in_python(function: Callable[..., Any], move: Callable[..., Any]) -> Callable[..., Any]:
-    """The function with ``move(heap, offset)`` in place of ``at``, which moves pointers, so that Python can run it."""
+    """Copy of a function that Python can run: it calls ``move(heap, offset)`` in place of the engine's ``at``.
+
+    ``at`` moves a pointer, which only compiled functions can do.
+    """
     return function if PLAIN else _moving(unshared(function), move)
 
 

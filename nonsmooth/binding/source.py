@@ -62,7 +62,10 @@ def _last_own(function: Callable[..., Any], frames: Iterable[traceback.FrameSumm
 
 
 def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> tuple[str, Any]:
-    """Call a function: text on its value or error, with the line, and the value, None after an error."""
+    """Call a function; return a text on its value or error with the line that caused it, and the value.
+
+    The value is None after an error.
+    """
     code, lines = _code(function), [0]
 
     def follow(frame: FrameType, event: str, argument: Any) -> Any:

@@ -156,7 +156,7 @@ class Line:
         return distance
 
     def _motion(self) -> tuple[Vector, Vector]:
-        """Coordinate rates dq/dt at 1 m/s along the possible direction nearest to ``way``, and that direction, shape [3]."""
+        """Coordinate rates dq/dt at 1 m/s along the possible direction nearest to ``way``, and this direction."""
         probe = self._probe
         probe.frame(0)
         u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]

@@ -27,7 +27,7 @@ class ContactMode(StrEnum):
     STICK = "stick"
     """The contact is closed, and friction holds it."""
     SLIDE = "slide"
-    """The contact is closed and slips, or is about to."""
+    """The contact is closed and slips, or begins to slip."""
 
 
 _MOST_SEARCHED = 6
@@ -51,8 +51,8 @@ class ContactResult:
     modes : tuple of ContactMode
         Mode of every contact, length n. Each is a str, too: "open", "stick" or "slide".
 
-    If several sets of forces give the same motion, the result is the set of least norm, with contacts that would pull
-    left open.  If this set breaks Coulomb's bound, the result is a set near it that keeps the bound.
+    If several sets of forces give the same motion, the result is the set of least norm.  Contacts that would pull in
+    it are left open.  If this set breaks Coulomb's bound, the result is a set near it that keeps the bound.
     """
 
     normal_force: Floats
@@ -119,7 +119,8 @@ class ContactResult:
 
         Without friction the right-hand side is zero, and so is G (f - f'), as G is positive semidefinite: the motion is
         unique.  With friction and a regular G the right-hand side is at most s times the left-hand side, where
-        s^2 = (largest eigenvalue of G_TT) (largest eigenvalue of D (G^-1)_NN D), D = diag(mu).  So s < 1 proves it.
+        s^2 = (largest eigenvalue of G_TT) (largest eigenvalue of D (G^-1)_NN D), D = diag(mu).  So motion and forces are
+        unique if s < 1.
         """
         n = len(self.modes)
         mu = self._memory[owners.ActiveContact.friction_coefficient][:n]

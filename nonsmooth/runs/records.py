@@ -94,8 +94,8 @@ class Records:
     def drain(self) -> None:
         """Copy the buffers of the engine and empty them.
 
-        If an interrupt came after the copy, the part of the engine's last call exists. Then the buffers are only
-        emptied.
+        Each call of the engine has one copy. If an interrupt prevented only the emptying, the copy of the engine's last
+        call exists already, and the buffers are only emptied.
         """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells

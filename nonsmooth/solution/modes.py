@@ -183,9 +183,10 @@ def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes,
     """Group the modes of a system of many contacts: graph of the groups, and the name of each group.
 
     Modes of a group have the same range of closed contacts (0, 1, 2, 3 to 4, 5 to 8, ...), of which none, some or all
-    slip.  Impacts are grouped by the range of contacts that strike.  The graph of the groups represents each group by one
-    mode: by the mode of the start in its group, elsewhere by the mode with the largest share of the time.  Transitions
-    within a group are left out.
+    slip.  Impacts are grouped by the range of contacts that strike.
+
+    One mode represents each group in the graph: the mode of the start in its group, elsewhere the mode with the largest
+    share of the time.  Transitions within a group are left out.
     """
     called = {mode: _kind(mode, passing=mode in graph.passing) for mode in graph.shares}
     ranked = sorted(graph.shares, key=lambda mode: (mode != graph.start, -graph.shares[mode]))
@@ -195,7 +196,7 @@ def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes,
     for mode, share in graph.shares.items():
         shares[stands_for[mode]] += share
     for (one, other, cause), n in graph.counts.items():
-        # a mode whose contacts change their features at once has no duration, so it is not among the shares
+        # a mode whose contacts change their features at its very instant has no duration, so it is not among the shares
         before = stands_for.get(one) or standing.get(_kind(one, passing=False))
         if before is not None and before != stands_for[other]:
             counts[before, stands_for[other], cause] += n

@@ -45,7 +45,8 @@ def suspicions(
     Parameters
     ----------
     engine : Engine
-        Engine of the run.  If it promises a largest residual, that is the limit of the account; else the tolerances are.
+        Engine of the run.  If it promises a largest residual, the account must not exceed it.  Otherwise the tolerances
+        are the limit.
     worst_event : tuple of float
         Event with the largest residual: time [s], residual [J], and its ratio to the residual that tolerances explain.
     jump : tuple of float

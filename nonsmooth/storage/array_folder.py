@@ -87,7 +87,7 @@ class ArrayFolder:
             attributes = dict(content["attributes"])
             checksum, version = attributes.pop("checksum", None), attributes.pop("format_version", None)
             if checksum != _checksum(content):
-                # other versions may have another checksum, or no checksum
+                # name another version as the cause first: it may compute another checksum, or none
                 _check_version(path, version if isinstance(version, int) else 0)
                 raise ValueError("the checksum is not that of what was written")
             _check_version(path, version)
@@ -244,7 +244,7 @@ class ArrayFolder:
         self.flush(safely=False)
 
     def flush(self, safely: bool, *, counts: bool = False) -> None:
-        """Write the files that wait since the last call; errors as :meth:`commit`.
+        """Write the files that were prepared since the last call; errors as of :meth:`commit`.
 
         A file that makes a commit valid (``counts``), or replaces another, is written under another name and renamed.
         Other files get their name at once, because a rename makes the system wait for the disk.

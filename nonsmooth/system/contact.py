@@ -127,7 +127,7 @@ class Watched:
     name : str
         Name of the guard, unique among the guards of the system.
     chosen : bool
-        Whether the user chose the name.
+        Whether the user chose the name; otherwise it was made from the kind of the guard.
     guard : Guard
         The guard.
     """

@@ -178,7 +178,7 @@ def _named_after(first: Shape, second: Shape) -> list[str]:
 
 
 _UPPER = re.compile(r"(?<!^)(?=[A-Z])")
-"""Place before an upper-case letter within a name."""
+"""Place before an upper-case letter within the name of a class, where it is divided into words."""
 
 
 def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:

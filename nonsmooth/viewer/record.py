@@ -152,7 +152,10 @@ def _turns(axes: Floats) -> Floats:
 
 
 def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str, Any]]]:
-    """Vertices, triangles and lines of all parts, and the ranges of each part in them; ``sheets`` are outlines."""
+    """Arrays of vertices, triangles and lines of all drawn parts; for each part, its ranges of rows in these arrays.
+
+    ``sheets`` are the outlines of the unbounded planes, in the order of their parts.
+    """
     looks = [part.look for part in scene.parts]
     firsts = np.cumsum([0, *(len(look.vertices) for look in looks)])
     parts = list[dict[str, Any]]()
