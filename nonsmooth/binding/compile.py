@@ -254,7 +254,7 @@ def _may_raise(function: Callable[..., Any]) -> bool:
 
 
 def _is_table(value: Any) -> bool:
-    """True if a value is a tuple that is indexed. Tuples of strings alone are names of arguments."""
+    """True if a value is a tuple that a function may index. A tuple of strings only holds names of arguments."""
     return type(value) is tuple and any(not isinstance(item, str) for item in value)
 
 

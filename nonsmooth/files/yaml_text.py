@@ -73,7 +73,7 @@ def _represent(dumper: Any, word: str) -> Any:
 
 
 def tables_of(text: str) -> dict[str, Any]:
-    """Tables of a text.
+    """Tables of a scenario file from its YAML text.
 
     Raises
     ------

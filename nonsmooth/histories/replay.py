@@ -118,7 +118,10 @@ class StateReplay:
         return recorded and self._engine.uses_flow
 
     def codes(self, times: Floats) -> Integers:
-        """Codes of all contacts, the bits of Eq. (29), after the last event of each time, shape [n, n_contacts]."""
+        """Codes of all contacts after the last event of each time, shape [n, n_contacts].
+
+        A code is a sum of the bits of Eq. (29): closed 1, approaching 2, slipping 4.
+        """
         return self._events.codes_after(self._event[self._row(times)])
 
     def modes(self, times: Floats) -> Integers:

@@ -79,7 +79,7 @@ class Modes:
 
     @property
     def mode_word(self) -> NDArray[Any]:
-        """Mode word of all contacts, shape [n]."""
+        """Mode word of all contacts, such as "{01,00,01}", Eq. (29), after the last event of each time, shape [n]."""
         codes = self.request.replay.codes(self.request.times)
         return np.array(self.request.solution.events.spelled(codes), dtype=str)
 
@@ -193,7 +193,7 @@ class Energies:
 
     @property
     def loss(self) -> Floats:
-        """All losses [J], shape [n]."""
+        """Sum of the losses by restitution, friction and closing since the start of the account [J], shape [n]."""
         return self.restitution_loss + self.friction_loss + self.closing_loss
 
     @property

@@ -389,7 +389,7 @@ def _check_same(one: System, other: System) -> None:
 
 
 def _refuse(after: Contact, before: Contact) -> None:
-    """Raise InvalidInput for a contact whose new laws need other blocks than the laws before."""
+    """Raise InvalidInput for a contact whose new laws need a block of another size or order than its former laws."""
     laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
     raise InvalidInput(
         f"with_laws_of: the laws of the {after}",

@@ -119,8 +119,8 @@ class ContactResult:
 
         Without friction the right-hand side is zero, and so is G (f - f'), as G is positive semidefinite: the motion is
         unique.  With friction and a regular G the right-hand side is at most s times the left-hand side, where
-        s^2 = (largest eigenvalue of G_TT) (largest eigenvalue of D (G^-1)_NN D), D = diag(mu).  So motion and forces are
-        unique if s < 1.
+        s^2 = (largest eigenvalue of G_TT) (largest eigenvalue of D (G^-1)_NN D), D = diag(mu).  So motion and forces
+        are unique if s < 1.
         """
         n = len(self.modes)
         mu = self._memory[owners.ActiveContact.friction_coefficient][:n]

@@ -216,7 +216,7 @@ class SolutionFolder:
         return found
 
     def system_text(self) -> str:
-        """The system as a scenario file, "" if it could not be written."""
+        """Text of a scenario file with the system that ran; "" if a scenario file cannot hold this system."""
         return str(self._arrays.read("system"))
 
     def events(self) -> Events:
@@ -248,7 +248,7 @@ class SolutionFolder:
 
     @property
     def request(self) -> RunRequest:
-        """The arguments of the run.
+        """Arguments of the run, as the folder stores them.
 
         Raises
         ------

@@ -122,7 +122,7 @@ def _failed_check(model: LaidOut, status: Status) -> str:
 
 
 def _other_closed(model: LaidOut, contact: Contact) -> str:
-    """Names of closed contacts that share a free body with a contact, or "".
+    """Names of the other closed contacts that share a free body with ``contact``; "" if there are none.
 
     Of several contacts between the same two bodies only the first is named. Contacts between the two bodies of
     ``contact`` are not named.

@@ -89,7 +89,7 @@ class EndSource(Protocol):
     """Source of the end of a run: the end itself, or the memory of the model after the run."""
 
     def read(self) -> End:
-        """Read the end."""
+        """Return the end of the run, read from this source."""
 
 
 @final
@@ -108,7 +108,7 @@ class End:
     cause : str
         Name of the cause, if it is one that the engine declares (``Engine.causes``), else "".
     verdict : mapping of Measure to float
-        Numbers by which the engine judges the run.
+        Value of each measure that the engine declares to judge the run.
     """
 
     state: State
@@ -119,7 +119,7 @@ class End:
     verdict: Mapping[Measure, float] = field(default_factory=dict)
 
     def read(self) -> End:
-        """The end itself."""
+        """Return this end, which is its own source (:class:`EndSource`)."""
         return self
 
     @property

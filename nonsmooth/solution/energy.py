@@ -43,7 +43,7 @@ class EnergyAccount:
 
     @property
     def loss(self) -> float:
-        """All losses [J]."""
+        """Sum of the losses by restitution, friction and closing [J]."""
         return self.restitution_loss + self.friction_loss + self.closing_loss
 
     @property

@@ -239,7 +239,7 @@ class Events:
         return ["" if i < 0 else (guards if cause == Cause.GUARD else contacts)[i] for cause, i in pairs]
 
     def words(self, which: str) -> list[str]:
-        """Mode words ``before``, ``during`` or ``after`` every event."""
+        """Mode word of all contacts, such as "{01,00,01}", for each event: "before", "during" or "after" it."""
         codes: Integers = {"before": self.before, "during": self.during, "after": self.after}[which]
         return self.spelled(codes)
 
@@ -261,7 +261,10 @@ class Events:
 
     @staticmethod
     def spelled(codes: Integers) -> list[str]:
-        """Mode word of every row of codes, shape [n, n_contacts]."""
+        """Mode word, such as "{01,00,01}", of each row of ``codes``, shape [n, n_contacts].
+
+        Its groups are the bits closed, approaching and slipping of Eq. (29), with the first contact rightmost in each.
+        """
         unique, inverse = np.unique(codes, axis=0, return_inverse=True)
         found = [word(list(row & 1), list(row >> 1 & 1), list(row >> 2 & 1)) for row in unique]
         return [found[i] for i in np.ravel(inverse)]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 ContactModes: TypeAlias = tuple[tuple[int, int], ...]
 """Mode of a system: pairs (contact, bits of Eq. (29)) of the contacts whose bits are not all zero, in order."""
 _CLOSED, _APPROACHING, _SLIPPING = 1, 2, 4
-"""Bits of Eq. (29)."""
+"""Bits of Eq. (29) in the code of a contact: closed (1), approaching (2) and slipping (4)."""
 
 
 def are_recorded(solution: Solution) -> bool:
@@ -100,7 +100,7 @@ class TransitionGraph:
         return f"TransitionGraph({len(self.shares)} modes, {len(self.counts)} transitions)"
 
     def word(self, mode: ContactModes) -> str:
-        """Mode word of Eq. (29)."""
+        """Mode word, such as "{01,00,01}": bits closed, approaching and slipping of all contacts, Eq. (29)."""
         rows = [[0] * len(self.contacts) for _ in range(3)]
         for contact, bits in mode:
             for i, row in enumerate(rows):
@@ -121,7 +121,7 @@ class TransitionGraph:
 
     @property
     def visits(self) -> dict[ContactModes, int]:
-        """Number of visits of each mode; the start is a visit."""
+        """Number of visits of each mode: transitions that lead into it, and 1 more for the mode of the start."""
         visits = dict.fromkeys(self.shares, 0)
         visits[self.start] += 1
         for (_, other, _), n in self.counts.items():

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _MOST_LETTERS = 12
-"""Largest number of contacts with a mode word; modes of more contacts are listed by contact."""
+"""Largest number of contacts of a system whose modes are shown as mode words; others are shown as lists of contacts."""
 _MOST_NUMBERS = 6
 """Largest number of contacts that are listed by their numbers; further contacts are counted."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2

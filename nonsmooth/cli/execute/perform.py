@@ -194,6 +194,6 @@ def _save_figures(job: Job, solution: Solution, saver: Saver) -> None:
     else:
         tell("no picture of transitions: the run has one mode")
     with saver.noting(f"{type(job.scenario).__name__}.figures"):
-        # titles and captions may still name the scenario's own laws
+        # the figures get a note, because their titles may still name the scenario's own laws
         note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""
         saver.figures(job.scenario.figures(solution), note)
