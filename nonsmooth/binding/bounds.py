@@ -39,11 +39,11 @@ _tried: defaultdict[tuple[Any, ...], set[tuple[float, ...]]] = defaultdict(set)
 
 
 class _OutOfBlock(IndexError):
-    """A function has read or written outside of its block."""
+    """Error that ends a trial: the function has read or written outside of its block."""
 
 
 class _Enough(Exception):
-    """The trial has reached its limit of reads and writes."""
+    """Exception that ends a trial without a fault: the trial has reached its largest number of reads and writes."""
 
 
 class _Bounded:
@@ -67,7 +67,7 @@ class _Bounded:
         self._values[self._place(i)] = float(value)  # type: ignore[index]
 
     def moved(self, offset: int) -> _Bounded:
-        """Stand-in for the pointer moved by an offset."""
+        """Stand-in for the pointer moved by an offset [floats], with the bounds of the same block."""
         return _Bounded(self._values, self._left, self._first + offset)
 
 

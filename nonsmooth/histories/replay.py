@@ -125,7 +125,7 @@ class StateReplay:
         return self._events.codes_after(self._event[self._row(times)])
 
     def modes(self, times: Floats) -> Integers:
-        """Modes of all contacts, shape [n, n_contacts]."""
+        """Modes of all contacts after the last event of each time, 0 open, 1 stick, 2 slide; shape [n, n_contacts]."""
         return np.asarray(_MODES[self.codes(times)])
 
     def closed(self, times: Floats) -> Integers:

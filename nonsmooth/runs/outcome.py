@@ -44,7 +44,7 @@ def imbalance_span(solution: Solution) -> str:
     try:
         imbalance = solution.history("unexplained_energy", times=times)["unexplained_energy"]
     except InvalidInput:
-        # contacts were declared since the run
+        # no history can be computed, because contacts were declared since the run
         return ""
     first, last = _span(imbalance)
     if first == last:
@@ -155,7 +155,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
         Samples of the run, shape [n, m]: columns are t [s], q, u and more.
     """
     contacts, numbers = model.system.contacts, model.contacts_without_parts
-    # the engine has checked all other contacts during the run
+    # no contact has to be checked here: the engine has checked all of them during the run
     if not numbers:
         return ""
     before = Checkpoint.of(model.memory)
@@ -170,7 +170,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
                 return _sentences(model, row[0], found)
     finally:
         before.put(model.memory)
-        # a checkpoint has no results of evaluations
+        # evaluate again, because a checkpoint restores the state but no results of evaluations
         model.evaluate()
     return ""
 

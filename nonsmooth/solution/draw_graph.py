@@ -71,7 +71,7 @@ def _stress(points: Array, steps: Array) -> float:
 
 
 def _crossings(points: Array, lines: Sequence[tuple[int, int]]) -> int:
-    """Number of pairs of lines that cross."""
+    """Number of pairs of lines that cross; each line is given by the indices of its two ends in ``points``."""
 
     def side(a: int, b: int, c: int) -> bool:
         (x, y), (u, v) = points[b] - points[a], points[c] - points[a]
@@ -270,7 +270,7 @@ def _draw_edges(
 def _list_words(
     panel: Axes, graph: TransitionGraph, words: dict[ContactModes, str], visits: dict[ContactModes, int]
 ) -> None:
-    """List number, visits, share and word of each node."""
+    """Draw a list with number, visits, share of the time and mode word of each node."""
     rows = []
     for number, (mode, n) in enumerate(visits.items(), 1):
         share = "impact" if mode in graph.passing else _percent(graph.shares[mode])

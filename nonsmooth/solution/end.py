@@ -124,5 +124,5 @@ class End:
 
     @property
     def measured(self) -> dict[str, float]:
-        """Numbers of the verdict by the names of their measures."""
+        """Values of the engine's verdict on the run, by the names of the measures."""
         return {measure.name: value for measure, value in self.verdict.items()}

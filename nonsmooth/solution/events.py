@@ -152,7 +152,7 @@ class Events:
             yield self._block(start, min(start + _BLOCK, n))
 
     def _block(self, start: int, stop: int) -> Events:
-        """The events from ``start`` to ``stop``."""
+        """Events with the numbers from ``start`` on, up to ``stop`` - 1."""
         first = self.first[start : stop + 1]
         listed = int(first[0]), int(first[-1])
 

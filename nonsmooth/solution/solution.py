@@ -205,7 +205,7 @@ class Solution:
         return to_dataset(self)
 
     def __repr__(self) -> str:
-        """Text with status, end time, message, numbers of samples and events, energy residual, and findings of checks."""
+        """Status, end time [s], message, numbers of samples and events, energy residual, and findings of the checks."""
         from nonsmooth.solution.checks import findings
 
         return (

@@ -90,7 +90,7 @@ Arrays = dict[str, tuple[str, NDArray[Any]]]
 
 FORMAT = "nonsmooth-view/1"
 _WHOLE = 32767
-"""Integer that represents the component 1 of a quaternion."""
+"""Integer that represents the component 1.0 of a unit quaternion: the largest signed integer of 16 bits."""
 _ROOM = 250_000
 """Largest number of poses in a page, one for each frame and knot (time of stored poses), to limit its size.
 
