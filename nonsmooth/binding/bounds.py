@@ -20,24 +20,30 @@ from nonsmooth.errors import PluginError
 from nonsmooth.parameters import Value
 
 _MOST = 5000
-"""Most reads and writes of a trial, which then ends: long functions of the built-in shapes would take more time."""
+"""Number of reads and writes after which a trial ends, because the longest functions of shapes would take too long."""
 FRAMES = (
     (0.0, 0.0, 0.0, *np.eye(3).ravel(), *(FRAME - 12) * (0.0,)),
     (0.21, -0.13, 0.37, 0.8, -0.6, 0.0, 0.48, 0.64, -0.6, 0.36, 0.48, 0.8, 0.1, -0.2, -0.3, 1.0, 2.0, 3.0, *6 * (0.0,)),
 )
-"""Blocks of two frames for trials of functions of two bodies: apart, rotated, the first one at rest."""
+"""Blocks of the frames of two bodies, for trials of functions of two bodies.
+
+The frames are apart and rotated against each other. The first frame is at rest, the second one moves.
+"""
 _TRIALS = 8
-"""Most sets of parameters with which a function is tried. Sets of equal length and beginning count as one."""
+"""Largest number of sets of parameters with which a function is tried.
+
+Sets of equal length that agree in their first ``_BEGINNING`` numbers are tried once.
+"""
 _BEGINNING = 32
 _tried: defaultdict[tuple[Any, ...], set[tuple[float, ...]]] = defaultdict(set)
 
 
 class _OutOfBlock(IndexError):
-    """A function has read or written outside of its block."""
+    """Error that ends a trial: the function has read or written outside of its block."""
 
 
 class _Enough(Exception):
-    """The trial has reached its limit of reads and writes."""
+    """Exception that ends a trial without a fault: the trial has reached its largest number of reads and writes."""
 
 
 class _Bounded:
@@ -61,7 +67,7 @@ class _Bounded:
         self._values[self._place(i)] = float(value)  # type: ignore[index]
 
     def moved(self, offset: int) -> _Bounded:
-        """Stand-in for the pointer moved by an offset."""
+        """Stand-in for the pointer moved by an offset [floats], with the bounds of the same block."""
         return _Bounded(self._values, self._left, self._first + offset)
 
 

@@ -25,7 +25,9 @@ from nonsmooth.parameters import SharedNumbers, Value, not_offered
 
 _SHIM = "def shim({arguments}):\n {call}\n{ending}"
 _GUARDED_SHIM = "def shim({arguments}):\n try: {call}\n except Exception: {failure}\n{ending}"
-"""Text of a shim for a function that may raise. An exception cannot pass the engine, so the result becomes NaN.
+"""Text of a shim, a C function around a Python function, for a function that may raise an exception.
+
+An exception cannot pass through the compiled engine, so the shim returns NaN instead.
 
 Compiling this guard takes as long as compiling the function. So functions that cannot raise get ``_SHIM``.
 """
@@ -39,7 +41,7 @@ _INTERRUPTION = """ except KeyboardInterrupt:
   if not hold(): return shim({arguments})
   {failure}
 """
-"""Handler of Ctrl-C, which cannot pass the compiled engine.
+"""Part of a shim that handles Ctrl-C, because a KeyboardInterrupt cannot pass through the compiled engine.
 
 The first Ctrl-C is stored until the engine can stop, and the call is repeated. A second one makes the call fail.
 """
@@ -55,7 +57,7 @@ class _Entry(NamedTuple):
 
 @functools.cache
 def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
-    """Names of a function's parameters behind the roles of its form, in order."""
+    """Names of a function's parameters, in order, without the first arguments, which its form prescribes."""
     return tuple(inspect.signature(function).parameters)[len(FORMS[form].roles) :]
 
 
@@ -137,7 +139,7 @@ def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float],
 
 
 def parameter_place(function: Callable[..., Any], form: str, name: str) -> int:
-    """Position of the number of a parameter in the block of :func:`bind`."""
+    """Position of the value of a parameter in the block of parameters of :func:`bind`."""
     return FORMS[form].n_recorded + parameter_names(function, form).index(name)
 
 
@@ -180,7 +182,7 @@ def _shim_in_python(function: Callable[..., Any], form: str, vectors: tuple[bool
 
 
 def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
-    """Parts of the text of a shim: its arguments, the call, the result after an exception, and the end."""
+    """Parts of the text of a shim by name: arguments, the call, the result after an exception, and the last lines."""
     its = FORMS[form]
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
@@ -195,7 +197,10 @@ def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
 
 
 def _record(form: Form) -> str:
-    """Lines that store the arguments of a law without a finite value in front of its parameters, for messages."""
+    """Lines of a shim that store the arguments for which a law gives no finite value.
+
+    They are stored in front of the parameters of the law, where a message reads them.
+    """
     if not form.recorded:
         return ""
     value = "" if form.returns else f" v = {' + '.join(f'out[{i}]' for i in range(form.watched))}\n"
@@ -249,7 +254,7 @@ def _may_raise(function: Callable[..., Any]) -> bool:
 
 
 def _is_table(value: Any) -> bool:
-    """True if a value is a tuple that is indexed. Tuples of strings alone are names of arguments."""
+    """True if a value is a tuple that a function may index. A tuple of strings only holds names of arguments."""
     return type(value) is tuple and any(not isinstance(item, str) for item in value)
 
 

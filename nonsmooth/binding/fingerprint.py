@@ -73,7 +73,7 @@ def _place_in_engine(value: Any) -> str:
 
 
 def _shape(code: CodeType) -> tuple[Any, ...]:
-    """All attributes of a code object that decide what it does, except its constants."""
+    """Attributes of a code object that determine what it does, except its constants: arguments, bytecode and names."""
     arguments = (code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags)
     return *arguments, code.co_code, code.co_exceptiontable, code.co_names, code.co_varnames
 
@@ -93,7 +93,7 @@ def _fields(value: Any) -> str:
 
 
 def _is_constant(value: Any) -> bool:
-    """True if the printed form of a value determines it."""
+    """True if a value is a number, string or tuple, so that its ``repr`` determines it and can enter the digest."""
     if type(value) is tuple:
         return all(_is_constant(item) for item in value)
     return value is None or type(value) in (bool, int, float, str)

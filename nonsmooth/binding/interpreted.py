@@ -21,7 +21,7 @@ from nonsmooth.engine.native.kernel import PLAIN, at, unshared
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
 _SECONDS = 5e-3
-"""Longest time for which a function is timed [s]."""
+"""Time after which no further call of a function is timed [s], so that the measurement delays no run."""
 _CALLS = 100
 _alive: list[Any] = []
 _raised: dict[Callable[..., Any], str] = {}
@@ -45,13 +45,13 @@ def forget() -> None:
 
 
 def hold() -> bool:
-    """Store a Ctrl-C until the engine can stop; True if another one was stored already."""
+    """Store a Ctrl-C until the engine can stop; True if an earlier Ctrl-C was stored already."""
     _held.append(True)
     return len(_held) > 1
 
 
 def let_go() -> bool:
-    """True if a Ctrl-C is stored, which is then deleted."""
+    """Delete the stored Ctrl-C; True if there was one."""
     asked = bool(_held)
     _held.clear()
     return asked
@@ -65,7 +65,10 @@ def address(shim: Callable[..., Any], form: str) -> int:
 
 
 def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str:
-    """Measured time of a call by address, as text; an empty function is timed in place of one that takes arrays."""
+    """Measured time of a call of a Python function by its address, as text.
+
+    In place of a function that takes arrays, an empty function is timed.
+    """
     kinds, prototype = tuple(FORMS[form].arguments.values()), FORMS[form].prototype(_Pointer)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
     given = tuple(heap if kind == "F" else 0 if kind == "i8" else 0.0 for kind in kinds)
@@ -87,7 +90,10 @@ def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
 
 
 def in_python(function: Callable[..., Any], move: Callable[..., Any]) -> Callable[..., Any]:
-    """The function with ``move(heap, offset)`` in place of ``at``, which moves pointers, so that Python can run it."""
+    """Copy of a function that Python can run: it calls ``move(heap, offset)`` in place of the engine's ``at``.
+
+    ``at`` moves a pointer, which only compiled functions can do.
+    """
     return function if PLAIN else _moving(unshared(function), move)
 
 
@@ -114,7 +120,7 @@ def _moving(
 
 
 def move(heap: Any, offset: int) -> Any:
-    """Pointer to the numbers from an offset on; in plain mode a view of them."""
+    """Pointer to the numbers of a block from an offset on; in plain mode an array that views these numbers."""
     if PLAIN:
         return at(heap, offset)
     start = ctypes.addressof(heap.contents) + offset * ctypes.sizeof(ctypes.c_double)

@@ -29,7 +29,7 @@ class Finding(NamedTuple):
 
 
 def first_without_value(findings: Iterable[Finding | None]) -> str:
-    """First message on a function that fails again, else the first message; "" if there is no message."""
+    """Message of the first finding whose function fails again, else of the first finding; "" without findings."""
     found = [finding for finding in findings if finding is not None]
     return next((finding.text for finding in found if finding.again), found[0].text if found else "")
 
@@ -66,7 +66,7 @@ def without_value(
 
 
 def _outcome(part: LawFunction, inputs: dict[str, Any], values: dict[str, Any], n_state: int) -> tuple[str, bool]:
-    """Value or error of a function as text, and True if it is an error or not finite."""
+    """Value or error of a call of a law's function as text; True if it raised an error or its value is not finite."""
     if noted := interpreted.noted(part.function):
         return noted, True
     if FORMS[part.form].returns:

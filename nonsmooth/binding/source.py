@@ -37,9 +37,10 @@ def described(function: Callable[..., Any]) -> str:
 
 
 def raised(function: Callable[..., Any], error: BaseException) -> str:
-    """Text on an error that a function has raised: the error, the line, and the file if that is another one.
+    """Text on an error that a call of a function has raised: the error, a line, and the file where it arose.
 
-    The line is the last one in the function's own file through which the error passed.
+    The line is the last one in the function's own file through which the error passed. The file is named only if the
+    error arose further on, in a function that this line calls.
     """
     frames = traceback.extract_tb(error.__traceback__)
     last = _last_own(function, frames)
@@ -61,7 +62,10 @@ def _last_own(function: Callable[..., Any], frames: Iterable[traceback.FrameSumm
 
 
 def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> tuple[str, Any]:
-    """Call a function: text on its value or error, with the line, and the value, None after an error."""
+    """Call a function; return a text on its value or error with the line that caused it, and the value.
+
+    The value is None after an error.
+    """
     code, lines = _code(function), [0]
 
     def follow(frame: FrameType, event: str, argument: Any) -> Any:

@@ -197,14 +197,14 @@ def naming(thing: str) -> Iterator[None]:
 
 
 def _options(hint: Any) -> tuple[Any, ...]:
-    """Types that a hint allows, without None."""
+    """Types that a type hint allows: the members of a union, or the type itself; without None."""
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
         return tuple(one for one in typing.get_args(hint) if one is not type(None))
     return (hint,)
 
 
 def _elements(hint: Any, n: int) -> tuple[Any, ...]:
-    """Hints of the n elements of a sequence."""
+    """Type hints of the n elements of a sequence, from the type hint of the sequence."""
     for one in _options(hint):
         arguments = typing.get_args(one)
         if typing.get_origin(one) is tuple and len(arguments) == n and Ellipsis not in arguments:
@@ -223,7 +223,7 @@ def _abstract(owner: type) -> bool:
 
 
 def _component_class(hint: Any) -> Any:
-    """Class of components that a hint allows, None if it allows no component."""
+    """Class or interface of the components that a type hint allows; None if it allows no component."""
     for one in _options(hint):
         if isinstance(one, type) and (issubclass(one, _BASES) or dataclasses.is_dataclass(one)):
             return one
@@ -231,7 +231,7 @@ def _component_class(hint: Any) -> Any:
 
 
 def _own_class(hint: Any) -> Any:
-    """Class that a reader takes if a table names no class; None if the hint allows several."""
+    """Class that a reader uses if the table of a component names no class; None if the hint allows several classes."""
     owner = _component_class(hint)
     return owner if _concrete(owner) else None
 

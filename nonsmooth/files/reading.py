@@ -70,12 +70,12 @@ class Setup:
     _gate: Gate
 
     def build(self) -> System:
-        """The system, built anew."""
+        """Build the system of the file anew."""
         return assembling.system(self._tables, self.path, self._gate)
 
     @property
     def numbers(self) -> Mapping[str, tuple[float, Rule]]:
-        """All numbers of the file by dotted key, each with its rule."""
+        """All numbers of the file by dotted key ("bodies.ball.radius"), each with its rule (unit and allowed range)."""
         return numbers(self._tables, self._gate)
 
     def varied(self, changes: Mapping[str, Any]) -> Setup:
@@ -169,7 +169,7 @@ _UNKNOWN = "SI"
 
 
 def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
-    """All numbers by dotted key, "bodies.ball.radius", each with its rule.
+    """All numbers in tables by dotted key ("bodies.ball.radius"), each with its rule (unit and allowed range).
 
     Elements of arrays count from 0; the gate decides which classes the names may mean.
     """
@@ -179,7 +179,21 @@ def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
 def _numbers(
     place: Any, way: tuple[str, ...], rule: Rule | None, gate: Gate, group: str = ""
 ) -> Iterator[tuple[str, tuple[float, Rule]]]:
-    """Walk through tables; ``group`` is the group of the installed names of their components, "" without components."""
+    """Numbers in a table, list or value and everything below it, by dotted key, each with its unit and range.
+
+    Parameters
+    ----------
+    place : object
+        The table, list or value.
+    way : tuple of str
+        Keys that lead to it from the top of the file.
+    rule : Rule or None
+        Rule of the numbers in it, if it is the value of a parameter.
+    gate : Gate
+        Decides which classes the names may mean.
+    group : str
+        Group of the installed names of the components in it, "" without components.
+    """
     if isinstance(place, dict):
         owner = _class(place, group, gate)
         declared: Mapping[str, Any] = {} if owner is None else rules(owner)

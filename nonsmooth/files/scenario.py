@@ -68,12 +68,12 @@ class FileScenario(Scenario):
 
     @property
     def varies(self) -> Mapping[str, Rule]:
-        """Rules of all numbers of the file, by dotted key."""
+        """Rule (unit and allowed range) of each number of the file, by dotted key ("bodies.ball.radius")."""
         return {key: rule for key, (_, rule) in self.setup.numbers.items()}
 
     @property
     def values(self) -> Mapping[str, Any]:
-        """Values of all numbers of the file, by dotted key."""
+        """Value of each number of the file, by dotted key ("bodies.ball.radius")."""
         return {key: number for key, (number, _) in self.setup.numbers.items()}
 
     def varied(self, **changes: Any) -> FileScenario:

@@ -19,7 +19,10 @@ _PLAIN = {
     ),
     "null": (r"null|Null|NULL|~|", ["n", "N", "~", ""]),
 }
-"""Values without quotation marks that are not words, by kind: their pattern, and the letters they begin with."""
+"""YAML type of a value without quotation marks -> pattern of its text, and characters with which it can begin.
+
+A value that matches no pattern is a text.
+"""
 
 
 @functools.cache
@@ -32,7 +35,7 @@ def _yaml() -> Any:
 
 @functools.cache
 def _classes() -> tuple[Any, Any]:
-    """Classes of the reader and the writer, with the plain values of YAML 1.2."""
+    """Classes of PyYAML's reader and writer, which take values without quotation marks by the rules of YAML 1.2."""
     yaml = _yaml()
     safe_loader: Any = yaml.SafeLoader
     safe_dumper: Any = yaml.SafeDumper
@@ -57,20 +60,20 @@ def _classes() -> tuple[Any, Any]:
     for name, (pattern, first) in _PLAIN.items():
         resolver = f"tag:yaml.org,2002:{name}", re.compile(f"(?:{pattern})$"), list(first)
         Loader.add_implicit_resolver(*resolver)
-        # in addition to the resolvers of YAML 1.1, so that no reader of either version takes a word for a number
+        # the writer also has the rules of YAML 1.1, so that no reader of either version takes a text for a number
         Dumper.add_implicit_resolver(*resolver)
     Dumper.add_representer(str, _represent)
     return Loader, Dumper
 
 
 def _represent(dumper: Any, word: str) -> Any:
-    # only double quotation marks escape these line breaks; in others, the reader would fold them
+    # only double quotation marks can escape these line breaks; otherwise the reader would replace them by blanks
     style = '"' if any(letter in word for letter in "\x85\u2028\u2029") else None
     return dumper.represent_scalar("tag:yaml.org,2002:str", word, style=style)
 
 
 def tables_of(text: str) -> dict[str, Any]:
-    """Tables of a text.
+    """Tables of a scenario file from its YAML text.
 
     Raises
     ------

@@ -14,9 +14,12 @@ from nonsmooth.interfaces.friction_law import StatefulFrictionLaw
 from nonsmooth.system.contact import Contact
 
 _SPEEDS = np.concatenate([[0.0], np.logspace(-6.0, 3.0, 91)])
-"""Slip speeds at which the largest coefficient is sought [m/s]: ten per decade of the speeds of sliding bodies."""
+"""Slip speeds at which the largest friction coefficient is sought [m/s]: 0, and ten per decade from 1e-6 to 1e3 m/s."""
 _ROUND_OFF = 1e-6
-"""Excess of friction that solvers leave, relative to the bound and to the largest normal force of the instant."""
+"""Allowed excess of friction over its bound, because solvers leave round-off of this order.
+
+It is this part of the bound, plus this part of the largest normal force (or impulse) of the instant.
+"""
 
 
 def beyond_cones(
@@ -37,7 +40,7 @@ def beyond_cones(
     friction : array
         Friction, in the same unit, shape [m, 3], or along two tangents, shape [m, 2].
     speed : array
-        Slip speed at which the coefficient is evaluated [m/s], shape [m]; NaN takes the largest of all speeds.
+        Slip speed at which the coefficient is evaluated [m/s], shape [m]; NaN means the largest of all coefficients.
 
     Returns
     -------
@@ -61,7 +64,10 @@ def beyond_cones(
 
 
 def _largest_of_instants(normal: Floats, first: Integers) -> Floats:
-    """Largest magnitude of the normal forces at the instant of each entry; ``first`` as in :func:`beyond_cones`."""
+    """Largest magnitude of all normal forces or impulses at the instant of each entry, shape [m], in their unit.
+
+    ``first`` is as in :func:`beyond_cones`.
+    """
     counts = np.diff(first)
     starts = first[:-1][counts > 0]
     most = np.maximum.reduceat(np.abs(normal), starts) if len(starts) else np.zeros(0)

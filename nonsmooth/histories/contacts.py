@@ -138,7 +138,7 @@ class ClosedContacts:
 
         Its value is ``if_open`` while a contact is open.
         """
-        # a contact may be chosen twice
+        # a contact may be chosen twice: fill one column for it, and repeat this column at the end
         chosen, columns = np.unique(self.request.contacts, return_inverse=True)
         place = np.full(len(self.request.solution.system.contacts), -1)
         place[chosen] = np.arange(len(chosen))

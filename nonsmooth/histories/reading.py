@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _WHERE = "Solution.history"
 _KINDS = {"contact": "contact", "frame": "body", "coordinate": "body", "velocity": "body", "joint": "joint"}
-"""Axis -> kind of the parts of the system that it belongs to."""
+"""Name of an axis of a history -> kind of the parts of the system over which the axis runs."""
 
 
 def read_history(
@@ -69,7 +69,7 @@ def _row(name: str | Variable) -> Variable:
 
 
 def _labelled(row: Variable, values: ArrayLike, sizes: Mapping[str, int], single: bool) -> LabelledArray:
-    """Array of a row of the table; without the axis of time at a single time.
+    """Labelled array of a variable (a row of the table of variables); without the axis of time for a single time.
 
     Raises
     ------

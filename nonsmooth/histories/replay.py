@@ -36,11 +36,11 @@ _ACCOUNTED = (
     owners.Totals.closing_loss,
 )
 _MODES = np.array([Mode.OPEN, Mode.STICK, Mode.OPEN, Mode.OPEN, Mode.OPEN, Mode.SLIDE, Mode.OPEN, Mode.OPEN])
-"""Mode of a contact by its code, the bits of Eq. (29), after an event."""
+"""Mode of a contact after an event; the index is the sum of its bits: closed 1, approaching 2, slipping 4, Eq. (29)."""
 _DIRECTION, _RATE, _FACING, _AVERAGED, _FEATURES = (
     place - SLIP_DIRECTION for place in (SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES)
 )
-"""Columns of ``Events.listed_memory``, which begins with the slip direction."""
+"""First columns in ``Events.listed_memory`` of the slip direction, closing rate, faced direction, mode and features."""
 _SAMPLE, _EVENT, _END = range(3)
 _REPLAYS: weakref.WeakKeyDictionary[Track, StateReplay] = weakref.WeakKeyDictionary()
 
@@ -75,7 +75,7 @@ def check_recorded(where: str, what: str, system: System, engine: Engine) -> Non
 class StateReplay:
     """Stored states of a run in the order of time, and a model that integrates from them to other times.
 
-    If several states are stored for one time, the state after the last event counts.
+    If several states are stored for one time, the state after the last event at this time is used.
     """
 
     def __init__(self, solution: Solution) -> None:
@@ -91,7 +91,7 @@ class StateReplay:
         self._booked = np.concatenate([track.booked, events.booked])[order]
         self._event = np.cumsum(kinds[order] == _EVENT) - 1
         self._event_row = np.flatnonzero(kinds[order] == _EVENT)
-        # number of the event whose modes the model has; -2 if it has the modes of no event
+        # number of the event after which the contacts had the modes that the model has now; -2 if there is none
         self._put_event = -2
         self._alone = threading.Lock()
 
@@ -118,11 +118,14 @@ class StateReplay:
         return recorded and self._engine.uses_flow
 
     def codes(self, times: Floats) -> Integers:
-        """Codes of all contacts, the bits of Eq. (29), after the last event of each time, shape [n, n_contacts]."""
+        """Codes of all contacts after the last event of each time, shape [n, n_contacts].
+
+        A code is a sum of the bits of Eq. (29): closed 1, approaching 2, slipping 4.
+        """
         return self._events.codes_after(self._event[self._row(times)])
 
     def modes(self, times: Floats) -> Integers:
-        """Modes of all contacts, shape [n, n_contacts]."""
+        """Modes of all contacts after the last event of each time, 0 open, 1 stick, 2 slide; shape [n, n_contacts]."""
         return np.asarray(_MODES[self.codes(times)])
 
     def closed(self, times: Floats) -> Integers:

@@ -70,7 +70,7 @@ class HistoryRequest:
         return [self.solution.system.bodies[number] for number in self.numbers("body")]
 
     def columns(self, of: str) -> Integers:
-        """Columns of the bodies among the coordinates, ``of="n_q"``, or the velocities, ``of="n_u"``, of all bodies."""
+        """Numbers of the columns of the chosen bodies in q (``of="n_q"``) or u (``of="n_u"``) of all bodies."""
         sizes = [getattr(body, of) for body in self.solution.system.bodies]
         first = np.cumsum([0, *sizes])
         return np.concatenate(
@@ -138,7 +138,7 @@ def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | Non
 
 
 def _found(where: str, system: System, known: Mapping[str, Sequence[object]], part: object) -> list[tuple[str, int]]:
-    """Kinds and numbers of a part; errors as of :func:`numbers_of`."""
+    """Kinds and numbers that a part given by the user can mean, one at least; errors as of :func:`numbers_of`."""
     several = " or ".join(known)
     if isinstance(part, (int, np.integer)) and not isinstance(part, bool):
         if len(known) != 1:
@@ -164,7 +164,7 @@ def _found(where: str, system: System, known: Mapping[str, Sequence[object]], pa
 
 
 _PLURALS = {"contact": "contacts", "body": "bodies", "joint": "joints"}
-"""Attribute of a system, and of its names, with the parts of a kind."""
+"""Kind of a part -> attribute of a system that lists its parts of the kind; its names have the same attribute."""
 
 
 def _parts(system: System, kind: str) -> Sequence[object]:

@@ -79,7 +79,7 @@ class Modes:
 
     @property
     def mode_word(self) -> NDArray[Any]:
-        """Mode word of all contacts, shape [n]."""
+        """Mode word of all contacts, such as "{01,00,01}", Eq. (29), after the last event of each time, shape [n]."""
         codes = self.request.replay.codes(self.request.times)
         return np.array(self.request.solution.events.spelled(codes), dtype=str)
 
@@ -92,7 +92,8 @@ class Frames:
     Attributes
     ----------
     motion : array
-        Numbers of each frame, in the order of :mod:`nonsmooth.engine.memory.blocks`, shape [n, n_frames, 24].
+        Position, axes, velocities and further numbers of the motion of each frame, in the order of
+        :mod:`nonsmooth.engine.memory.blocks`, shape [n, n_frames, 24].
     """
 
     motion: Floats
@@ -113,7 +114,7 @@ class Frames:
         return cls(np.concatenate(parts, axis=1))
 
     def part(self, first: int) -> Floats:
-        """Three numbers of each frame from column ``first`` on, shape [n, n_frames, 3]."""
+        """Columns ``first`` to ``first + 2`` of the motion of each frame, shape [n, n_frames, 3]."""
         return self.motion[:, :, first : first + 3]
 
     @property
@@ -192,7 +193,7 @@ class Energies:
 
     @property
     def loss(self) -> Floats:
-        """All losses [J], shape [n]."""
+        """Sum of the losses by restitution, friction and closing since the start of the account [J], shape [n]."""
         return self.restitution_loss + self.friction_loss + self.closing_loss
 
     @property
@@ -243,7 +244,7 @@ class Joints:
 @final
 @dataclass(frozen=True)
 class _JointReader:
-    """Views of the frame of the second body of a joint, of the rows of the joint, and of the forces along them."""
+    """Reader of one joint: views of its second body's frame, its rows (constraints) and the forces along the rows."""
 
     origin: Floats
     rows: Floats

@@ -180,13 +180,13 @@ def copied(memory: Memory) -> Memory:
         integers=np.zeros_like(memory.integers),
         owner=None if PLAIN else owner,
     )
-    # all arrays but the late ones, which are buffers and work space, and the blocks
+    # copy all arrays and blocks, except the late arrays, which are buffers and work space, and the tables
     for new, old in zip(made.early, memory.early, strict=True):
         new[:] = old
-    # the tables; empty unless in plain mode
+    # copy the tables in plain mode; otherwise this range is empty
     floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
     distance = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
-    # distances from the start of the parameters of a function to its table
+    # write the distance from the start of the parameters of a function to its table
     for place, start, table in memory.references:
         floats[place] = table - start + distance
     return made

@@ -45,7 +45,7 @@ def articulations(system: System) -> list[ArticulationLayout]:
     (``n_u`` > 0). A driven body ties no others, because its motion is given.
     """
     bodies = system.bodies
-    # for each body, the last body that a joint ties to it
+    # number of the last body that a joint ties to each body; the body itself without a joint
     last = list(range(len(bodies)))
     for tie in system.joints:
         numbers = [i for i, body in enumerate(bodies) if (body is tie.first or body is tie.second) and body.n_u > 0]
@@ -54,12 +54,12 @@ def articulations(system: System) -> list[ArticulationLayout]:
     first = 0
     while first < len(bodies):
         end = number = first
-        # the range grows by the bodies that are tied to those in it
+        # the range of bodies is extended to the last body that is tied to a body in it
         while number <= end:
             end = max(end, last[number])
             number += 1
         members = bodies[first : end + 1]
-        # a driven body may belong to another range, so a joint belongs to the range of its movable bodies
+        # a joint belongs to the articulation of its movable bodies; its driven body may be outside of their range
         movable = [body for body in members if body.n_u > 0]
         joints = tuple(t for t in system.joints if any(body is t.first or body is t.second for body in movable))
         found.append(ArticulationLayout(first, members, joints))

@@ -325,7 +325,7 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
 
 
 _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Places in the block of a contact that belong to its geometry."""
+"""Fields of a contact with places in its block for numbers of its geometry, which other laws do not change."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
@@ -344,7 +344,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers}
     for numbers in kinds:
-        # one contact for each kind that these contacts had with the former laws
+        # contacts of one kind have equal laws and geometry; one example for each former kind among these contacts
         examples = {former_kind[number]: number for number in numbers}.values()
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):
@@ -389,7 +389,7 @@ def _check_same(one: System, other: System) -> None:
 
 
 def _refuse(after: Contact, before: Contact) -> None:
-    """Raise InvalidInput for a contact whose new laws need other blocks than the laws before."""
+    """Raise InvalidInput for a contact whose new laws need a block of another size or order than its former laws."""
     laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
     raise InvalidInput(
         f"with_laws_of: the laws of the {after}",

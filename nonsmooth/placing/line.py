@@ -16,16 +16,19 @@ _STEPS = 5000
 _FARTHEST = 1e6
 _ROUND_OFF = 1e-9
 _NEAR = 1e-7
-"""Gap that may remain where solids meet, relative to the size of a contact: the distance of round solids is inexact."""
+"""Largest gap where two solids meet, relative to the size of a contact: distances of round solids are inexact."""
 _GRAZING = 1e4
-"""Largest ratio of the speed along the line to the rate of the engine's gap, for which a place is made exact."""
+"""Largest distance along the line searched for the exact meeting, relative to the inexactness of the gap.
+
+The search ends there because in grazing motion the gap hardly changes along the line.
+"""
 
 
 class Line:
     """The line along which a body can move without being turned.
 
     If all shapes of a contact have solids, their :class:`Passage` gives the meeting.  For other contacts the gaps give
-    it: a gap changes no faster than the body moves, so a step as long as the least gap passes no meeting.
+    it: a gap changes no faster than the body moves, so a step as long as the least gap cannot pass a meeting.
 
     Parameters
     ----------
@@ -96,7 +99,7 @@ class Line:
         return self._probe.gaps() - self._height
 
     def _least_gap(self, distance: float) -> float:
-        """Least gap, minus the height, of the contacts with a shape without solid [m]."""
+        """Least gap minus the height [m], of the contacts with a shape without solid; inf without such contacts."""
         return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
 
     def _at_distance(self, distance: float) -> list[Passage]:
@@ -130,7 +133,10 @@ class Line:
         return np.inf
 
     def _exact(self, distance: float) -> float:
-        """Distance at which the least gap of all contacts is the height [m], if close to the meeting of the solids."""
+        """Distance along the line at which the least gap of all contacts equals the height [m].
+
+        It is searched near ``distance``, the meeting of the solids, and is ``distance`` if the search fails.
+        """
         from scipy.optimize import brentq
 
         def over(place: float) -> float:
@@ -150,7 +156,7 @@ class Line:
         return distance
 
     def _motion(self) -> tuple[Vector, Vector]:
-        """Coordinate rates for unit speed in the possible direction nearest to the given one, and this direction."""
+        """Coordinate rates dq/dt at 1 m/s along the possible direction nearest to ``way``, and this direction."""
         probe = self._probe
         probe.frame(0)
         u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]

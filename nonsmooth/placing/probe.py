@@ -93,7 +93,7 @@ class Probe:
         return self._part("tail", 0, self.body.n_q).copy()
 
     def gaps(self) -> Vector:
-        """Gaps of its contacts [m]; lower bounds for contacts too far apart for the neighbour list."""
+        """Gaps of the body's contacts [m], shape [n]; lower bounds for contacts not on the neighbour list."""
         self.model.list_contacts()
         gaps = np.asarray(self.model.gaps())
         margin = float(self.model.memory[owners.Island.list_margin])
@@ -104,7 +104,7 @@ class Probe:
         return gaps
 
     def rates(self, u: Vector) -> Vector:
-        """Gap rate and slip velocity of its contacts [m/s], shape [n, 3]; NaN if not on the neighbour list."""
+        """Gap rate and slip velocity of the body's contacts [m/s], shape [n, 3]; NaN if not on the neighbour list."""
         self.u[:] = u
         call_entry("evaluate_at", self.model.memory)
         n = int(self.model.memory[owners.Island.n_contacts])

@@ -83,7 +83,7 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     _move(system, body, 0.0, direction, start)
     probe = Probe.of(system, body)
     gaps = probe.gaps()
-    # the solids give the meeting, and the remaining gap there need not be zero
+    # the body was moved until solids meet, where the gap of the touching contact need not be exactly zero
     touched = gaps <= max(float(np.min(gaps)), 0.0) + _ROUND_OFF * max(contact.size for contact in probe.contacts)
     contact = probe.contacts[int(np.argmin(gaps))]
     own, other = (0, 1) if contact.first is body else (1, 0)

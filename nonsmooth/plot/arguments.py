@@ -28,7 +28,7 @@ Contacts: TypeAlias = OneContact | Sequence[OneContact]
 MOST = 8
 """Largest number of contacts of a picture by default, so that their lines can be distinguished."""
 _MOST_EVENTS = 2000
-"""Largest number of events that are drawn with both sides: more events could not be distinguished."""
+"""Largest number of events at which values just before and just after are drawn: more could not be distinguished."""
 
 
 def pyplot() -> ModuleType:
@@ -57,7 +57,8 @@ def axes_of(ax: Axes | None, height: float = 3.6) -> Axes:
 def times_of(where: str, solution: Solution, times: ArrayLike | None, *, before: bool = True) -> Floats:
     """Times to draw [s], shape [n]: the given times, or the times of all samples and events in order.
 
-    With ``before``, the last time before each event is added. With more than 2000 events, the samples are drawn only.
+    With ``before``, the last time before each event is added, so that jumps are drawn. With more than 2000 events, the
+    times are only those of the samples.
 
     Raises
     ------

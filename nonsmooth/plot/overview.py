@@ -24,7 +24,10 @@ if TYPE_CHECKING:
 Panel: TypeAlias = "Callable[[Axes], Axes]"
 _WIDTH, _HEIGHT = 13.0, 2.6
 _LOOKS, _BODIES = 30, 40
-"""Approximate number of instants, and largest number of bodies, that are compared to find the farthest path."""
+"""Approximate number of instants (30), and largest number of bodies (40), searched for the body with the longest path.
+
+The limits keep the search short in runs of many samples or bodies.
+"""
 
 
 def overview(solution: Solution) -> Figure:

@@ -64,7 +64,7 @@ def find(thing: str, group: str, base: type, word: str, folder: Path | None = No
 
 
 def load(thing: str, bases: tuple[type, ...], word: str, folder: Path | None = None) -> Any:
-    """Class of ``file.py:Class`` that implements one of ``bases``; otherwise as :func:`find`."""
+    """Class of ``file.py:Class`` that implements one of ``bases``; parameters and errors as of :func:`find`."""
     match = _FILE.fullmatch(word)
     if match is None:
         example = f"For example {word.partition(':')[0]}:My{bases[0].__name__}; a script is run by python itself."
@@ -97,7 +97,7 @@ def loaded() -> tuple[Path, ...]:
 
 
 def again(path: Path) -> None:
-    """Load a file that another process has loaded, unless this process has loaded it already.
+    """Load a Python file with classes in a worker process, as the main process did, unless it is loaded already.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def again(path: Path) -> None:
 
 
 def _key(path: Path) -> str:
-    """Module name for a file, with a digest of its path, so that no package has the same name."""
+    """Module name under which a file is loaded: its stem and a digest of its path, so that no package has this name."""
     return f"{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
 
 

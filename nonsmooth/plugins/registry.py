@@ -49,9 +49,9 @@ _GROUPS: dict[str, tuple[str, tuple[type, ...]]] = {
 GROUPS = {group: interfaces for group, (_, interfaces) in _GROUPS.items()}
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
 KINDS = {group: kind for group, (kind, _) in _GROUPS.items()}
-"""Word for a member of each group, for messages."""
+"""Group of entry points -> word for a component of the group, for messages, such as "laws" -> "law"."""
 _LAWS = {NormalLaw: "normal law", TangentialLaw: "friction law", ImpactLaw: "impact law"}
-"""Word for a law by its interface, for messages."""
+"""Interface of a law -> word for such a law, for messages."""
 
 
 class BrokenPlugin(NonsmoothWarning):
@@ -108,7 +108,7 @@ _BEGAN_IN = _working_folder()
 
 @functools.cache
 def packages() -> frozenset[str]:
-    """Packages and modules of the installed components. Nothing is imported.
+    """Names of the packages and modules that contain installed components. No component is imported.
 
     Namespace packages are left out, because a folder of the same name in the working folder belongs to them.
     """
@@ -120,7 +120,7 @@ def packages() -> frozenset[str]:
 def _is_namespace(package: str) -> bool:
     try:
         spec = importlib.util.find_spec(package)
-    except ValueError:  # a program has created the module, without a specification
+    except ValueError:  # the module has no specification, because a program made it by hand
         return True
     return spec is None or spec.origin is None
 
@@ -226,7 +226,7 @@ INTERFACES = tuple(base for bases in GROUPS.values() for base in bases)
 
 
 def kind_of(owner: type) -> str:
-    """Word for the kind of component that a class is."""
+    """Word for the kind of a component class, such as "law" or "body", for messages."""
     return next(KINDS[group] for group, bases in GROUPS.items() if issubclass(owner, bases))
 
 
@@ -241,7 +241,10 @@ def kinds_named(name: str) -> str:
 
 
 def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
-    """Reason why an object of a plug-in cannot be used; None for a dataclass that implements one of the bases."""
+    """Reason why an object is no usable component of a plug-in; None for a dataclass that implements one of ``bases``.
+
+    The reason continues a sentence that begins with the name of the object.
+    """
     if not (isinstance(loaded, type) and issubclass(loaded, bases)):
         wanted = " or ".join(base.__name__ for base in bases)
         return f"must be a subclass of {wanted}, not {loaded!r}."
@@ -262,7 +265,7 @@ def name_of(owner: type) -> str | None:
     for group, bases in GROUPS.items():
         if issubclass(owner, bases):
             for name, point in _points(group).items():
-                # a module may re-export a class of another module
+                # compare the class itself, because another class may have the same name
                 if point.attr == owner.__name__ and _loaded(group, name) is owner:
                     return name
     return None

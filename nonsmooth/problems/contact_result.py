@@ -27,7 +27,7 @@ class ContactMode(StrEnum):
     STICK = "stick"
     """The contact is closed, and friction holds it."""
     SLIDE = "slide"
-    """The contact is closed and slips, or is about to."""
+    """The contact is closed and slips, or begins to slip."""
 
 
 _MOST_SEARCHED = 6
@@ -51,8 +51,8 @@ class ContactResult:
     modes : tuple of ContactMode
         Mode of every contact, length n. Each is a str, too: "open", "stick" or "slide".
 
-    If several sets of forces give the same motion, the result is the set of least norm, with contacts that would pull
-    left open.  If this set breaks Coulomb's bound, the result is a set near it that keeps the bound.
+    If several sets of forces give the same motion, the result is the set of least norm.  Contacts that would pull in
+    it are left open.  If this set breaks Coulomb's bound, the result is a set near it that keeps the bound.
     """
 
     normal_force: Floats
@@ -65,7 +65,7 @@ class ContactResult:
 
     @property
     def _size(self) -> float:
-        """Size of the contact accelerations that cancel each other [m/s^2], the scale of their round-off."""
+        """Size of the terms whose sum is a contact acceleration [m/s^2]: the round-off of the sum is relative to it."""
         delassus = read_delassus(self._memory, len(self.modes))
         return max(float(np.max(np.abs(delassus))) * float(np.max(np.abs(self.normal_force))), 1e-300)
 
@@ -102,7 +102,7 @@ class ContactResult:
 
     @property
     def forces_are_unique(self) -> bool:
-        """Whether only these forces give this motion: :attr:`null_space` is empty.
+        """Whether only these forces give this motion, because :attr:`null_space` is empty.
 
         True is a proof.  False means that the null space has directions.  If a force is at its bound, a change along a
         direction may be possible with one sign only, or, rarely, not at all.
@@ -119,7 +119,8 @@ class ContactResult:
 
         Without friction the right-hand side is zero, and so is G (f - f'), as G is positive semidefinite: the motion is
         unique.  With friction and a regular G the right-hand side is at most s times the left-hand side, where
-        s^2 = (largest eigenvalue of G_TT) (largest eigenvalue of D (G^-1)_NN D), D = diag(mu).  So s < 1 proves it.
+        s^2 = (largest eigenvalue of G_TT) (largest eigenvalue of D (G^-1)_NN D), D = diag(mu).  So motion and forces
+        are unique if s < 1.
         """
         n = len(self.modes)
         mu = self._memory[owners.ActiveContact.friction_coefficient][:n]

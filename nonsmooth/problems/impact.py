@@ -103,7 +103,8 @@ def solve_impact(
     friction : sequence of FrictionLaw
         Friction law of every contact, length n.
     prescribed : array, optional
-        Gap rate and slip velocity that the driven sides add [m/s], shape [n, 3].
+        Part of gap rate and slip velocity that is due to driven bodies, which ``velocity`` does not include [m/s],
+        shape [n, 3].
     tolerance : float
         Relative error of a step.
 

@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 
 
 def read_arrays(call: str, remedy: str, **given: tuple[ArrayLike | None, tuple[int, ...]]) -> list[Floats]:
-    """Given arrays as floats, checked for the shapes given with them; zeros in place of None.
+    """Arrays of floats from the arguments ``given``, each with its required shape; zeros in place of None.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
     n = len(matrix) // 3
     blocks = np.reshape(matrix, (n, 3, n, 3)).transpose(0, 2, 1, 3)
     coupled = np.any(blocks != 0.0, axis=(2, 3))
-    # both blocks of a pair, and the one on the diagonal even if it is zero
+    # store both blocks of a coupled pair of contacts, and each block on the diagonal even if it is zero
     coupled |= coupled.T | np.eye(n, dtype=bool)
     rows, columns = np.nonzero(coupled)
     if len(columns) > MOST_BLOCKS:

@@ -19,7 +19,7 @@ from nonsmooth.problems.impact import solve_impact
 def restitution(law: ImpactLaw, speed: float) -> float:
     """Ratio of separation speed to approach speed in an impact of one contact, without slip and friction.
 
-    Every impact law, also one in energies or impulses, has this coefficient as long as no other contact takes part.
+    Every impact law, also a law in terms of energies or impulses, has this coefficient if no other contact takes part.
     The coefficient does not depend on the mass.
 
     Parameters

@@ -18,9 +18,9 @@ class Display(ABC):
     """Shows the progress of a computation."""
 
     patience: float
-    """Wall time before the first state is shown [s]."""
+    """Wall time of the computation before its progress is shown for the first time [s]."""
     interval: float
-    """Wall time between two states [s]."""
+    """Wall time between two updates of the display [s]."""
 
     @abstractmethod
     def show(self, part: float, reached: str, details: str) -> None:

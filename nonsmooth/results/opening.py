@@ -62,7 +62,7 @@ class Unavailable(Engine):
 
 
 _NONE: dict[str, Any] = {"limits": {}}
-"""Counters of an unfinished run that are not numbers; all others are 0."""
+"""Values of the counters of an unfinished run that are not plain numbers; all other counters are 0."""
 
 
 def open_solution(

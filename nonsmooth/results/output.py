@@ -79,7 +79,7 @@ def versions() -> Mapping[str, str]:
         "engine": "plain",
     }
     if not PLAIN:
-        # in plain Python (NONSMOOTH_PLAIN=1), numba is not imported
+        # plain Python (NONSMOOTH_PLAIN=1) does not need this module, which imports llvmlite
         from nonsmooth.engine.native.folders import build_name
 
         found |= {"numba": version("numba"), "engine": build_name()}

@@ -95,7 +95,7 @@ class SolutionFolder:
     def __init__(self, arrays: ArrayFolder, lock: BaseFileLock | None = None) -> None:
         self._arrays, self._lock = arrays, lock
         self._safe = False
-        # numbers of coordinates and velocities, and committed lengths
+        # number of coordinates, number of velocities, and the committed length of each dimension that grows
         self._n_q, self._n_u = (arrays.layout(name).shape[0] for name in ("coordinate", "velocity"))
         self._lengths = {dimension: arrays.layout(name).shape[0] for dimension, name in _LENGTHS.items()}
 
@@ -103,7 +103,7 @@ class SolutionFolder:
     def created(
         cls, output: Output, system: System, engine: Engine, request: RunRequest, n_states: int
     ) -> SolutionFolder:
-        """Make the folder of a run that begins; its content counts from the first :meth:`begin` on.
+        """Make the folder of a run that begins; its content is committed, and so readable, by the first :meth:`begin`.
 
         Raises
         ------
@@ -200,7 +200,7 @@ class SolutionFolder:
         return str(self.attributes.get("status"))
 
     def said(self, name: str, kind: type = dict) -> Any:
-        """An attribute that is stored as JSON: a table, or another ``kind``, such as a list.
+        """Value of an attribute of the folder that is stored as JSON text; it must be of the type ``kind``.
 
         Raises
         ------
@@ -216,7 +216,7 @@ class SolutionFolder:
         return found
 
     def system_text(self) -> str:
-        """The system as a scenario file, "" if it could not be written."""
+        """Text of a scenario file with the system that ran; "" if a scenario file cannot hold this system."""
         return str(self._arrays.read("system"))
 
     def events(self) -> Events:
@@ -248,7 +248,7 @@ class SolutionFolder:
 
     @property
     def request(self) -> RunRequest:
-        """The arguments of the run.
+        """Arguments of the run, as the folder stores them.
 
         Raises
         ------

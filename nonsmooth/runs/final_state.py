@@ -41,7 +41,7 @@ class FixedPlaces(NamedTuple):
     Attributes
     ----------
     tails : array
-        Place among the blocks of q' of each body, behind which are force, inverse mass and energies.
+        Place of the coordinate rates dq/dt of each body among the blocks; force, inverse mass and energies follow.
     features : array
         Place among the blocks of the features of each declared contact, negative if it has none.
     changing : tuple of array

@@ -46,7 +46,7 @@ class OutputSink:
         """
 
     def write(self, checkpoint: Checkpoint) -> None:
-        """Write the results up to a checkpoint, if it is time.
+        """Write the results up to a checkpoint, if the time for the next commit has come.
 
         Raises
         ------
@@ -129,7 +129,7 @@ class FolderSink(OutputSink):
         wanted = self._steps * _CALL_TIME / max(now - self._last_call, 1e-6)
         self._steps = int(min(_MOST_STEPS, 4 * self._steps, max(_FEWEST_STEPS, wanted)))
         is_time = now >= self._next_commit and (self._commit is None or self._commit.done())
-        # a run that records faster than the disk writes waits for the disk
+        # if the unwritten records become too large, the run waits for the disk instead of filling the memory
         if is_time or records.size(unwritten=True) > _LARGEST_SIZE:
             # raises the error of the last commit
             self._wait()

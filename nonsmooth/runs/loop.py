@@ -28,9 +28,9 @@ from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.storage.files import FileError
 
 _CHECKPOINT_CALL = 16
-"""Time that calls of Python take for a checkpoint of a small model, in times of the shortest step, a microsecond."""
+"""Time of the Python calls for a checkpoint of a small model, relative to the shortest time of a step, 1 us."""
 _COPIED = 1 << 13
-"""Size of the part of a checkpoint that is copied in the time of the shortest step [bytes]."""
+"""Size of the part of a checkpoint that can be copied in 1 us, the shortest time of a step [bytes]."""
 Progress = Callable[[float, float], None]
 
 
@@ -202,7 +202,7 @@ class EngineLoop:
                 # an engine with full buffers takes no step
                 self._monitor.observe(status)
                 records.drain()
-            # as many steps as take the time of the checkpoint; a continued run repeats these steps
+            # these steps take about as long as the checkpoint; a continued run repeats them
             most_steps = max(_CHECKPOINT_CALL, self._checkpoint.size // _COPIED)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
         # the monitor reads the buffers, so they are drained after it

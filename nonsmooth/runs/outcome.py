@@ -22,7 +22,10 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, Integers
 
 _NEGLIGIBLE = 0.1
-"""Share of the whole change of the imbalance that the span may omit at each end, so that the span is short."""
+"""Part of the whole change of the imbalance of energy that the reported span of time may omit at each of its ends.
+
+Without this omission the span could be long, although most of the change occurs in a short time.
+"""
 _MODE_AFTER_FALLBACK = 4
 """Column of ``Events.listed_memory`` with the mode after the time-stepping fallback; without fallback it is open."""
 _N_NAMED = 4
@@ -41,18 +44,18 @@ def imbalance_span(solution: Solution) -> str:
     try:
         imbalance = solution.history("unexplained_energy", times=times)["unexplained_energy"]
     except InvalidInput:
-        # contacts were declared since the run
+        # no history can be computed, because contacts were declared since the run
         return ""
     first, last = _span(imbalance)
     if first == last:
-        # the imbalance is constant
+        # the imbalance is constant, so that no span contains its change
         return ""
     span = f"Most of it came about from t = {times[first]:.9g} s to {times[last]:.9g} s"
     contacts, has_fallback = _contacts_within(events, times[first], times[last])
     if len(contacts) == 0:
         return f"{span}."
     pairs = [solution.system.contacts[number] for number in np.unique(contacts).tolist()]
-    # the free bodies, each of them once
+    # free bodies of these contacts by identity, so that each body is named once
     bodies = {id(body): body for one in pairs for body in (one.first, one.second) if body.n_u > 0}
     names = [repr(solution.system.name_of(body)) for body in bodies.values()]
     more = f" and {len(names) - _N_NAMED} more" if len(names) > _N_NAMED else ""
@@ -152,7 +155,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
         Samples of the run, shape [n, m]: columns are t [s], q, u and more.
     """
     contacts, numbers = model.system.contacts, model.contacts_without_parts
-    # the engine has checked all other contacts during the run
+    # no contact has to be checked here: the engine has checked all of them during the run
     if not numbers:
         return ""
     before = Checkpoint.of(model.memory)
@@ -167,7 +170,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
                 return _sentences(model, row[0], found)
     finally:
         before.put(model.memory)
-        # a checkpoint has no results of evaluations
+        # evaluate again, because a checkpoint restores the state but no results of evaluations
         model.evaluate()
     return ""
 

@@ -94,8 +94,8 @@ class Records:
     def drain(self) -> None:
         """Copy the buffers of the engine and empty them.
 
-        If an interrupt came after the copy, the part of the engine's last call exists. Then the buffers are only
-        emptied.
+        Each call of the engine has one copy. If an interrupt prevented only the emptying, the copy of the engine's last
+        call exists already, and the buffers are only emptied.
         """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
@@ -217,7 +217,7 @@ class Records:
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def size(self, *, unwritten: bool) -> int:
-        """Size of all parts in memory [bytes], or, with ``unwritten``, of the parts that were not taken for writing."""
+        """Size of the records in memory [bytes]; with ``unwritten``, only of those not yet taken for writing."""
         parts = list(self._parts.values())[self._n_taken if unwritten else 0 :]
         return sum(array.nbytes for part in parts for array in part)
 

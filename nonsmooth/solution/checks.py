@@ -55,13 +55,13 @@ def friction_gain(solution: Solution) -> float:
     gain, last, n_samples, booked, time = 0.0, np.zeros(0), 0, 0.0, track.time[:-1]
     for block in solution.events.blocks():
         place = track.y.shape[1] - block.integrated.shape[1] + FRICTION_LOSS
-        # samples before the last event of the block; a sample at the time of an event comes after the event
+        # index behind the samples before the last event of the block; a sample at the same time comes after the event
         stop = int(np.searchsorted(time, block.time[-1])) if len(block) else 0
         order = np.argsort(np.concatenate([block.time, time[n_samples:stop]]), kind="stable")
         loss = np.concatenate([block.integrated[:, FRICTION_LOSS], track.y[n_samples:stop, place]])[order]
         gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
         booked = float(block.booked[-1, _FRICTION]) if len(block) else 0.0
-    # the final state holds the sum of both; the part accounted at events is subtracted
+    # the final state has the sum of the integrated friction loss and the loss accounted at events: subtract the latter
     end = track.y[-1, place] + track.booked[-1, _FRICTION] - booked
     return gain + _decrease(last, np.append(track.y[n_samples:-1, place], end))
 
@@ -77,6 +77,6 @@ def findings(solution: Solution) -> str:
     outside, gain = int(np.count_nonzero(impulses_beyond_cone(solution))), friction_gain(solution)
     found = [f", {unchecked} contacts whose bodies are not checked for overlap"] if unchecked else []
     found += [f", {outside} impulses outside of their friction cones"] if outside else []
-    # a gain below the imbalance of the account is round-off
+    # a smaller gain than the unexplained energy of the run may be an error of the integration
     found += [f", {gain:.1e} J added by friction"] if gain > solution.energy.unexplained else []
     return "".join(found)

@@ -83,7 +83,7 @@ _ENERGIES = [name for name, row in VARIABLES.items() if row.unit == "J"]
 """Variables of the series "energies"."""
 _HEAD = ("time [s]", "cause", "contact or guard", "phases", *(f"{name} [J]" for name in ENERGIES), "modes")
 _UNCHANGED = {bits << BEFORE | bits << DURING | bits << AFTER for bits in range(CODE + 1)}
-"""Codes of contacts whose mode an event does not change."""
+"""Codes of a contact whose bits are equal before, during and after an event, which thus does not change its mode."""
 
 
 def _forces(solution: Solution) -> History:

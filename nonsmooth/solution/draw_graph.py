@@ -24,14 +24,14 @@ Point: TypeAlias = tuple[float, float]
 _WIDE = 1.25
 """Horizontal stretch of the layout, because mode words are written horizontally."""
 _STARTS, _ROUNDS = 16, 300
-"""Number of initial layouts, and of iterations from each."""
+"""Number of initial layouts (16), and number of iterations from each of them (300)."""
 
 
 def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
     """Places of the modes in the plane; distances approximate the least numbers of transitions between modes.
 
-    The sum of the weighted squares of the differences is minimised by majorisation (de Leeuw).  Initial layouts are
-    modes on a circle in several orders.  The result with the fewest crossing lines is taken.
+    The sum of the weighted squares of distance minus number is minimised by majorisation (de Leeuw).  Initial layouts
+    are modes on a circle in several orders.  The result with the fewest crossing lines is taken.
     """
     visits = graph.visits
     modes = sorted(graph.shares, key=lambda m: (m in graph.passing, m != graph.start, -graph.shares[m], -visits[m]))
@@ -49,7 +49,10 @@ def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
 
 
 def _relaxed(steps: Array, order: Array) -> Array:
-    """Places after majorisation, shape [n, 2], from modes on a circle in an order."""
+    """Places of the n modes after majorisation, shape [n, 2].
+
+    It starts with the modes on a circle, mode i at the angle 2 pi ``order[i]`` / n.
+    """
     n = len(steps)
     weights = np.divide(1.0, steps**2, out=np.zeros_like(steps), where=steps > 0.0)
     inverse = np.linalg.pinv(np.diag(weights.sum(axis=1)) - weights)
@@ -63,13 +66,13 @@ def _relaxed(steps: Array, order: Array) -> Array:
 
 
 def _stress(points: Array, steps: Array) -> float:
-    """Sum of the squares of the differences between distances and numbers of transitions, relative to these."""
+    """Sum of the squares of (distance - number) / number, where the number is that of transitions between two modes."""
     apart = np.linalg.norm(points[:, None] - points[None], axis=2)
     return float(np.sum(np.divide(apart - steps, steps, out=np.zeros_like(steps), where=steps > 0.0) ** 2))
 
 
 def _crossings(points: Array, lines: Sequence[tuple[int, int]]) -> int:
-    """Number of pairs of lines that cross."""
+    """Number of pairs of lines that cross; each line is given by the indices of its two ends in ``points``."""
 
     def side(a: int, b: int, c: int) -> bool:
         (x, y), (u, v) = points[b] - points[a], points[c] - points[a]
@@ -101,7 +104,7 @@ def _steps_between(modes: Sequence[ContactModes], graph: TransitionGraph) -> Arr
 
 _MOST_MODES = 14
 _LONGEST_WORD, _FEW = 16, 8
-"""Longest mode word in a node [characters], and largest number of nodes with words; beyond, nodes are numbered."""
+"""Longest mode word (16 characters) and largest number of nodes (8) for which the nodes show words, not numbers."""
 _MOST_CONTACTS = 14
 """Largest number of contacts with readable mode words; modes of more contacts are grouped."""
 _LONGEST_LINE = 110
@@ -268,7 +271,7 @@ def _draw_edges(
 def _list_words(
     panel: Axes, graph: TransitionGraph, words: dict[ContactModes, str], visits: dict[ContactModes, int]
 ) -> None:
-    """List number, visits, share and word of each node."""
+    """Draw a list with number, visits, share of the time and mode word of each node."""
     rows = []
     for number, (mode, n) in enumerate(visits.items(), 1):
         share = "impact" if mode in graph.passing else _percent(graph.shares[mode])

@@ -14,7 +14,7 @@ from nonsmooth.solution.state import State
 @final
 @dataclass(frozen=True)
 class RunRequest:
-    """End and samples of a run: the arguments that its steps and samples depend on, apart from its start.
+    """Arguments on which the steps and samples of a run depend, apart from its start: end time, samples and condition.
 
     A state does not contain them, because a run may continue to another end time. The folder of a run stores them, so
     that a run that was cut off can be resumed.
@@ -89,7 +89,7 @@ class EndSource(Protocol):
     """Source of the end of a run: the end itself, or the memory of the model after the run."""
 
     def read(self) -> End:
-        """Read the end."""
+        """Return the end of the run, read from this source."""
 
 
 @final
@@ -108,7 +108,7 @@ class End:
     cause : str
         Name of the cause, if it is one that the engine declares (``Engine.causes``), else "".
     verdict : mapping of Measure to float
-        Numbers by which the engine judges the run.
+        Value of each measure that the engine declares to judge the run.
     """
 
     state: State
@@ -119,10 +119,10 @@ class End:
     verdict: Mapping[Measure, float] = field(default_factory=dict)
 
     def read(self) -> End:
-        """The end itself."""
+        """Return this end, which is its own source (:class:`EndSource`)."""
         return self
 
     @property
     def measured(self) -> dict[str, float]:
-        """Numbers of the verdict by the names of their measures."""
+        """Values of the engine's verdict on the run, by the names of the measures."""
         return {measure.name: value for measure, value in self.verdict.items()}

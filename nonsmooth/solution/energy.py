@@ -16,10 +16,11 @@ class EnergyAccount:
     driven_work : float
         Work of the driven bodies on the other bodies.
     restitution_loss, friction_loss, closing_loss : float
-        Losses in impacts, to friction in impacts and sustained slip, and in closing steps and projections.
+        Losses by restitution in impacts, by friction in impacts and in sustained slip, and by closing steps and
+        projections, respectively.
     load_work : float
-        Work of the loads and of the normal forces of compliant contacts; springs of either kind count here, not in the
-        potential energy.
+        Work of the loads and of the normal forces of compliant contacts.  The energy of springs and of compliant
+        contacts counts here, not in the potential energy.
     exchanged_in_flow : float
         Gross energy that gravity, driven bodies and friction exchanged between events, each counted as positive.
     """
@@ -42,7 +43,7 @@ class EnergyAccount:
 
     @property
     def loss(self) -> float:
-        """All losses [J]."""
+        """Sum of the losses by restitution, friction and closing [J]."""
         return self.restitution_loss + self.friction_loss + self.closing_loss
 
     @property
@@ -52,15 +53,15 @@ class EnergyAccount:
 
     @property
     def unexplained(self) -> float:
-        """Part of the change that the account does not explain [J]."""
+        """Magnitude of the change of kinetic and potential energy that no work and no loss explains [J]."""
         return abs(self.change - self.driven_work - self.load_work + self.loss)
 
     @property
     def scale(self) -> float:
-        """Energy that an unexplained change is compared with [J].
+        """Energy with which the unexplained change is compared [J].
 
-        It is the largest of three: the energy exchanged, the kinetic energy, which counts in free tumbling, and a
-        millionth of the potential energy, which counts at rest.
+        It is the largest of three energies: the energy exchanged, the kinetic energy (larger in free tumbling), and a
+        millionth of the potential energy (larger at rest).
         """
         kinetic = max(self.kinetic_start, self.kinetic_end)
         potential = max(abs(self.potential_start), abs(self.potential_end))
@@ -68,5 +69,5 @@ class EnergyAccount:
 
     @property
     def residual(self) -> float:
-        """Part of the change that the account does not explain, relative to :attr:`scale`."""
+        """Unexplained change of energy (:attr:`unexplained`) relative to :attr:`scale`; in J if that scale is zero."""
         return self.unexplained / self.scale if self.scale > 0.0 else self.unexplained

@@ -120,7 +120,7 @@ class Events:
         row = floats[start[:, None] + np.arange(width)]
         parts = np.cumsum([EVENT_HEAD, n_q, n_u, n_u, n_y - n_q - n_u])
         time_and_energies, q, u_before, u_after, integrated, booked = np.split(row, parts, axis=1)
-        # entry j of the list of an event is j places behind the head of the event
+        # an event is stored as a head and a list of contacts; contact j of the list is j places behind the head
         event = np.repeat(np.arange(len(head)), np.diff(first))
         j = np.arange(int(first[-1])) - first[event]
         pair = head[event] + CODE_HEAD + 2 * j
@@ -152,7 +152,7 @@ class Events:
             yield self._block(start, min(start + _BLOCK, n))
 
     def _block(self, start: int, stop: int) -> Events:
-        """The events from ``start`` to ``stop``."""
+        """Events with the numbers from ``start`` on, up to ``stop`` - 1."""
         first = self.first[start : stop + 1]
         listed = int(first[0]), int(first[-1])
 
@@ -183,7 +183,7 @@ class Events:
         return cls(starts[-1], parts[0].n_contacts, read)
 
     def _bits(self, shift: int) -> Integers:
-        """Bits of every contact at every event, shape [n, n_contacts]."""
+        """Three bits of the code of every contact at every event, from bit ``shift`` on, shape [n, n_contacts]."""
         bits = np.zeros((len(self), self.n_contacts), dtype=np.int64)
         bits[self._event_of_entry(), self.listed] = self.codes >> shift & CODE
         return bits
@@ -198,7 +198,7 @@ class Events:
 
     @functools.cached_property
     def during(self) -> Integers:
-        """The bits during the event; in an impact they differ from ``before`` and show the contacts that collide."""
+        """Bits per contact during the event, shape [n, n_contacts]; in an impact they show which contacts collide."""
         return self._bits(DURING)
 
     @functools.cached_property
@@ -239,7 +239,7 @@ class Events:
         return ["" if i < 0 else (guards if cause == Cause.GUARD else contacts)[i] for cause, i in pairs]
 
     def words(self, which: str) -> list[str]:
-        """Mode words ``before``, ``during`` or ``after`` every event."""
+        """Mode word of all contacts, such as "{01,00,01}", for each event: "before", "during" or "after" it."""
         codes: Integers = {"before": self.before, "during": self.during, "after": self.after}[which]
         return self.spelled(codes)
 
@@ -261,7 +261,10 @@ class Events:
 
     @staticmethod
     def spelled(codes: Integers) -> list[str]:
-        """Mode word of every row of codes, shape [n, n_contacts]."""
+        """Mode word, such as "{01,00,01}", of each row of ``codes``, shape [n, n_contacts].
+
+        Its groups are the bits closed, approaching and slipping of Eq. (29), with the first contact rightmost in each.
+        """
         unique, inverse = np.unique(codes, axis=0, return_inverse=True)
         found = [word(list(row & 1), list(row >> 1 & 1), list(row >> 2 & 1)) for row in unique]
         return [found[i] for i in np.ravel(inverse)]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 ContactModes: TypeAlias = tuple[tuple[int, int], ...]
 """Mode of a system: pairs (contact, bits of Eq. (29)) of the contacts whose bits are not all zero, in order."""
 _CLOSED, _APPROACHING, _SLIPPING = 1, 2, 4
-"""Bits of Eq. (29)."""
+"""Bits of Eq. (29) in the code of a contact: closed (1), approaching (2) and slipping (4)."""
 
 
 def are_recorded(solution: Solution) -> bool:
@@ -100,7 +100,7 @@ class TransitionGraph:
         return f"TransitionGraph({len(self.shares)} modes, {len(self.counts)} transitions)"
 
     def word(self, mode: ContactModes) -> str:
-        """Mode word of Eq. (29)."""
+        """Mode word, such as "{01,00,01}": bits closed, approaching and slipping of all contacts, Eq. (29)."""
         rows = [[0] * len(self.contacts) for _ in range(3)]
         for contact, bits in mode:
             for i, row in enumerate(rows):
@@ -121,7 +121,7 @@ class TransitionGraph:
 
     @property
     def visits(self) -> dict[ContactModes, int]:
-        """Number of visits of each mode; the start is a visit."""
+        """Number of visits of each mode: transitions that lead into it, and 1 more for the mode of the start."""
         visits = dict.fromkeys(self.shares, 0)
         visits[self.start] += 1
         for (_, other, _), n in self.counts.items():
@@ -183,8 +183,10 @@ def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes,
     """Group the modes of a system of many contacts: graph of the groups, and the name of each group.
 
     Modes of a group have the same range of closed contacts (0, 1, 2, 3 to 4, 5 to 8, ...), of which none, some or all
-    slip.  Impacts are grouped by the range of contacts that strike.  The start, or else the mode with the largest share
-    of the time, represents its group.  Transitions within a group are left out.
+    slip.  Impacts are grouped by the range of contacts that strike.
+
+    One mode represents each group in the graph: the mode of the start in its group, elsewhere the mode with the largest
+    share of the time.  Transitions within a group are left out.
     """
     called = {mode: _kind(mode, passing=mode in graph.passing) for mode in graph.shares}
     ranked = sorted(graph.shares, key=lambda mode: (mode != graph.start, -graph.shares[mode]))
@@ -194,7 +196,7 @@ def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes,
     for mode, share in graph.shares.items():
         shares[stands_for[mode]] += share
     for (one, other, cause), n in graph.counts.items():
-        # a mode whose contacts change their features at once has no duration, so it is not among the shares
+        # a mode whose contacts change their features at its very instant has no duration, so it is not among the shares
         before = stands_for.get(one) or standing.get(_kind(one, passing=False))
         if before is not None and before != stands_for[other]:
             counts[before, stands_for[other], cause] += n

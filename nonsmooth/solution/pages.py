@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 MOST_KNOTS = 4000
-"""Default of the largest number of times at which a page has the bodies, in addition to the instants of events."""
+"""Default for the largest number of times at which a page stores the poses of the bodies, apart from events."""
 
 
 def write(solution: Solution, path: Path | str, title: str, most_knots: int) -> Path:

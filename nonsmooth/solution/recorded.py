@@ -98,7 +98,8 @@ class Track:
 def row_of(state: State) -> Floats:
     """Row of a state in the form of a sample, shape [1 + n_y + 4].
 
-    A state has only sums of the work of driven bodies and of the friction loss.  They count as accounted at events.
+    A sample has the work of driven bodies and the friction loss in two parts, integrated and accounted at events.  A
+    state has only the sums.  So the integrated parts of the row are zero, and its parts at events are the sums.
     """
     account = state.energy
     integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work

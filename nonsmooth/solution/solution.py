@@ -206,7 +206,7 @@ class Solution:
         return to_dataset(self)
 
     def __repr__(self) -> str:
-        """Status, end time, message, numbers of samples and events, energy residual, and findings of the checks."""
+        """Status, end time [s], message, numbers of samples and events, energy residual, and findings of the checks."""
         from nonsmooth.solution.checks import findings
 
         read = f"; {STUCK}" if self.status in (RunStatus.SUSPECT, RunStatus.FAILED) else ""

@@ -53,8 +53,8 @@ class State:
 
     A state that a run left continues that run on the same model, as if it had not stopped.  Any other state starts a
     run: a state made by :meth:`at` or changed by :func:`dataclasses.replace`, and any state on a model with other
-    numbers.  A start finds the contacts that touch anew, and the side from which anisotropic friction is opposed: from
-    the slip of sliding contacts, from the force of the first instant of sticking contacts.
+    numbers.  A start determines anew which contacts touch.  It also determines the slip direction that anisotropic
+    friction opposes: from the slip of a sliding contact, or from the force on a sticking contact at the first instant.
 
     Attributes
     ----------

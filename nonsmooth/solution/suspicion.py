@@ -13,12 +13,15 @@ from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
-"""Residual of the energy account that tolerances explain in any run, relative to the tolerance of a step."""
+"""Residual of the energy account that tolerances explain even in a short run, relative to the tolerance of a step."""
 _MOST = 1e-3
-"""Largest unexplained energy of a run of any number of steps, relative to the energy exchanged."""
+"""Largest unexplained energy that a run may have, however many steps it takes, relative to its scale of energy."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
 _OF_IMPACTS = 0.1
-"""Part of the tolerance of impacts that counts as the tolerance of a step."""
+"""Fraction of the impact tolerance that replaces the step tolerance in the check of the energy account, if larger.
+
+At the default tolerances (impact 1e-8, step 1e-9) both are equal.
+"""
 _ROUND_OFF = 1e-12
 """Round-off in a difference of potential energies, relative to the potential energy."""
 
@@ -42,11 +45,13 @@ def suspicions(
     Parameters
     ----------
     engine : Engine
-        Engine of the run.  If it promises a residual, the account is compared with that, else with the tolerances.
+        Engine of the run.  If it promises a largest residual, the account must not exceed it.  Otherwise the tolerances
+        are the limit.
     worst_event : tuple of float
         Event with the largest residual: time [s], residual [J], and its ratio to the residual that tolerances explain.
     jump : tuple of float
-        Last time at which a spring began inside of a body [s], and the energy that springs gained by that [J].
+        Last time at which a compliant contact began with overlapping bodies [s], and the energy that its spring and
+        others gained in this way [J].
     rubbed : float
         Energy that friction added [J]; 0 if a law of the system can store energy.
     energy : EnergyAccount
@@ -101,7 +106,10 @@ def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: flo
 
 
 def open_event(time: float, energy: float, share: float) -> str:
-    """Sentence about the event with the largest residual, "" if tolerances explain it: ``share`` is at most 1."""
+    """Sentence about the event with the largest residual ``energy`` [J], "" if the tolerances explain it.
+
+    ``share`` is the ratio of the residual to the largest one that the tolerances explain.
+    """
     if share <= 1.0:
         return ""
     return (
@@ -111,7 +119,7 @@ def open_event(time: float, energy: float, share: float) -> str:
 
 
 def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
-    """Sentence about springs that began inside of bodies and so gained an energy [J], "" if it is negligible."""
+    """Sentence about compliant contacts that began with overlap and so gained an energy [J], "" if it is negligible."""
     if gained <= _MOST * max(energy.scale, floor):
         return ""
     return (
@@ -132,9 +140,10 @@ def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
 def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0, floor: float = 0.0) -> str:
     """Sentence about an energy account that is open by more than the tolerances explain, else "".
 
-    A step may add one relative tolerance to the residual; any run may have a thousand.  In slow motion, tolerances are
-    relative to the scale of velocities, which has the kinetic energy ``scale`` [J].  At most a thousandth of the scale
-    of the account is explained, or of ``floor`` [J] if that is larger; at tolerances above 1e-6, a thousand tolerances.
+    Each step may add one relative tolerance to the residual, and a run of few steps may have a thousand tolerances.  In
+    slow motion, tolerances are relative to the scale of velocities, which has the kinetic energy ``scale`` [J].  At
+    most a thousandth of the scale of the account is explained, or of ``floor`` [J] if that is larger.  At tolerances
+    above 1e-6 the limit is a thousand tolerances instead of a thousandth.
     """
     slow = steps * tolerance * math.sqrt(energy.scale * scale)
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
@@ -152,7 +161,10 @@ def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float =
 def long_quaternion(
     bodies: Mapping[str, Body], t: NDArray[np.float64], q: NDArray[np.float64], explained: float
 ) -> str:
-    """Sentence about the quaternion whose length differs most from 1 at the samples, "" if by ``explained`` at most."""
+    """Sentence about the quaternion whose length differs most from 1 at the samples.
+
+    It is "" if the difference is at most ``explained``.
+    """
     most, found, first = explained, "", 0
     for name, body in bodies.items():
         if body.quaternion >= 0 and len(t) > 0:

@@ -109,7 +109,7 @@ _SAMPLES: tuple[tuple[str, tuple[str, ...], dict[str, Any]], ...] = (
 )
 """Arrays of samples: name, dimensions and attributes."""
 SAMPLES = tuple(name for name, *_ in _SAMPLES)
-"""Names of the arrays of samples, in the order of the columns of a row of the samples."""
+"""Names of the arrays of samples, in the order in which a row of numbers holds a sample."""
 
 
 def of_samples(*values: Floats) -> list[LabelledArray]:
@@ -146,7 +146,7 @@ class _StoredArray:
     kind: type[np.number[Any]] = np.float64
 
     def of(self, events: Events) -> LabelledArray:
-        """The array of some events."""
+        """Labelled array with the values of this row for some events."""
         values = np.asarray(self.values(events), self.kind)
         return LabelledArray(self.name, self.dimensions, values, self.attributes)
 

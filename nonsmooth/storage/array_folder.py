@@ -87,7 +87,7 @@ class ArrayFolder:
             attributes = dict(content["attributes"])
             checksum, version = attributes.pop("checksum", None), attributes.pop("format_version", None)
             if checksum != _checksum(content):
-                # other versions may have another checksum, or no checksum
+                # name another version as the cause first: it may compute another checksum, or none
                 _check_version(path, version if isinstance(version, int) else 0)
                 raise ValueError("the checksum is not that of what was written")
             _check_version(path, version)
@@ -206,7 +206,7 @@ class ArrayFolder:
         return self.path / name / self._arrays[name].file(number)
 
     def cut(self, dimension: str, length: int) -> None:
-        """Keep at most ``length`` rows of all arrays over a dimension."""
+        """Shorten all arrays whose first axis is ``dimension`` to at most ``length`` rows."""
         for name, one in self._arrays.items():
             if one.dimensions[:1] == (dimension,):
                 self._arrays[name] = replace(one, shape=(min(length, one.shape[0]), *one.shape[1:]))
@@ -244,7 +244,7 @@ class ArrayFolder:
         self.flush(safely=False)
 
     def flush(self, safely: bool, *, counts: bool = False) -> None:
-        """Write the files that wait since the last call; errors as :meth:`commit`.
+        """Write the files that were prepared since the last call; errors as of :meth:`commit`.
 
         A file that makes a commit valid (``counts``), or replaces another, is written under another name and renamed.
         Other files get their name at once, because a rename makes the system wait for the disk.
@@ -290,7 +290,9 @@ class ArrayFolder:
         return _json({**content, "attributes": {**attributes, "checksum": _checksum(content)}})
 
     def spell_out(self, names: Iterable[str]) -> None:
-        """Write the metadata of some arrays into their own folders too, for readers that do not use those of the group.
+        """Write the metadata of some arrays into their own folders too.
+
+        Some readers of Zarr do not use the metadata of the group, which has those of all arrays.
 
         Raises
         ------

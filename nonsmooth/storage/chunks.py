@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 _LEVEL, _SHUFFLE = 5, 1
-"""Level of compression and shuffling of bytes, the defaults of Blosc."""
+"""Level of compression (5 of 9) and mode of shuffling (1, by bytes) of Blosc, respectively: its defaults."""
 _CHECKSUM = 4
 """Size of a CRC32C [bytes]."""
 _SIZE, _LENGTH = slice(4, 8), slice(12, 16)
-"""Parts of the header of Blosc with the sizes of a chunk, unpacked and packed [bytes]."""
+"""Bytes of the header of a Blosc chunk that hold the unpacked size and the packed size [bytes], respectively."""
 TEXT = "string"
 """Type of an array of texts of any length."""
 

@@ -81,7 +81,7 @@ class Contact:
         return cls(name, one, two, frames, shapes, kinematics, extents, levers, laws.normal, laws.friction, laws.impact)
 
     def __str__(self) -> str:
-        """Name in messages."""
+        """Name of this part of the system, as messages print it."""
         return f"contact {self.name!r}"
 
     def __repr__(self) -> str:
@@ -127,7 +127,7 @@ class Watched:
     name : str
         Name of the guard, unique among the guards of the system.
     chosen : bool
-        Whether the user chose the name.
+        Whether the user chose the name; otherwise it was made from the kind of the guard.
     guard : Guard
         The guard.
     """
@@ -137,7 +137,7 @@ class Watched:
     guard: Guard
 
     def __str__(self) -> str:
-        """Name in messages."""
+        """Name of this part of the system, as messages print it."""
         return f"guard {self.name!r}"
 
 
@@ -170,5 +170,5 @@ class Tie:
     component: Joint | Load
 
     def __str__(self) -> str:
-        """Name in messages."""
+        """Name of this part of the system, as messages print it."""
         return f"{self.kind} {self.name!r}"

@@ -174,7 +174,10 @@ def _check_bundle(where: str, laws: ContactLaws) -> None:
 
 
 _MOST = 2
-"""Largest number of contacts whose distribution of static friction is followed through all changes of their loads."""
+"""Largest number of compliant contacts with static friction between two bodies.
+
+With more contacts, the distribution of static friction does not follow the changes of their loads.
+"""
 
 
 def check_sharing(where: str, laws: ContactLaws, n: int) -> None:

@@ -110,7 +110,7 @@ class ContactGeometries:
     def _first_of(self, shape: Shape) -> Shape:
         try:
             return self._shapes.setdefault(shape, shape)
-        except TypeError:  # a shape with fields that cannot be hashed
+        except TypeError:  # a shape with fields that cannot be hashed is not shared
             return shape
 
     def between(self, first: Shape, second: Shape) -> tuple[Sequence[ContactKinematics], bool]:
@@ -119,7 +119,7 @@ class ContactGeometries:
         Raises
         ------
         InvalidInput
-            If no kinematics of the two is installed.
+            If no kinematics is installed for the two shapes.
         """
         kinds = type(first), type(second)
         if kinds not in self._kinds:
@@ -142,7 +142,7 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
     Raises
     ------
     InvalidInput
-        If no kinematics of the two is installed.
+        If no kinematics is installed for the two shapes.
     """
     found = installed_pair(first, second)
     if found is None:
@@ -178,7 +178,7 @@ def _named_after(first: Shape, second: Shape) -> list[str]:
 
 
 _UPPER = re.compile(r"(?<!^)(?=[A-Z])")
-"""Place before an upper-case letter within a name."""
+"""Place before an upper-case letter within the name of a class, where it is divided into words."""
 
 
 def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:

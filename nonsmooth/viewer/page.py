@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4", "i2": "<i2", "u1": "|u1"}
-"""Types of numpy, by the names of the types in the player."""
+"""Name of a type of numbers in the player -> type of numpy with the same bytes, the lowest byte first."""
 _KNOTS = Rule("most times that are drawn, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _MOST_KINDS = 4
 """Largest number of kinds of bodies in a title."""

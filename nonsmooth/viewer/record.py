@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _MOST_LETTERS = 12
-"""Largest number of contacts with a mode word; modes of more contacts are listed by contact."""
+"""Largest number of contacts of a system whose modes are shown as mode words; others are shown as lists of contacts."""
 _MOST_NUMBERS = 6
 """Largest number of contacts that are listed by their numbers; further contacts are counted."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2
-"""Codes of Eq. (29) of a sticking and a sliding contact, and the bit of a contact that takes part in an impact."""
+"""Codes of Eq. (29): of a sticking contact (1), of a sliding contact (5), and the bit of an approaching contact (2)."""
 
 
 def event_words(events: Events) -> tuple[list[str], NDArray[np.int64]]:
@@ -63,7 +63,10 @@ def _counted(group: NDArray[np.int64]) -> str:
 def event_arrays(
     solution: Solution, times: NDArray[np.float64], side: NDArray[np.float64]
 ) -> dict[str, tuple[str, NDArray[Any]]]:
-    """Arrays of events; ``times`` are the knots [s], which contain all instants of events."""
+    """Arrays of events by name, each with its type.
+
+    ``times`` are the knots, the times of stored poses [s].  They include all instants of events.
+    """
     # an engine that records no contacts has no events, and no impulses
     events, impulses = solution.events, Impulses.recorded(HistoryRequest(solution, times))
     sign = side[impulses.impulse_contact][:, None]
@@ -87,9 +90,12 @@ Arrays = dict[str, tuple[str, NDArray[Any]]]
 
 FORMAT = "nonsmooth-view/1"
 _WHOLE = 32767
-"""Integer that represents the component 1 of a quaternion."""
+"""Integer that represents the component 1.0 of a unit quaternion: the largest signed integer of 16 bits."""
 _ROOM = 250_000
-"""Largest number of poses, one for each frame and knot, so that more bodies have fewer knots between events."""
+"""Largest number of poses in a page, one for each frame and knot (time of stored poses), to limit its size.
+
+With more bodies, a page has fewer knots between events.
+"""
 
 
 def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, Any], Arrays]:
@@ -146,7 +152,10 @@ def _turns(axes: Floats) -> Floats:
 
 
 def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str, Any]]]:
-    """Vertices, triangles and lines of all parts, and the ranges of each part in them; ``sheets`` are outlines."""
+    """Arrays of vertices, triangles and lines of all drawn parts; for each part, its ranges of rows in these arrays.
+
+    ``sheets`` are the outlines of the unbounded planes, in the order of their parts.
+    """
     looks = [part.look for part in scene.parts]
     firsts = np.cumsum([0, *(len(look.vertices) for look in looks)])
     parts = list[dict[str, Any]]()
@@ -169,7 +178,7 @@ def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str
 
 
 def _energies(solution: Solution, times: Floats) -> Arrays:
-    """Energy account [J] at the knots, and before the events of each instant."""
+    """Energy account [J] at the knots ``times`` [s], and just before the events of each instant."""
     losses, works = ("restitution_loss", "friction_loss", "closing_loss"), ("driven_work", "load_work")
     found = solution.history("kinetic_energy", "potential_energy", *losses, *works, times=times)
     kinetic, potential, restitution, friction, closing, driven, loads = found.values()
@@ -184,7 +193,7 @@ def _energies(solution: Solution, times: Floats) -> Arrays:
 
 
 def _forces(solution: Solution, times: Floats) -> Arrays:
-    """Forces of closed contacts at the knots; empty arrays if the engine gives no forces."""
+    """Points [m] and forces [N] of closed contacts at the knots ``times`` [s]; empty if the engine gives no forces."""
     if not replay_of(solution).is_flow:
         none, nowhere = np.zeros(0), np.zeros((0, 3))
         return {

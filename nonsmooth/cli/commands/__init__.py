@@ -26,4 +26,4 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "compile": ("compile", "compile the engine ahead of the first run"),
     "new": ("new", "write a package to start from"),
 }
-"""Module in this package, and summary for the help, of each command."""
+"""Name of a command -> its module in this package, and its summary in the help."""

@@ -28,7 +28,7 @@ _FILES = {
     "tests/test_friction.py": "test_friction.py.txt",
     "tests/test_scenario.py": "test_scenario.py.txt",
 }
-"""Template of each file of the new package, by the path of the file."""
+"""Path of a file within the new package -> name of the template of its text."""
 
 
 _PLUGIN = (

@@ -186,7 +186,10 @@ def _bifurcation(arguments: argparse.Namespace) -> bool:
 
 
 def _samples_table(name: str, coordinate: str, ways: dict[str, orbits.Diagram]) -> str:
-    """Return the samples of a coordinate as CSV: a row for each value of the parameter, in each way (up, down)."""
+    """Return the samples of a coordinate as CSV: a row for each value of the parameter and each of ``ways``.
+
+    A way is a direction in which the parameter was varied, "up" or "down". The key "" means a single, unnamed way.
+    """
     is_single = list(ways) == [""]
     keep = next(iter(ways.values())).points.shape[1]
     samples = ",".join(f"{coordinate}_{i + 1}" for i in range(keep))

@@ -178,7 +178,7 @@ def _save_solution(scenario: Scenario, solution: Solution, saver: Saver, folder:
     with saver.noting(f"{type(scenario).__name__}.coordinates"):
         written = SolutionFolder.held(Output(folder))
         with contextlib.closing(written):
-            # after a full disk the folder has fewer samples than the solution
+            # if the disk was full, the folder is unfinished: it has fewer samples than the coordinates
             if written.status != UNFINISHED:
                 written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
     with saver.noting("saving the events"):
@@ -196,6 +196,6 @@ def _save_figures(job: Job, solution: Solution, saver: Saver) -> None:
     else:
         tell("no picture of transitions: the run has one mode")
     with saver.noting(f"{type(job.scenario).__name__}.figures"):
-        # titles and captions may still name the scenario's own laws
+        # the figures get a note, because their titles may still name the scenario's own laws
         note = f"In place of the scenario's own:\n{chr(10).join(map(repr, job.laws.values()))}" if job.laws else ""
         saver.figures(job.scenario.figures(solution), note)

@@ -11,7 +11,7 @@ from nonsmooth.interfaces import CompliantNormalLaw, Engine, ImpactLaw, NormalLa
 from nonsmooth.parameters import from_all_words, rules
 
 ROLES: dict[str, type] = {"normal": NormalLaw, "friction": TangentialLaw, "impact": ImpactLaw}
-"""Interface of each law of a contact, by the role of the law in ``--law``."""
+"""Role of a law of a contact, as ``--law`` names it -> interface that the law must implement."""
 _LAW = "must have the form ROLE=LAW or ROLE=LAW,NAME=VALUE,..."
 _LAW_EXAMPLE = "For example --law friction=./my_law.py:MyLaw,coefficient=0.2."
 _ENGINE = "must have the form ENGINE or ENGINE,NAME=VALUE,..."

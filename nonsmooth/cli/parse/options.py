@@ -17,7 +17,7 @@ _KINDS: Mapping[str, tuple[Callable[[str], Any], str]] = {
     "int": (int, "N"),
     "str": (str, "NAME"),
 }
-"""Conversion of a value, and its placeholder in the help, by the annotation of the parameter."""
+"""Annotation of a parameter -> function that converts the text of a value, and placeholder of the value in the help."""
 _SHAPE = re.compile(r",? shape \[[^]]*\]")
 """Shape of an array in a docstring. The help omits it, because a value on the command line has no shape."""
 

@@ -60,7 +60,10 @@ def complain(text: str) -> None:
 
 
 def warn_plainly(otherwise: Callable[..., None]) -> Callable[..., None]:
-    """Return a replacement of ``warnings.showwarning`` that prints each warning of nonsmooth once, in one line."""
+    """Return a replacement of ``warnings.showwarning`` that prints each warning of nonsmooth once, in one line.
+
+    The replacement passes warnings of other packages to ``otherwise``.
+    """
     printed: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:

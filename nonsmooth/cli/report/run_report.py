@@ -23,7 +23,7 @@ _NAMED = 2
 _COMMONEST = 5
 """Largest number of mode words that are printed; the others are counted."""
 _INSTANT = 5e-5
-"""Share of the time below which a mode word is only counted: its share would be printed as 0.00 %."""
+"""Share of the run's time below which a mode word is only counted: its share would be printed as 0.00 %."""
 _ROUND_OFF = 1e-15
 """Numbers of smaller magnitude, in their SI units, are printed as 0, because they are round-off."""
 _NOTHING = 1e-9
@@ -52,9 +52,9 @@ _NUMBERS: Mapping[str, Callable[[Solution], Any]] = {
     "cause": attrgetter("end.cause"),
     "verdict": _verdict,
 }
-"""Entries of a report that come from the solution, each with the function that reads it."""
+"""Entry of a report that comes from the solution -> function that computes the entry from the solution."""
 UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J"}
-"""SI units of the entries from the solution that have a unit."""
+"""Entry of a report -> its SI unit. Entries from the solution that are not listed have no unit."""
 
 
 def of_solution(solution: Solution | None) -> Report:
