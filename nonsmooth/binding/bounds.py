@@ -20,14 +20,18 @@ from nonsmooth.errors import PluginError
 from nonsmooth.parameters import Value
 
 _MOST = 5000
-"""Most reads and writes of a trial, which then ends: long functions of the built-in shapes would take more time."""
+"""Largest number of reads and writes in a trial, which then ends: long functions of the built-in shapes would take more
+time."""
 FRAMES = (
     (0.0, 0.0, 0.0, *np.eye(3).ravel(), *(FRAME - 12) * (0.0,)),
     (0.21, -0.13, 0.37, 0.8, -0.6, 0.0, 0.48, 0.64, -0.6, 0.36, 0.48, 0.8, 0.1, -0.2, -0.3, 1.0, 2.0, 3.0, *6 * (0.0,)),
 )
 """Blocks of two frames for trials of functions of two bodies: apart, rotated, the first one at rest."""
 _TRIALS = 8
-"""Most sets of parameters with which a function is tried. Sets of equal length and beginning count as one."""
+"""Largest number of sets of parameters with which a function is tried.
+
+Sets of equal length and equal first numbers are tried once.
+"""
 _BEGINNING = 32
 _tried: defaultdict[tuple[Any, ...], set[tuple[float, ...]]] = defaultdict(set)
 

@@ -65,7 +65,10 @@ def address(shim: Callable[..., Any], form: str) -> int:
 
 
 def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str:
-    """Measured time of a call by address, as text; an empty function is timed in place of one that takes arrays."""
+    """Measured time of a call by address, as text.
+
+    An empty function is timed in place of a function that takes arrays.
+    """
     kinds, prototype = tuple(FORMS[form].arguments.values()), FORMS[form].prototype(_Pointer)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)
     given = tuple(heap if kind == "F" else 0 if kind == "i8" else 0.0 for kind in kinds)

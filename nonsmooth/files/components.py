@@ -21,7 +21,7 @@ from nonsmooth.plugins import registry
 
 _BASES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 TYPE = "type"
-"""Key of a table that names the class of the component."""
+"""Key of the entry of a table that names the class of the component."""
 
 TomlTable = dict[str, Any]
 
@@ -189,7 +189,7 @@ def _value(thing: str, value: Any, hint: Any, gate: Gate) -> Any:
 
 @contextlib.contextmanager
 def naming(thing: str) -> Iterator[None]:
-    """Put the place in a file, ``thing``, before the messages of errors."""
+    """Put the place in a file, ``thing``, in front of the messages of errors."""
     try:
         yield
     except InvalidInput as error:
@@ -197,14 +197,14 @@ def naming(thing: str) -> Iterator[None]:
 
 
 def _options(hint: Any) -> tuple[Any, ...]:
-    """Types that a hint allows, without None."""
+    """Types that a type hint allows, without None."""
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
         return tuple(one for one in typing.get_args(hint) if one is not type(None))
     return (hint,)
 
 
 def _elements(hint: Any, n: int) -> tuple[Any, ...]:
-    """Hints of the n elements of a sequence."""
+    """Type hints of the n elements of a sequence."""
     for one in _options(hint):
         arguments = typing.get_args(one)
         if typing.get_origin(one) is tuple and len(arguments) == n and Ellipsis not in arguments:
@@ -223,7 +223,7 @@ def _abstract(owner: type) -> bool:
 
 
 def _component_class(hint: Any) -> Any:
-    """Class of components that a hint allows, None if it allows no component."""
+    """Class of components that a type hint allows, None if it allows no component."""
     for one in _options(hint):
         if isinstance(one, type) and (issubclass(one, _BASES) or dataclasses.is_dataclass(one)):
             return one
@@ -231,13 +231,13 @@ def _component_class(hint: Any) -> Any:
 
 
 def _own_class(hint: Any) -> Any:
-    """Class that a reader takes if a table names no class; None if the hint allows several."""
+    """Class that a reader takes if a table names no class; None if the type hint allows several classes."""
     owner = _component_class(hint)
     return owner if _concrete(owner) else None
 
 
 def group_of(hint: Any) -> str:
-    """Group of the installed names of components that a hint or its elements allow, "" if they allow no component."""
+    """Group of the installed names of the components that a type hint or its elements allow, "" if they allow no component."""
     known = (*_options(hint), *(one for option in _options(hint) for one in typing.get_args(option)))
     base = next((one for one in known if isinstance(one, type) and issubclass(one, _BASES)), None)
     return "" if base is None else next(name for name, bases in registry.GROUPS.items() if issubclass(base, bases))

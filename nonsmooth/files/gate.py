@@ -17,7 +17,7 @@ from nonsmooth.files import named
 from nonsmooth.plugins import file, registry
 
 _CODE = (":", "/", "\\", ".py")
-"""Characters that only words with a path or a module have."""
+"""Texts that occur in a word with a path or a module, but not in an installed name."""
 _RULE = "must name what an installed package has registered, as the file is not trusted"
 _REMEDY = (
     "It would run code that the file names. If you trust who wrote it, say trust=True in Python or --trust on the "

@@ -19,7 +19,7 @@ _PLAIN = {
     ),
     "null": (r"null|Null|NULL|~|", ["n", "N", "~", ""]),
 }
-"""Values without quotation marks that are not words, by kind: their pattern, and the letters they begin with."""
+"""Pattern and first letters of values that YAML reads as other than words if they have no quotation marks, by kind."""
 
 
 @functools.cache
@@ -57,7 +57,7 @@ def _classes() -> tuple[Any, Any]:
     for name, (pattern, first) in _PLAIN.items():
         resolver = f"tag:yaml.org,2002:{name}", re.compile(f"(?:{pattern})$"), list(first)
         Loader.add_implicit_resolver(*resolver)
-        # in addition to the resolvers of YAML 1.1, so that no reader of either version takes a word for a number
+        # add to the resolvers of YAML 1.1, so that readers of both versions read each word as a word
         Dumper.add_implicit_resolver(*resolver)
     Dumper.add_representer(str, _represent)
     return Loader, Dumper

@@ -75,7 +75,7 @@ def check_recorded(where: str, what: str, system: System, engine: Engine) -> Non
 class StateReplay:
     """Stored states of a run in the order of time, and a model that integrates from them to other times.
 
-    If several states are stored for one time, the state after the last event counts.
+    If several states are stored for one time, the state after the last event is taken.
     """
 
     def __init__(self, solution: Solution) -> None:

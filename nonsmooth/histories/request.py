@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Part: TypeAlias = Contact | Body | Tie | str | int
 """A contact, body or joint: the object, its name, or its number in the system, from 0."""
 Parts: TypeAlias = Part | Sequence[Part] | Integers
-"""A part, or several of them."""
+"""A contact, body or joint, or several."""
 
 
 @final
@@ -164,7 +164,7 @@ def _found(where: str, system: System, known: Mapping[str, Sequence[object]], pa
 
 
 _PLURALS = {"contact": "contacts", "body": "bodies", "joint": "joints"}
-"""Attribute of a system, and of its names, with the parts of a kind."""
+"""Attribute of ``System`` and of its ``names`` that lists the parts of a kind, by the kind."""
 
 
 def _parts(system: System, kind: str) -> Sequence[object]:

@@ -54,12 +54,13 @@ def articulations(system: System) -> list[ArticulationLayout]:
     first = 0
     while first < len(bodies):
         end = number = first
-        # the range grows by the bodies that are tied to those in it
+        # the range of bodies grows by all bodies that joints tie to bodies in it
         while number <= end:
             end = max(end, last[number])
             number += 1
         members = bodies[first : end + 1]
-        # a driven body may belong to another range, so a joint belongs to the range of its movable bodies
+        # a driven body may lie in the range of bodies of another articulation, so only movable bodies decide where a
+        # joint belongs
         movable = [body for body in members if body.n_u > 0]
         joints = tuple(t for t in system.joints if any(body is t.first or body is t.second for body in movable))
         found.append(ArticulationLayout(first, members, joints))

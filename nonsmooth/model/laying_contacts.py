@@ -325,7 +325,7 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
 
 
 _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Places in the block of a contact that belong to its geometry."""
+"""Declared parts of a contact's block that belong to its geometry; all other parts belong to its laws."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:

@@ -59,7 +59,7 @@ _LAST = f"{WRITER}/state-end.npz"
 _OWN = "scenario_coordinates"
 """Attribute with the names of the arrays that the scenario adds."""
 _LENGTHS = {"time": "time", "event": "event_time", "listing": "listed_contact"}
-"""Dimension that grows -> array whose length is the length of the dimension."""
+"""Name of the array whose length is the length of a growing dimension, by the dimension."""
 
 
 @contextlib.contextmanager
@@ -103,7 +103,7 @@ class SolutionFolder:
     def created(
         cls, output: Output, system: System, engine: Engine, request: RunRequest, n_states: int
     ) -> SolutionFolder:
-        """Make the folder of a run that begins; its content counts from the first :meth:`begin` on.
+        """Make the folder of a run that begins; its content is valid from the first :meth:`begin` on.
 
         Raises
         ------
@@ -113,7 +113,7 @@ class SolutionFolder:
             The folder cannot be written to.
         """
         path = output.solution
-        # first without the lock, for which a process that has just ended would have to wait
+        # check first without the lock, because a process that has just ended may still own it
         check_ours(path)
         check_replaceable(output)
         # check again under the lock, so that the results of a run that has begun meanwhile are not removed
@@ -200,7 +200,7 @@ class SolutionFolder:
         return str(self.attributes.get("status"))
 
     def said(self, name: str, kind: type = dict) -> Any:
-        """An attribute that is stored as JSON: a table, or another ``kind``, such as a list.
+        """Attribute that is stored as JSON: a table, or a value of another ``kind``, such as a list.
 
         Raises
         ------

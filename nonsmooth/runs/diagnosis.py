@@ -55,13 +55,13 @@ _FAILED_CHECKS = {
         "{allowed:.3g}. The rates that {evaluator} gives do not keep its length. "
     ),
 }
-"""Message for each check of the engine that a run can fail: contact or body, value found and value allowed."""
+"""Message for each failed check, by the status of the engine: contact or body, value found and value allowed."""
 _CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report one of nonsmooth."
-"""Remedy for a contact or body that contradicts its own numbers."""
+"""Remedy for a contact or body whose evaluator returns numbers that contradict each other."""
 _SHIFT = "Shift or turn a body a little, or give it rounded edges."
 """Remedy for a pair of features whose gap jumps in a special pose, such as edges in line."""
 _COMPLIANT = "Give it a compliant normal law such as LinearCompliant, or leave out a contact that holds the same body."
-"""Remedy for a closed contact that another closed contact contradicts."""
+"""Remedy for a closed contact whose gap changes because another closed contact holds the same body."""
 
 
 def failing_function(model: LaidOut, status: int) -> str:
@@ -102,7 +102,7 @@ def _failed_check(model: LaidOut, status: Status) -> str:
     """Sentences about a check that a run failed. The engine has stored the value found and the largest one allowed."""
     run, memory = owners.Run, model.memory
     found, allowed, number = (memory[one] for one in (run.found, run.allowed, run.failed_number))
-    # by the status, the number is that of an active contact, a declared contact or a body
+    # the status decides whether the number counts active contacts, declared contacts or bodies
     is_of_body = status in (Status.MOTION_UNEXPLAINED, Status.QUATERNION_UNEXPLAINED)
     things = {"h": memory[owners.Step.h], "found": found, "allowed": allowed}
     if is_of_body:
@@ -114,7 +114,8 @@ def _failed_check(model: LaidOut, status: Status) -> str:
         things |= {"contact": contact, "first": first, "second": second}
     text = _FAILED_CHECKS[status].format(**things)
     if status == Status.GAP_UNEXPLAINED:
-        # a closed contact is contradicted by other closed contacts of its bodies; else the kinematics is discontinuous
+        # other closed contacts of the same bodies can open the gap of a closed contact; without them the kinematics is
+        # discontinuous
         if memory[owners.ContactRecord.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
             return f"{text}It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
         return f"{text}It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
@@ -128,7 +129,7 @@ def _other_closed(model: LaidOut, contact: Contact) -> str:
     ``contact`` are not named.
     """
     modes = model.memory[owners.ContactRecord.mode][: len(model.active)]
-    # a driven body has no velocities, and takes no part in a contradiction
+    # a driven body has no velocities, so no contact can hold it
     free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
     pairs = dict[tuple[int, int], str]()
     for number in model.active[modes != Mode.OPEN].tolist():

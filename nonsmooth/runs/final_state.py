@@ -41,9 +41,9 @@ class FixedPlaces(NamedTuple):
     Attributes
     ----------
     tails : array
-        Place among the blocks of q' of each body, behind which are force, inverse mass and energies.
+        Offset of q' of each body in the blocks; force, inverse mass and energies follow it.
     features : array
-        Place among the blocks of the features of each declared contact, negative if it has none.
+        Offset of the features of each declared contact in the blocks, negative for a contact without features.
     changing : tuple of array
         Which numbers a run may change (:attr:`nonsmooth.engine.memory.memory.Memory.changing`).
     """

@@ -28,7 +28,7 @@ from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.storage.files import FileError
 
 _CHECKPOINT_CALL = 16
-"""Time that calls of Python take for a checkpoint of a small model, in times of the shortest step, a microsecond."""
+"""Time of the Python calls that make a checkpoint of a small model, in units of the shortest step (a microsecond)."""
 _COPIED = 1 << 13
 """Size of the part of a checkpoint that is copied in the time of the shortest step [bytes]."""
 Progress = Callable[[float, float], None]

@@ -22,7 +22,8 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, Integers
 
 _NEGLIGIBLE = 0.1
-"""Share of the whole change of the imbalance that the span may omit at each end, so that the span is short."""
+"""Part of the change of the imbalance, the unexplained energy, that the reported span of time may omit at each end, so
+that the span is short."""
 _MODE_AFTER_FALLBACK = 4
 """Column of ``Events.listed_memory`` with the mode after the time-stepping fallback; without fallback it is open."""
 _N_NAMED = 4
@@ -136,7 +137,8 @@ def outcome(model: LaidOut, ending: LoopEnd, engine: Engine) -> RunOutcome:
 
 
 _MOVED = 0.01
-"""Displacement between two compared samples, relative to the smallest body, so that no deeper overlap is missed."""
+"""Displacement from which on a sample is compared for overlap, relative to the smallest body: a smaller motion hides no
+deeper overlap."""
 
 
 def interpenetration(model: LaidOut, rows: Floats) -> str:

@@ -61,7 +61,7 @@ def friction_gain(solution: Solution) -> float:
         loss = np.concatenate([block.integrated[:, FRICTION_LOSS], track.y[n_samples:stop, place]])[order]
         gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
         booked = float(block.booked[-1, _FRICTION]) if len(block) else 0.0
-    # the final state holds the sum of both; the part accounted at events is subtracted
+    # the final state has the sum of the integrated loss and the loss accounted at events: subtract the loss at events
     end = track.y[-1, place] + track.booked[-1, _FRICTION] - booked
     return gain + _decrease(last, np.append(track.y[n_samples:-1, place], end))
 

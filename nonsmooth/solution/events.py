@@ -183,7 +183,7 @@ class Events:
         return cls(starts[-1], parts[0].n_contacts, read)
 
     def _bits(self, shift: int) -> Integers:
-        """Bits of every contact at every event, shape [n, n_contacts]."""
+        """Mode bits of every contact at every event, shape [n, n_contacts]; ``shift`` selects before, during or after."""
         bits = np.zeros((len(self), self.n_contacts), dtype=np.int64)
         bits[self._event_of_entry(), self.listed] = self.codes >> shift & CODE
         return bits

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 ContactModes: TypeAlias = tuple[tuple[int, int], ...]
 """Mode of a system: pairs (contact, bits of Eq. (29)) of the contacts whose bits are not all zero, in order."""
 _CLOSED, _APPROACHING, _SLIPPING = 1, 2, 4
-"""Bits of Eq. (29)."""
+"""Bits of a contact in Eq. (29) of the paper: closed, approaching, slipping."""
 
 
 def are_recorded(solution: Solution) -> bool:

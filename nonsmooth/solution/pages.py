@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 MOST_KNOTS = 4000
-"""Default of the largest number of times at which a page has the bodies, in addition to the instants of events."""
+"""Default of the largest number of times at which a page shows the poses of the bodies, in addition to the instants of
+events."""
 
 
 def write(solution: Solution, path: Path | str, title: str, most_knots: int) -> Path:

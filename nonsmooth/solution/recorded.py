@@ -98,7 +98,8 @@ class Track:
 def row_of(state: State) -> Floats:
     """Row of a state in the form of a sample, shape [1 + n_y + 4].
 
-    A state has only sums of the work of driven bodies and of the friction loss.  They count as accounted at events.
+    A state has only sums of the work of driven bodies and of the friction loss.  They are stored as energies accounted
+    at events.
     """
     account = state.energy
     integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work

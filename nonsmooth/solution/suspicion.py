@@ -18,7 +18,8 @@ _MOST = 1e-3
 """Largest unexplained energy of a run of any number of steps, relative to the energy exchanged."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
 _OF_IMPACTS = 0.1
-"""Part of the tolerance of impacts that counts as the tolerance of a step."""
+"""Least tolerance of a step in the check of the energy account, relative to the tolerance of impacts, because impacts
+have errors, too."""
 _ROUND_OFF = 1e-12
 """Round-off in a difference of potential energies, relative to the potential energy."""
 
@@ -152,7 +153,7 @@ def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float =
 def long_quaternion(
     bodies: Mapping[str, Body], t: NDArray[np.float64], q: NDArray[np.float64], explained: float
 ) -> str:
-    """Sentence about the quaternion whose length differs most from 1 at the samples, "" if by ``explained`` at most."""
+    """Sentence about the quaternion whose length differs most from 1; "" if the difference is at most ``explained``."""
     most, found, first = explained, "", 0
     for name, body in bodies.items():
         if body.quaternion >= 0 and len(t) > 0:

@@ -20,7 +20,7 @@ _LEVEL, _SHUFFLE = 5, 1
 _CHECKSUM = 4
 """Size of a CRC32C [bytes]."""
 _SIZE, _LENGTH = slice(4, 8), slice(12, 16)
-"""Parts of the header of Blosc with the sizes of a chunk, unpacked and packed [bytes]."""
+"""Bytes of the header of a Blosc chunk that contain its unpacked size and its packed size [bytes]."""
 TEXT = "string"
 """Type of an array of texts of any length."""
 

@@ -18,7 +18,8 @@ from nonsmooth.system.pairing import ContactGeometries, Side, select
 
 _Facing: TypeAlias = tuple[Side, Side, ContactKinematics]
 _WITHOUT_SHAPE = -1
-"""Number of a shape, in ``paired``, of a contact with given kinematics, because its bodies need not carry the shape."""
+"""Number in ``paired`` in place of the number of a shape, for contacts with given kinematics: their bodies need not
+carry the shape."""
 
 
 @final
@@ -186,7 +187,7 @@ def _contact(name: str, facing: _Facing, laws: ContactLaws) -> Contact:
 
 
 def _is_same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:
-    """True if one impact can use both laws: both are impact processes, or both are of the same class."""
+    """True if one impact can use both laws: both are impact processes, or both are maps of the same class."""
     if isinstance(one, ImpactProcess):
         return isinstance(other, ImpactProcess)
     return type(one) is type(other)

@@ -47,7 +47,7 @@ def _performed(
 ) -> xarray.Dataset:
     """Run or continue a study, store its request with it, print a summary, and return its records."""
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print
+        with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in goes to standard error
             found = study.run(path, executor=executor, chunk=chunk, request=words)
     except KeyboardInterrupt:
         tell(f"complete chunks stay: `nonsmooth study resume {path}` continues")

@@ -77,7 +77,7 @@ def study_of(words: Mapping[str, Any], *, trust: bool, typed: bool = True) -> St
     InvalidInput
         If a value of the request is wrong or missing.
     """
-    with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print
+    with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in goes to standard error
         made = job(words["scenario"], words["set"], (), words["engine"], trust=trust, typed=typed)
         sampling = values.sampling(words["over"], words["sample"], words["seed"])
         classes = [name for name in made.scenario.words if name == "attractor"]
