@@ -11,8 +11,12 @@ from typing import Any
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
+from nonsmooth.scenarios.dumbbell.trace import note
 
 import nonsmooth as ns
+from nonsmooth import charts
+from nonsmooth.interfaces import ImpactLaw
 from nonsmooth.laws import (
     EnergeticImpact,
     JohnsonImpact,
@@ -23,11 +27,7 @@ from nonsmooth.laws import (
     PoissonImpact,
     ViscoelasticImpact,
 )
-from nonsmooth import charts
-from nonsmooth.interfaces import ImpactLaw
 from nonsmooth.system.replacing import with_laws
-from nonsmooth.scenarios.dumbbell import DumbbellScenario
-from nonsmooth.scenarios.dumbbell.trace import note
 
 Ran = tuple[DumbbellScenario, ns.Solution]
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 from law_axes import make_axes
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 import nonsmooth as ns
-from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 _START, _END, _TIMES = 0.12, 0.2, 4000
 _LOOKS = (("black", 12.0, 1.0), ("tab:red", 24.0, 2.5))

@@ -14,13 +14,13 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 from nonsmooth import progress, studies
 from nonsmooth.studies import continuation, hysteresis, orbit
 from nonsmooth.studies.attractors.pictures import basins as draw_basins
 from nonsmooth.studies.orbits.pictures import branch as draw_branch
 from nonsmooth.studies.orbits.pictures import multipliers
-from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 _QUIET = progress.Quiet()
 

@@ -10,11 +10,11 @@ import shutil
 import tempfile
 from pathlib import Path
 
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import nonsmooth as ns
-from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 PICTURE = Path(__file__).parent / "pages" / "figures" / "drift.webp"
 _WORDS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]

@@ -13,8 +13,8 @@ from matplotlib.patches import Circle, Polygon
 
 import nonsmooth as ns
 from nonsmooth.bodies import Ball, Plate
-from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.charts import COLOURS, panels
+from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 
 _DPI = 110
 _SEEN = (0.274, 0.149, 0.083)

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 from nonsmooth import studies
-from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 
 def main() -> None:

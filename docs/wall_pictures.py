@@ -13,14 +13,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import nonsmooth as ns
-from nonsmooth.bodies import Ball, DrivenBody, Hinge, OpenBox
-from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.scenarios.dice_throw import DiceThrow
 from nonsmooth.scenarios.dumbbell import DumbbellScenario
 from nonsmooth.scenarios.polyhedron_stack import PolyhedronStack
 from nonsmooth.scenarios.tippe_top import TippeTop
 from nonsmooth.scenarios.woodpecker import Woodpecker
+
+import nonsmooth as ns
+from nonsmooth.bodies import Ball, DrivenBody, Hinge, OpenBox
+from nonsmooth.laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 
 SIZE = 240
 """Longer side of a picture [pixels]."""

@@ -11,7 +11,7 @@ _get, __dir__, __all__ = lazy_names(__name__, __file__)
 
 
 def __getattr__(name: str) -> Any:
-    """Public name, imported at its first use, or the installed version."""
+    """Return a public name, imported at its first use; for ``__version__``, return the installed version."""
     if name != "__version__":
         return _get(name)
     from importlib.metadata import version

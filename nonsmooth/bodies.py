@@ -1,4 +1,4 @@
-"""The package ``bodies`` that comes with nonsmooth, whatever else has that name (:mod:`nonsmooth.two_names`)."""
+"""The package ``bodies`` that comes with nonsmooth, found by its folder (:mod:`nonsmooth.two_names`)."""
 
 from typing import TYPE_CHECKING
 

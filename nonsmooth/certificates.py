@@ -52,7 +52,7 @@ def opposes_slip(
     tangential_force : tuple of float
         Tangential force [N], shape (2,).
     tolerance : float
-        Deviation that counts as zero [m/s, N].
+        Largest deviation that is taken as zero: of velocities [m/s], and of forces [N].
     state : tuple of float, optional
         Inner states of the law, if it has any; by default its initial states.
     """

@@ -32,13 +32,13 @@ def verbatim(text: str) -> str:
 
 
 def line(place: int) -> dict[str, Any]:
-    """Line style at a place of the legend; styles differ in dashes as well as in colour."""
+    """Line style of entry number ``place`` of a legend; styles differ in dashes as well as in colour."""
     turn, which = divmod(place, len(COLOURS))
     return {"color": COLOURS[which], "linestyle": _DASHES[which], "linewidth": 1.3 + 0.9 * turn}
 
 
 def marker(place: int) -> dict[str, Any]:
-    """Style of open markers at a place of the legend; styles differ in shape as well as in colour."""
+    """Style of the open markers of entry number ``place`` of a legend; styles differ in shape as well as in colour."""
     which = place % len(COLOURS)
     return {"color": COLOURS[which], "marker": _MARKERS[which], "linestyle": "none", "fillstyle": "none"}
 

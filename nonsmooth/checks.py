@@ -85,7 +85,7 @@ def path_of(thing: str, value: object) -> Path:
     try:
         path.lstat()
     except (FileNotFoundError, NotADirectoryError, PermissionError):
-        # the function that writes there reports such an error
+        # the function that writes to the path reports a missing or forbidden folder
         return path
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else str(error)

@@ -1,4 +1,4 @@
-"""Errors for users: each names the thing, the rule, the value and the remedy."""
+"""Errors for users: each message names the input, the rule, the value and the remedy."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class InvalidInput(NonsmoothError, ValueError):
         super().__init__(f"{thing} {rule}, but it is {_shortened(repr(value))}. {remedy}")
 
     def within(self, place: str) -> InvalidInput:
-        """Error of the same kind that says where the thing is, such as a file and a key."""
+        """Same error with the place of the input in front, such as a file and a key."""
         return InvalidInput(f"{place}: {self.thing}", self.rule, self.value, self.remedy)
 
 
@@ -56,7 +56,7 @@ class MissingArgument(InvalidInput):
         self.args = (f"{thing} must be given. {remedy}",)
 
     def within(self, place: str) -> MissingArgument:
-        """Error that also says where the thing is."""
+        """Same error with ``place``, where the argument is missing, in front of the name of the argument."""
         return MissingArgument(f"{place}: {self.thing}", self.remedy)
 
 
@@ -107,7 +107,7 @@ class UnknownName(InvalidInput):
         self.args = (f"{unknown} {_shortened(repr(name))}. {self.remedy}",)
 
     def within(self, place: str) -> UnknownName:
-        """Error that also says where the name is."""
+        """Same error with ``place``, where the name was given, in its message."""
         return UnknownName(f"{place}: {self.thing}", str(self.value), self._known, self._other, self._remedy)
 
 
@@ -139,11 +139,11 @@ _LETTERS = {
     "r": "radius",
     "rho": "density",
 }
-"""Names of what publications write as letters."""
+"""Name of a parameter, by the letter that publications use for it."""
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:
-    """Known name that is most like another one, whatever the case of its letters; "" if none is."""
+    """Known name that is most similar to ``name``, in upper or lower case; "" if no known name is similar."""
     # imported for a message only: most programs never need it
     from difflib import get_close_matches
 

@@ -95,7 +95,7 @@ def rules(owner: type) -> Rules:
 
 
 def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
-    """Error of a function with an argument that is not a parameter: most often a field not declared by `parameter`."""
+    """Error of a function with an argument that is not a parameter: often a field not declared by `parameter`."""
     declared = f'{name}: float = parameter(0.2, doc="what it is")'
     remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
     return UnknownName(f"{asking} asks for: parameter", name, offered, remedy=remedy)
@@ -207,7 +207,7 @@ class Component(metaclass=_Checked):
             if rule.unit != "":
                 check_number(thing, value, rule)
             if rule.integer:
-                object.__setattr__(self, name, int(value))  # a study or a file gives 3.0
+                object.__setattr__(self, name, int(value))  # a study or a file gives an integer as 3.0
         self._check()
 
     def _check(self) -> None:

@@ -1,4 +1,4 @@
-"""The package ``scenarios`` that comes with nonsmooth, whatever else has that name (:mod:`nonsmooth.two_names`)."""
+"""The package ``scenarios`` that comes with nonsmooth, found by its folder (:mod:`nonsmooth.two_names`)."""
 
 from nonsmooth.two_names import load_from_folder
 

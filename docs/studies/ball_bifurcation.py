@@ -11,10 +11,10 @@ import sys
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
+from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 from nonsmooth.studies.orbits import continuation, hysteresis, orbit
 from nonsmooth.studies.orbits.pictures import branch as draw_branch
-from nonsmooth.scenarios.bouncing_ball import BouncingBall
 
 E, PERIOD, RANGE = 0.8, 0.04, (0.3, 1.3)
 FOLD = math.pi * (1.0 - E) / (1.0 + E)

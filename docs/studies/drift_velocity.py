@@ -14,9 +14,9 @@ import numpy as np
 import xarray
 from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 from nonsmooth import Solution, studies
-from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 LAWS = ["energetic", "mono_stiffness", "moreau", "poisson", "newton", "plastic"]
 

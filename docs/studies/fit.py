@@ -12,12 +12,12 @@ import sys
 
 import matplotlib
 import numpy as np
+from nonsmooth.scenarios.dumbbell import DumbbellScenario
 from numpy.typing import NDArray
 
 from nonsmooth import State
 from nonsmooth.studies import Family, fit
 from nonsmooth.studies.derivatives.pictures import fitted
-from nonsmooth.scenarios.dumbbell import DumbbellScenario
 
 TRUE, NOISE = {"restitution": 0.65, "friction": 0.2}, 2e-5
 TIMES = np.linspace(0.01, 0.2, 20)

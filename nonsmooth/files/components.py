@@ -21,7 +21,7 @@ from nonsmooth.plugins import registry
 
 _BASES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 TYPE = "type"
-"""Key of a table that names the class of the component."""
+"""Key of the entry of a table that names the class of the component."""
 
 TomlTable = dict[str, Any]
 
@@ -189,7 +189,7 @@ def _value(thing: str, value: Any, hint: Any, gate: Gate) -> Any:
 
 @contextlib.contextmanager
 def naming(thing: str) -> Iterator[None]:
-    """Put the place in a file, ``thing``, before the messages of errors."""
+    """Put the place in a file, ``thing``, in front of the messages of errors."""
     try:
         yield
     except InvalidInput as error:
@@ -237,7 +237,7 @@ def _own_class(hint: Any) -> Any:
 
 
 def group_of(hint: Any) -> str:
-    """Group of the installed names of components that a hint or its elements allow, "" if they allow no component."""
+    """Group of installed components that a type hint or its elements allow; "" if they allow no component."""
     known = (*_options(hint), *(one for option in _options(hint) for one in typing.get_args(option)))
     base = next((one for one in known if isinstance(one, type) and issubclass(one, _BASES)), None)
     return "" if base is None else next(name for name, bases in registry.GROUPS.items() if issubclass(base, bases))

@@ -162,7 +162,7 @@ def engine_of(thing: str, table: Any, gate: Gate) -> Engine:
 
 
 _GROUPS = {"contacts": "laws", "materials": "laws", "engine": "engines"}
-"""Section of a file -> group of the installed names in it, if the two names differ."""
+"""Group of the installed names in a section of a file, by the section, if the two have different names."""
 _UNITS = {"t_end": "s", "sample_interval": "s", "gravity": "m/s^2"}
 _UNKNOWN = "SI"
 """Unit of a number that is not a parameter of a class, such as a number of a start."""

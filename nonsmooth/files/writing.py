@@ -126,7 +126,7 @@ class _Laws:
                 return name
         table = table_of(law, thing)
         name = str(table[TYPE])
-        if len(table) > 1:  # a law without parameters is written as its installed name
+        if len(table) > 1:  # a law without parameters is written as its installed name alone
             name = _free(name, self.tables)
             self.tables[name] = table
         self._met.append((law, name))

@@ -45,7 +45,8 @@ def beyond_cones(
     Returns
     -------
     array
-        Booleans.  If the coefficient depends on direction, the largest counts.  Laws with inner states, traction laws,
+        Booleans.  If the coefficient depends on direction, the largest is taken.  Laws with inner states, traction
+        laws,
         and the pull of adhesive laws are not checked.
     """
     bound, may_pull = np.full(len(number), np.inf), np.zeros(len(number), dtype=bool)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Part: TypeAlias = Contact | Body | Tie | str | int
 """A contact, body or joint: the object, its name, or its number in the system, from 0."""
 Parts: TypeAlias = Part | Sequence[Part] | Integers
-"""A part, or several of them."""
+"""A contact, body or joint, or several."""
 
 
 @final

@@ -87,7 +87,7 @@ def _is_installed_in(place: str) -> bool:
 
 
 def _own_folders() -> set[Path]:
-    """Folders from which Python imports although nothing is installed there: the working folder, and the script's.
+    """Folders from which Python imports without an installation: the working folder and that of the script.
 
     They may hold files of other users.
     """
@@ -103,7 +103,7 @@ def _working_folder() -> tuple[Path, ...]:
 
 
 _BEGAN_IN = _working_folder()
-"""The working folder at the start, from which ``python -m`` imports even after a change of folder."""
+"""Working folder when the program began, from which ``python -m`` imports even after a change of folder."""
 
 
 @functools.cache
@@ -144,7 +144,7 @@ def _origin(point: EntryPoint) -> str:
 
 
 def check_groups() -> None:
-    """Warn of groups of entry points that begin with "nonsmooth." and are unknown: nothing reads them."""
+    """Warn of unknown groups of entry points that begin with "nonsmooth.", because no part of nonsmooth reads them."""
     known = [f"nonsmooth.{group}" for group in GROUPS]
     for group in sorted(entry_points().groups):
         if group.startswith("nonsmooth.") and group not in known:
@@ -209,7 +209,7 @@ def load(group: str, name: str) -> Any:
 
 @functools.cache
 def _usable(point: EntryPoint, group: str) -> Any:
-    """Class of an entry point, checked. It is kept, because systems load the same kinematics again and again."""
+    """Class of an entry point, checked and cached, because systems load the same kinematics many times."""
     try:
         loaded = point.load()
     except Exception as error:

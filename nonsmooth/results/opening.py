@@ -57,7 +57,7 @@ class Unavailable(Engine):
         return {}
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> NoReturn:
-        """Raise InvalidInput, because a run needs its engine."""
+        """Raise InvalidInput, because the run can continue only with the engine that began it."""
         raise InvalidInput("engine", "must be there to go on", dict(self.described), "Give the one that ran.")
 
 

@@ -35,7 +35,7 @@ class Output:
     parameters : mapping
         All parameters of the scenario, as values of JSON.
     overwrite : bool
-        True if the results of a finished run in the folder are replaced.
+        True if new results may replace those of a finished run in the folder.
     """
 
     folder: Path
@@ -65,7 +65,7 @@ class Output:
 
 
 class OtherVersions(NonsmoothWarning):
-    """A run or a study is continued with other versions than it began with, so that its last bits may differ."""
+    """A run or a study continues with other versions of the software than it began with; its last bits may differ."""
 
 
 @functools.cache

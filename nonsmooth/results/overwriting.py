@@ -61,7 +61,7 @@ def check_ours(path: Path) -> None:
         raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
     with writing(path):
         names = sorted(one.name for one in path.iterdir()) if path.exists() else []
-    # before a folder of arrays is marked, it has at most the folder of the lock
+    # a folder of arrays that is not yet marked contains at most the folder of the lock
     if names not in ([], [WRITER]) and not is_marked(path):
         raise InvalidInput(
             str(path),

@@ -59,7 +59,7 @@ _LAST = f"{WRITER}/state-end.npz"
 _OWN = "scenario_coordinates"
 """Attribute with the names of the arrays that the scenario adds."""
 _LENGTHS = {"time": "time", "event": "event_time", "listing": "listed_contact"}
-"""Dimension that grows -> array whose length is the length of the dimension."""
+"""Name of the array whose length is the length of a growing dimension, by the dimension."""
 
 
 @contextlib.contextmanager
@@ -113,7 +113,7 @@ class SolutionFolder:
             The folder cannot be written to.
         """
         path = output.solution
-        # first without the lock, for which a process that has just ended would have to wait
+        # check first without the lock, because a process that has just ended may still own it
         check_ours(path)
         check_replaceable(output)
         # check again under the lock, so that the results of a run that has begun meanwhile are not removed

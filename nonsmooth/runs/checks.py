@@ -197,8 +197,8 @@ def check_closed(model: LaidOut, state: State) -> None:
 def check_candidates(model: LaidOut) -> None:
     """Check the pair of features that a search has found for each contact, in a state that comes from a file.
 
-    The kinematics of the contact uses the numbers of the features as places in a table, and a wrong number would read
-    outside of it. Contacts without a search, or for which no pair was found, are not checked.
+    The kinematics of the contact uses the numbers of the features as places in a table. A wrong number would read
+    outside of the table. Contacts without a search, or for which no pair was found, are not checked.
 
     Raises
     ------

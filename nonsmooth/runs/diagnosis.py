@@ -55,7 +55,7 @@ _FAILED_CHECKS = {
         "{allowed:.3g}. The rates that {evaluator} gives do not keep its length. "
     ),
 }
-"""Message for each check of the engine that a run can fail: contact or body, value found and value allowed."""
+"""Message for each failed check, by the status of the engine: contact or body, value found and value allowed."""
 _CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report one of nonsmooth."
 """Remedy for a contact or body whose evaluator returns numbers that contradict each other."""
 _SHIFT = "Shift or turn a body a little, or give it rounded edges."

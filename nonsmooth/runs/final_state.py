@@ -43,7 +43,7 @@ class FixedPlaces(NamedTuple):
     tails : array
         Place of the coordinate rates dq/dt of each body among the blocks; force, inverse mass and energies follow.
     features : array
-        Place among the blocks of the features of each declared contact, negative if it has none.
+        Offset of the features of each declared contact in the blocks, negative for a contact without features.
     changing : tuple of array
         Which numbers a run may change (:attr:`nonsmooth.engine.memory.memory.Memory.changing`).
     """

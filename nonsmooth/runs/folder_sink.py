@@ -78,7 +78,7 @@ _FEWEST_STEPS = 4
 _FIRST_STEPS = 64
 """Number of steps of the first call, before the wall time of a step is known."""
 _MOST_STEPS = 2000
-"""Largest number of steps per call. A larger number saves no time."""
+"""Largest number of steps of the engine per call. A larger number saves no time."""
 _LARGEST_SIZE = 1 << 25
 """Size of records in memory [bytes] above which the unwritten records are written, and the written ones dropped."""
 

@@ -139,7 +139,8 @@ def outcome(model: LaidOut, ending: LoopEnd, engine: Engine) -> RunOutcome:
 
 
 _MOVED = 0.01
-"""Displacement between two compared samples, relative to the smallest body, so that no deeper overlap is missed."""
+"""Displacement from which on a sample is compared for overlap, relative to the smallest body: a smaller motion hides no
+deeper overlap."""
 
 
 def interpenetration(model: LaidOut, rows: Floats) -> str:

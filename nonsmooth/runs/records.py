@@ -30,7 +30,7 @@ StoredRecords: TypeAlias = tuple[Events, Callable[[], Floats]]
 _START_PART, _END_PART = -1, -2
 """Keys of the parts before the first call and after the last one. The others have the number of their call."""
 _ROUND_OFF = 1e-9
-"""Difference of two times, relative to the sample interval, below which the times count as equal."""
+"""Largest difference of two times that are taken as equal, relative to the sample interval."""
 _ACCOUNTED = places("totals.driven_work", "totals.restitution_loss", "totals.friction_loss", "totals.closing_loss")
 _ALWAYS = 1 << BEFORE | 1 << DURING | 1 << AFTER
 """Factor that turns the code of a mode into that of a contact with this mode before, during and after an event."""

@@ -41,7 +41,7 @@ FORMAT_VERSION = 1
 """Version of the format of a folder.  Folders of nonsmooth 0.1 have none."""
 _GROUP = "zarr.json"
 _ENTRIES = 2**14
-"""Numbers in a chunk of an array that grows; small, because every commit writes the last chunk anew."""
+"""Numbers in a chunk of an array that grows; small, because every commit writes the last chunk again."""
 _AT_ONCE = 16
 """Number of files that are synced to the disk at the same time, which takes about as long as one file."""
 _NAME = re.compile(r"[^\s./\\][^/\\]*")

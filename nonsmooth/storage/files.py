@@ -145,7 +145,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def _remove(path: Path) -> None:
-    """Remove a file, a link or a folder, if there is one."""
+    """Remove a file, a link or a folder, if the path exists."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path)
     else:

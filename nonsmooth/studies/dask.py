@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _PATIENCE = 5.0
 """Time within which a scheduler must answer [s]."""
 _DEATHS = 3
-"""Deaths of workers after which a chunk is repeated run by run."""
+"""Number of workers that may die during a chunk; the chunk is then repeated run by run."""
 
 
 class SchedulerLost(NonsmoothError):
@@ -169,7 +169,7 @@ def _in_turn(
 
 
 def _run_by_run(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the result of a suspected chunk, one run at a time: a worker that dies is then killed by its run."""
+    """Return the result of a suspected chunk, computed one run at a time, which shows the run that kills a worker."""
     from distributed import KilledWorker
 
     def result(run: Chunk) -> ChunkResult:

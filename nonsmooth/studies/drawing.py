@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST = 12
-"""Largest number of panels."""
+"""Largest number of panels in the figure."""
 _NAMED = 20
 """Largest number of classes that are named at the colour bar of a map."""
 _GREY = "0.5"

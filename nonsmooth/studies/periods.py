@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from nonsmooth.types import Array
 
 _ALIKE = 1e-5
-"""Largest difference of points that count as equal, relative to the range of all points."""
+"""Largest difference of points that are taken as equal, relative to the range of all points."""
 _LEAST = 1e-3
 """Smallest range, relative to the scale of the coordinate: points that are all equal have the range 0."""
 
 
 def alike(points: Array, scale: float) -> float:
-    """Return the largest difference of points of a diagram that count as equal, in their unit.
+    """Return the largest difference at which points of a diagram are taken as equal, in their unit.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def periods(points: Array, near: float) -> NDArray[np.int64]:
     points : array
         Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan does not repeat.
     near : float
-        Largest difference of points that count as equal, in each coordinate.
+        Largest difference of points that are taken as equal, in each coordinate.
     """
     found = np.zeros(len(points), np.int64)
     for n in range(points.shape[1] // 2, 0, -1):
@@ -60,7 +60,7 @@ def settling(points: Array, near: float) -> NDArray[np.bool_]:
     points : array
         Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan does not settle.
     near : float
-        Largest difference of points that count as equal, in each coordinate.
+        Largest difference of points that are taken as equal, in each coordinate.
     """
     found, repeats = np.zeros(len(points), np.bool_), periods(points, near)
     for i, one in enumerate(points):

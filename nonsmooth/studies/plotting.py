@@ -21,7 +21,7 @@ MARKS = {
     "simultaneous impacts": "*",
     "sequence": "X",
 }
-"""Mark of each kind of special point."""
+"""Mark of matplotlib for each kind of special point of a branch."""
 HATCHED: dict[str, Any] = {"edgecolor": "0.6", "hatch": "xxx", "linewidth": 0.0}
 """Style of areas of runs without records."""
 DOTTED: dict[str, Any] = {"linewidth": 0.9, "linestyle": ":"}

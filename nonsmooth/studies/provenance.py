@@ -12,7 +12,7 @@ from typing import Any
 from nonsmooth.results.output import versions
 
 _BEFORE, _SHOWN = 20, 60
-"""Number of characters that a message shows before a difference, and in total."""
+"""Numbers of characters of a specification that a message shows: before the first difference, and in total."""
 
 
 def digest(owner: Any) -> str:

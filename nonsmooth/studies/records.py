@@ -151,7 +151,7 @@ _NUMBERS: Mapping[str, tuple[Callable[[RunResult], float], str, str, str]] = {
     "t_end": (attrgetter("solution.t_end"), "float64", "s", "time reached"),
     "energy_residual": (attrgetter("solution.energy.residual"), "float64", "1", "relative error of the energy account"),
 }
-"""Numbers that every run has: function of the result, type, unit, description."""
+"""Numbers that every run has, by name: function of the result, type, unit, description."""
 _STATES = {"q_end": ("coordinate", "coordinates at the end"), "u_end": ("velocity", "velocities at the end")}
 _NUMBER = (int, float, np.number, np.bool_)
 

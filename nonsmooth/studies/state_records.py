@@ -80,8 +80,8 @@ class Stroboscope(Recorder):
     at : float
         Time of the section in each period [s], at which no velocity jumps.
     phase : str, optional
-        Parameter of the scenario that is the phase of the drive at t = 0 [rad], if the study varies it.  Then ``at``
-        counts from phase 0; by default it counts from t = 0.
+        Parameter of the scenario that is the phase of the drive at t = 0 [rad], if the study varies it.  Then ``at`` is
+        measured from phase 0; by default it is measured from t = 0.
 
     Raises
     ------

@@ -36,14 +36,14 @@ class CaseStatus(StrEnum):
 
     @property
     def code(self) -> int:
-        """Stored number of the status: its place in this list."""
+        """Stored number of the status: its index among the members of this class."""
         return list(CaseStatus).index(self)
 
 
 VALUED = (CaseStatus.DONE.code, CaseStatus.SUSPECT.code)
 """Codes of runs that have records."""
 WORKER_DIED, RAISED, UNKNOWN = -2, -1, 0
-"""Reasons beyond those of the engine: the process died, an exception was raised, the run has not begun."""
+"""Codes of reasons other than those of the engine: the process died, an exception was raised, the run has not begun."""
 
 
 def reason_of(message: str) -> int:

@@ -129,7 +129,7 @@ class Work:
         if solution.status == "interrupted":
             raise KeyboardInterrupt
         reason = reason_of(solution.message)
-        # only the largest number of steps is a condition that ends a run of a study
+        # the budget of steps is the only condition that can end a run of a study
         if solution.message == REASONS[Status.CONDITION_MET]:
             text = f"At t = {solution.t_end:.9g} s its {self.budget} steps were used up."
             return RunRow(CaseStatus.BUDGET, reason, text)

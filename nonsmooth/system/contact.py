@@ -35,9 +35,10 @@ class Contact:
     kinematics : ContactKinematics
         Geometry of the pair of shapes.
     extents : tuple of float
-        Radius of the sphere about the frame's origin that holds each shape [m].
+        Radius of the sphere about the frame's origin that contains each shape [m].
     levers : tuple of float
-        Largest speed of each surface along its normal in a turn about its frame's origin, per angular velocity [m].
+        Largest speed of each surface along its normal as it turns about its frame's origin, divided by the angular
+        velocity [m].
     normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw or None

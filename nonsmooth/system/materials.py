@@ -128,7 +128,7 @@ class Materials:
 
 
 def check_laws(where: str, normal: NormalLaw, friction: TangentialLaw, impact: ImpactLaw | None) -> None:
-    """Raise InvalidInput, naming ``where``, if a law is of the wrong kind or does not go with the other laws."""
+    """Raise InvalidInput, naming ``where``, if a law is of the wrong kind or cannot be combined with the other laws."""
     _check_role(where, "normal", normal)
     _check_role(where, "friction", friction)
     if isinstance(normal, CompliantNormalLaw):

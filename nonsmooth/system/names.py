@@ -55,7 +55,8 @@ def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ..
     words = {kind: kind_word(body) for kind, body in {type(body): body for body in bodies}.items()}
     kinds = ["" if name else words[type(body)] for body, name in zip(bodies, chosen, strict=True)]
     totals, taken = Counter(kinds), {*chosen}
-    # a single body of a kind has the name of the kind without a number, unless this name is chosen for another body
+    # if only one body is of a kind, its name is the kind without a number, unless the user chose this name for another
+    # body
     free = {
         kind: (word for word in itertools.chain([kind] * (total == 1), _numbered(kind)) if word not in taken)
         for kind, total in totals.items()

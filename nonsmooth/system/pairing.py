@@ -137,7 +137,7 @@ class ContactGeometries:
 
 
 def _kinematics_of(first: Shape, second: Shape) -> Found:
-    """Installed kinematics of two shapes, and True if it takes them in this order.
+    """Installed kinematics of two shapes, and True if it takes the shapes in this order.
 
     Raises
     ------
@@ -158,12 +158,12 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
 
 
 def installed_pair(first: Shape, second: Shape) -> Found | None:
-    """Installed kinematics of two shapes, and True if it takes them in this order; None if none is installed."""
+    """Installed kinematics of two shapes, and True if it takes the shapes in this order; None if none is installed."""
     return nearest_pair(registry.load_all("kinematics", _named_after(first, second)).values(), first, second)
 
 
 def _named_after(first: Shape, second: Shape) -> list[str]:
-    """Names of the installed kinematics that may fit two shapes, so that no others are imported.
+    """Names of the installed kinematics that may fit two shapes, so that no other kinematics are imported.
 
     The name "ground-triangle_mesh" belongs to the classes Ground and TriangleMesh. A name without a hyphen may belong
     to any classes.
@@ -182,7 +182,7 @@ _UPPER = re.compile(r"(?<!^)(?=[A-Z])")
 
 
 def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:
-    """Kinematics in ``known`` that fits two shapes, and True if it takes them in this order; None if none fits.
+    """Kinematics in ``known`` that fits two shapes, and True if it takes the shapes in this order; None if none fits.
 
     Kinematics of base classes also fit shapes of derived classes. If several fit, the one whose classes are nearest to
     those of the shapes in the class hierarchy is taken.

@@ -6,7 +6,7 @@ Each ``check_...`` returns a list of :class:`Property`; nothing runs before a pr
     def test_my_law(prop):
         prop()
 
-A property is checked in a child process, so that a component that does not come back is named.
+A property is checked in a child process, so that a component that does not return can be reported by name.
 """
 
 from nonsmooth.testing.body import check_body

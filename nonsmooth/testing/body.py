@@ -56,7 +56,7 @@ _TURNS = 3.0
 """Duration of flights, in units of the shortest time in which a coordinate or velocity changes by its size."""
 _AXES, _POSE = slice(ROTATION, VELOCITY), slice(POSITION, VELOCITY)
 _EVERY, _FREE = Claims(), Claims()
-"""Claims about every body, and about bodies with coordinates."""
+"""Claims about every body, and claims about bodies with coordinates."""
 
 
 def check_body(body: Body) -> list[Property]:
@@ -92,7 +92,7 @@ def _function(body: Body, name: str) -> CheckedFunction:
 
 @_EVERY.claim()
 def _start(body: Body) -> None:
-    """The start has the sizes that the body names, each number a unit, and unknown words are refused."""
+    """The start has as many numbers as the body declares, each with a unit, and unknown keywords are refused."""
     q, u = body.state()
     sizes, labels, known = (body.n_q, body.n_u), (body.q_labels, body.u_labels), (UNITS_OF_Q, UNITS_OF_U)
     columns = zip("qu", sizes, (q, u), body.state(), body.scales, labels, known, strict=True)
@@ -121,7 +121,7 @@ def _start(body: Body) -> None:
 
 @_EVERY.claim(GIVEN)
 def _writes_its_block(body: Body, at: State) -> str:
-    """It writes every number that can be non-zero, whatever stood there, and nothing beyond the block."""
+    """The evaluator writes every number that can be non-zero, whatever the block held, and nothing beyond the block."""
     call, (t, q, u), (start, rest) = plain(body), at, body.state()
     # another state, on the other side of the start
     before = 1.0 - t, start - 0.9 * (q - start) + 0.1, rest - 0.9 * (u - rest) + 0.1
@@ -244,7 +244,7 @@ def _kinetic_energy(body: Body, at: State) -> str:
 def _along(body: Body, at: State, gravity: Mapping[str, float], value: Callable[[BodyBlock, Array], Array]) -> Array:
     """Return the derivative in time of ``value(block, u)`` during free motion.
 
-    Time itself is held, so that prescribed motions are at rest.
+    Time is constant, so that prescribed motions are at rest.
     """
     t, q, u = at
     here = block_of(body, at, gravity)
@@ -261,7 +261,7 @@ def _along(body: Body, at: State, gravity: Mapping[str, float], value: Callable[
 
 @_FREE.claim(GIVEN)
 def _energy_in_free_flight(body: Body, at: State) -> str:
-    """In free flight the sum of kinetic and potential energy stays."""
+    """In free flight the sum of kinetic and potential energy is constant."""
     rates, here, u = _along(body, at, OBLIQUE, lambda b, u: b.energy), block_of(body, at), at[2]
     size = float(np.sum(np.abs(rates)) + np.abs(u) @ np.abs(here.force) + 1e-9 * np.sum(np.abs(here.energy)))
     if abs(float(np.sum(rates))) > _SAME * size:
@@ -307,7 +307,7 @@ def _spin(body: Body, at: State) -> str:
 
 @claim(GIVEN)
 def _momentum(body: Body, at: State) -> str:
-    """Without gravity, momentum and angular momentum stay in free flight."""
+    """Without gravity, momentum and angular momentum are constant in free flight."""
 
     def value(b: BodyBlock, u: Array) -> Array:
         # M u = J^T (p, L), L about the origin of the frame

@@ -114,7 +114,7 @@ def wrong_verdict(is_accepted: bool, expected: bool) -> str:
 
 @final
 class Claims(list[Claim]):
-    """The claims about a kind of component, in the order in which they are written.
+    """The claims (:class:`Claim`) about a kind of component, in the order in which they are written.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ class Claims(list[Claim]):
 def rows(
     claims: Sequence[Claim], components: Callable[[], Iterable[Any]], count: int, given: Sequence[Drawn] = ()
 ) -> list[Row]:
-    """Return one row for each claim. The components are made only when a row is checked.
+    """Return the property of each claim, as a :class:`Row`. The components are made only when a row is checked.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from nonsmooth.testing.outcome import Broken, NotChecked, Row, name_of, says_of,
 _FAR = 3.0
 """Ratio between the given value of a parameter and the other values that are tried."""
 _JUST = 1e-9
-"""Distance past a bound, relative to it, that a component must notice."""
+"""Distance of a value past a bound of its range, relative to the bound, at which a component must refuse the value."""
 
 
 def remade(component: Any, **values: Any) -> Any:
@@ -71,7 +71,7 @@ def component_rows(component: Any) -> list[Row]:
 def _declared_bounds(component: Any) -> None:
     """A parameter outside of its declared range, or not a finite number, raises InvalidInput.
 
-    A parameter inside is accepted, if need be with other values of the others.
+    A parameter inside is accepted, if necessary with other values of the other parameters.
     """
     owner = type(component)
     for name, (field, rule) in rules(owner).items():
@@ -90,7 +90,8 @@ def _declared_bounds(component: Any) -> None:
 def _acceptable(component: Any, name: str, value: float, rule: Rule) -> bool:
     """True if the component accepts a value of a parameter with some values of the other parameters.
 
-    The value rounded to an integer also counts. So does a value close to a bound if the value is that bound.
+    A component may accept integers only, so the value rounded to an integer is tried, too. It may also refuse a bound,
+    so a value near the bound is tried for the bound.
     """
     low, high = max(rule.minimum, rule.above), rule.maximum
     near = [value, float(round(value))]
@@ -134,7 +135,7 @@ def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
 
 
 def _round_trip(component: Any) -> None:
-    """Made anew from words, from JSON and from a scenario file, it is equal and offers the same parameters."""
+    """A component made anew from text, JSON or a scenario file equals the original and offers the same parameters."""
     owner = type(component)
     declared = {name: getattr(component, name) for name, (field, _) in rules(owner).items() if field.init}
     fields = [field.name for field in dataclasses.fields(component) if field.init]
@@ -177,7 +178,7 @@ def _through_file(component: Any) -> Any:
 
 
 def _immutable(component: Any) -> None:
-    """No parameter can be set after it is made."""
+    """No parameter can be set after the component is made."""
     fields = dataclasses.fields(component)
     if not fields:
         raise NotChecked(f"{type(component).__name__}: it has no parameters")

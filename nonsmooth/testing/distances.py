@@ -23,7 +23,8 @@ from nonsmooth.testing.property import Property, properties
 
 _POSES = 6
 _SAME = 1e-5
-"""Allowed error of points and distances, relative to the extents of both shapes; also of the normal's square."""
+"""Allowed error of points and distances, relative to the extents of both shapes, and of the squared length of the
+normal."""
 
 
 def check_distance_backend(backend: DistanceBackend) -> list[Property]:
@@ -88,7 +89,7 @@ def _place(rng: np.random.Generator, size: float) -> Place:
 
 @claim()
 def _points(backend: DistanceBackend) -> None:
-    """Nearest points are the distance apart, along the normal."""
+    """The vector between the nearest points is the distance times the normal."""
     for one in _answers(backend):
         found = one.found
         off = found.second - found.first - found.distance * found.normal
@@ -111,7 +112,7 @@ def _order(backend: DistanceBackend) -> None:
 
 @claim()
 def _planes(backend: DistanceBackend) -> None:
-    """The planes across the normal that touch two convex solids are the distance apart."""
+    """The two planes perpendicular to the normal that touch the convex solids are as far apart as the solids."""
     for one in _answers(backend):
         first, second = one.shapes[0].solid, one.shapes[1].solid
         if first is None or second is None or first.hollow or second.hollow:

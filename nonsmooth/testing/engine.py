@@ -33,7 +33,8 @@ _START = np.array([0.3, -0.2, 1.0, 2.0, -1.0, 0.5])
 _EXACT = 1e-6
 """Allowed error of free fall [m, rad/s], and residual allowed of an engine that promises no residual."""
 _THROUGH = 0.1
-"""Allowed overlap and error of height, relative to the motion: fixed steps find contacts only at their ends."""
+"""Allowed overlap, relative to the height of a fall or the radius of a ball, and relative error of a height: fixed
+steps find contacts only at their ends."""
 _HEAP_SAMPLES = 60
 _HEIGHT = 0.5 * scenes.GRAVITY * (0.5 * _END) ** 2
 """Height of a fall that ends in the middle of the run [m]."""
@@ -44,7 +45,8 @@ def check_engine(engine: Engine) -> list[Property]:
     """Return the properties of an engine.
 
     It runs free bodies, a body that falls on a slab, a ball that a driven plate throws, and a heap of ten balls. If the
-    engine's ``check`` refuses a system, the properties of that system are skipped. Only "contact" then counts as held.
+    engine's ``check`` refuses a system, the properties of that system are skipped. Only the property "contact" then
+    holds, because refusing is correct.
     """
     return properties(engine, _rows)
 
@@ -122,7 +124,7 @@ class _Trial:
 
 @_ENGINE.claim()
 def _names(trial: _Trial) -> None:
-    """`own`, `counts` and `settings` name what the workspace has, or is to have."""
+    """`counts` and `settings` name numbers of the workspace, and `own` declares further numbers."""
     assemble(trial.system, trial.engine)
 
 
@@ -145,7 +147,7 @@ def _require_times(solution: Solution, n: int) -> None:
 
 @_ENGINE.claim()
 def _samples(trial: _Trial) -> None:
-    """The samples are at the times asked for, from the start to the end."""
+    """The samples are at the requested times, from the start to the end."""
     _require_times(trial.solution, _SAMPLES)
     if trial.solution.t_end != _END:
         raise Broken("the run must end there", "t_end", trial.solution.t_end)
@@ -153,7 +155,7 @@ def _samples(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _many_samples(trial: _Trial) -> None:
-    """No sample is lost if they fill the buffers many times."""
+    """No sample is lost if the samples fill the buffers many times."""
     _require_times(trial.model.run(_END, sample_interval=_END / _MANY_SAMPLES), _MANY_SAMPLES)
 
 

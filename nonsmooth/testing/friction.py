@@ -141,7 +141,7 @@ def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: floa
 
 @claim(SPEED, HEADING)
 def _vanishes(law: FrictionLaw, speed: float, heading: float) -> str:
-    """Nothing is left of friction."""
+    """Friction vanishes in an impact and in sliding."""
     slip = along(speed, heading)
     impulse = _impact(law, point((*slip, -1.0))).tangential_impulse[0]
     _, force = _contact(law, [0.0, 0.0, -1.0], slip)

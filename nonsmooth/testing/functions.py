@@ -27,7 +27,7 @@ ROOM = 4
 OLD = 7.0e3
 """Value of the extra floats behind a block, which a function must not change."""
 _SAME = 1e-9
-"""Difference of compiled and plain results that counts as round-off, relative to their size."""
+"""Largest difference of compiled and plain results that is taken as round-off, relative to their size."""
 
 
 def plain_caller(function: Caller, form: str, values: Mapping[str, Any]) -> Caller:
@@ -99,7 +99,7 @@ def written(call: Callable[[Array], Any], size: int, old: float | Array = 0.0) -
 
 
 def left_over(call: Callable[[Array], Any], other: Callable[[Array], Any], size: int, row: int = 0) -> str:
-    """Return the fault of a block in which a number of the call before remains; "" if the function writes all numbers.
+    """Return the fault of a block in which a number of the last call remains; "" if the function writes all numbers.
 
     ``row`` is the length of the rows of the block, 0 if it has none.
     """
@@ -209,7 +209,7 @@ class _Functions:
         return self.made()
 
     def check(self, name: str) -> None:
-        """Raise the fault of a stage, or NotChecked if an earlier one has a fault."""
+        """Raise the fault of a stage; raise NotChecked if an earlier stage has a fault."""
         for stage, look in _STAGES.items():
             if stage not in self.found:
                 self.found[stage] = self._first_fault(look)
@@ -276,7 +276,7 @@ def _short(value: Any) -> str:
 
 
 def _known_parameters(function: CheckedFunction) -> None:
-    """Functions ask for parameters that the component offers."""
+    """Functions have only parameters that the component offers."""
     for name in parameter_names(function.function, function.form):
         if name not in function.offered:
             error = not_offered(function.title, name, function.offered)

@@ -193,7 +193,7 @@ def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
 
 @_SHARED.claim(_MU, _HEADING)
 def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
-    """In an impact too slight to end the slip, friction is that of sustained contact."""
+    """In an impact too slight to end the slip, friction equals the friction of sustained contact."""
     slip = np.array([math.cos(heading), math.sin(heading)])
     r = _respond(law, point((*slip, -1e-4)), mu)
     ratio = r.impulse[0, 1:] / r.impulse[0, 0]
@@ -277,7 +277,7 @@ def _certificate_of_energies(law: ImpactProcess, p: ImpactProblem, mu: float) ->
 
 @_PROCESS.claim(_STORED)
 def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
-    """More energy back than was stored does not obey the law."""
+    """An impact that gives back more energy than was stored does not obey the law."""
     if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
         return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
     return ""
@@ -303,7 +303,7 @@ def _of_contacts(law: ImpactMap, n: int) -> CheckedFunction:
 
 
 def _given(p: ImpactProblem) -> tuple[int, Array, Array]:
-    """Return the arguments of a map's function: number of contacts, Delassus matrix row by row, rates before."""
+    """Return the arguments of a map: number of contacts, Delassus matrix by rows, rates before the impact."""
     return p.n, np.ascontiguousarray(p.delassus).ravel(), p.rates
 
 
@@ -314,14 +314,14 @@ def _impulses(law: ImpactMap, p: ImpactProblem, mu: float, old: float = 0.0) -> 
 
 @_MAP.claim(GIVEN, _ANY_MU)
 def _writes_its_block(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
-    """It writes every impulse, whatever stood there, and nothing beyond."""
+    """The function writes every impulse, whatever the block held before, and nothing beyond the block."""
     clean, used = (_impulses(law, p, mu, old) for old in (0.0, OLD))
     return "" if np.allclose(clean, used, rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"
 
 
 @_MAP.claim(GIVEN, _ANY_MU, name="certificate")
 def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
-    """The impulses of the law obey it; larger ones, other friction and no impulse on closing contacts do not."""
+    """The impulses of the law obey it; larger impulses, other friction, and no impulse on closing contacts do not."""
     obeying, delassus, before = _impulses(law, p, mu), p.delassus, p.rates
     tolerance = _NEAR * float(np.max(np.abs(before)))
     across = obeying * np.tile([0.0, 1.0, 1.0], p.n)

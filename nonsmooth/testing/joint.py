@@ -29,7 +29,7 @@ _PARTS = {
     "second point": slice(POINT_B, ROW_BIAS),
     "bias": slice(ROW_BIAS, JOINT_ROW),
 }
-"""Positions of the parts in a row of a joint."""
+"""Slice of each part in the numbers of a row, by the name of the part."""
 _MOST_ROWS = 6
 _TRIES, _STEPS = 12, 40
 _CLOSED = 1e-12
@@ -87,7 +87,7 @@ def _number_of_rows(joint: Joint) -> None:
 
 @_JOINT.claim(MOVEMENT)
 def _writes_its_block(joint: Joint, move: Movement) -> str:
-    """It writes every number that can be non-zero, and nothing beyond its rows."""
+    """The joint writes every number that can be non-zero, and nothing beyond its rows."""
     call, here, there = plain_caller(joint.evaluator, "pair", joint.parameters()), move.at(), move.mirrored.at()
     size = JOINT_ROW * joint.n_rows
     return left_over(lambda out: call(*here, out), lambda out: call(*there, out), size, JOINT_ROW)
@@ -120,7 +120,7 @@ def _bias(joint: Joint, move: Movement) -> str:
 
 @_JOINT.claim(MOVEMENT)
 def _frame_invariance(joint: Joint, move: Movement) -> str:
-    """If both bodies are moved together, residuals stay and axes turn with them."""
+    """If both bodies are moved together, residuals are the same and axes turn with the bodies."""
     here, there = _look(joint, move.at()), _look(joint, moved(move.at()))
     # the points of a row without an axis have no effect
     acts = np.any(here[:, _PARTS["axis"]] != 0.0, axis=1)
@@ -167,7 +167,7 @@ def _can_be_closed(joint: Joint) -> str:
 
 @_JOINT.claim()
 def _ends(joint: Joint) -> None:
-    """The joint can be drawn where it holds."""
+    """The two points between which the joint is drawn are valid."""
     require_ends(joint.ends)
 
 

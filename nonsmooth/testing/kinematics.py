@@ -27,9 +27,10 @@ from nonsmooth.types import Array
 _DRAWS, _MOST_DRAWS = 40, 400
 _STEP = 5e-4
 _PLACE = (0.31, -0.23, 0.37)
-"""Place of the second body in the simplest input, in units of the reach: on no axis of the first."""
+"""Place of the second body in the simplest input, in units of the largest distance of the bodies: on no axis of the
+first body."""
 _DEEP = 0.1
-"""Largest penetration of two bounded bodies that is checked, in units of the reach."""
+"""Largest penetration of two bounded bodies that is checked, in units of the largest distance of the bodies."""
 _RATE, _BIAS = 1e-7, 1e-5
 """Allowed deviations of the gap rate and of the second-order terms from differences, relative to their size."""
 _UNIT = np.array([1.0, 0.0, 0.0, 0.0])
@@ -210,7 +211,7 @@ def _check_between(kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -
 
 @_AT_PLACES.claim(GIVEN, n_inputs=80)
 def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
-    """It writes every number that can be non-zero, and nothing beyond the block."""
+    """The kinematics writes every number that can be non-zero, and nothing beyond the block."""
     case, call = at.case, plain_caller(kinematics.evaluator, "pair", kinematics.parameters())
     turned_there = case | {"turn_a_x": case["turn_a_x"] + 1.0}
     here = tuple(map(_frame, _poses(case)))
@@ -234,7 +235,7 @@ def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_AT_PLACES.claim(GIVEN)
 def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The witness points are the gap apart, along the normal."""
+    """The vector between the witness points is the gap times the normal."""
     block = at.put().geometry
     gap, n = block[blocks.GAP], block[_NORMAL]
     apart = block[blocks.POINT_B : blocks.SIDE_A] - block[blocks.POINT_A : blocks.POINT_B]
@@ -245,7 +246,7 @@ def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_AT_PLACES.claim(GIVEN)
 def _feature(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The number of the feature is that of a named feature."""
+    """The number of the feature is the index of a named feature."""
     found, n = float(at.put().geometry[blocks.FEATURE]), len(kinematics.features)
     return "" if found in range(n) else f"it is {found:g}, of {n} features"
 
@@ -287,7 +288,7 @@ def _tangent_follows_the_first_body(kinematics: ContactKinematics, at: _Placed) 
 
 @_MOVED.claim(GIVEN)
 def _frame_invariance(kinematics: ContactKinematics, at: _Placed) -> str:
-    """If both bodies are moved together, the gap stays and the normal turns with them."""
+    """If both bodies are moved together, the gap is the same and the normal turns with the bodies."""
     before = float(at.put().geometry[blocks.GAP])
     wrong = at.moved_together(np.array([0.4, -0.3, 0.5]), _NORMAL, "normal")
     gap = float(at.rig.geometry[blocks.GAP])

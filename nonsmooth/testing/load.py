@@ -64,7 +64,7 @@ def _look(load: Load, t: float, at: Frames) -> Array:
 
 @_LOAD.claim(_TIME, MOVEMENT)
 def _writes_its_block(load: Load, t: float, move: Movement) -> str:
-    """It writes every number that can be non-zero, and nothing beyond the block."""
+    """The load writes every number that can be non-zero, and nothing beyond the block."""
     call, here, there = plain_caller(load.evaluator, "load", load.parameters()), move.at(), move.mirrored.at()
     return left_over(lambda out: call(t, *here, out), lambda out: call(1.0 - t, *there, out), LOAD)
 
@@ -96,7 +96,7 @@ def _depends_on_time(load: Load, t: float, move: Movement) -> str:
 
 @_LOAD.claim()
 def _ends(load: Load) -> None:
-    """The load can be drawn where it acts."""
+    """The two points between which the load is drawn are valid."""
     require_ends(load.ends)
 
 

@@ -26,7 +26,10 @@ _STEP = 1e-3
 _ELSEWHEN = 0.637
 """Time before an input at which the block is written first, in units of the time scale."""
 _PIECES, _BENT = 16, 0.15
-"""Within 1/16 of the time scale values may bend by 15 %; a sine with a third of the time scale as period bends more."""
+"""A piece is 1/16 of the time scale.
+
+Values may bend by 15 % of their size within it; a sine bends more if its period is a third of the time scale.
+"""
 _PARTS = {
     "position": slice(POSITION, ROTATION),
     "rotation": slice(ROTATION, VELOCITY),
@@ -98,7 +101,7 @@ def _positive_time_scale(motion: Motion) -> None:
 
 @_MOTION.claim(GIVEN)
 def _writes_its_block(motion: Motion, t: float) -> str:
-    """It writes every number that can be non-zero, and nothing beyond the block."""
+    """The motion writes every number that can be non-zero, and nothing beyond the block."""
     before = abs(t - _ELSEWHEN * _unit(motion))
     return left_over(functools.partial(_call, motion, t), functools.partial(_call, motion, before), FRAME)
 
@@ -119,7 +122,7 @@ def _slope_fault(motion: Motion, t: float, part: str, found: Array, known: float
 
 @_MOTION.claim(GIVEN)
 def _velocity(motion: Motion, t: float) -> str:
-    """Velocity and angular velocity are the derivatives of the pose."""
+    """A load with ``depends_on_time`` False is the same at another time."""
     rates, known = _slope(motion, t, "rotation")
     spin = spin_of(rates, _look(motion, t)[_PARTS["rotation"]])
     moves = _slope_fault(motion, t, "velocity", *_slope(motion, t, "position"))

@@ -16,7 +16,7 @@ Frames = tuple[Array, Array]
 """The frame blocks of the first and of the second body, shape [24] each."""
 _UNIT = (1.0, 0.0, 0.0, 0.0)
 _PLACE = (0.31, -0.23, 0.37)
-"""Place of the second frame in the simplest input [m]: on no axis of the first."""
+"""Place of the second frame in the simplest input [m]: on no axis of the first frame."""
 _TURNS = {"a": (0.12, -0.05, 0.15), "b": (-0.1, 0.2, 0.08)}
 """Turns of the frames in the simplest input [rad]: no axis of one frame is parallel to an axis of the other."""
 _TURN = 0.35

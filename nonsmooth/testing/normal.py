@@ -41,14 +41,18 @@ _WAVE = Drawn(
 _NEAREST, _FARTHEST = 1e-15, 1e3
 """Bounds between which the indentation under 1 N is searched [m]."""
 _PAST = 1e-6
-"""Distance past the reach at which the force is evaluated [m], as a step of the engine may end there."""
+"""Distance past the law's reach at which the force is evaluated [m], because a step of the engine may end there.
+
+The reach is the gap at which the contact opens.
+"""
 _NOTHING = 1e-9
-"""Largest force that counts as zero [N]."""
+"""Largest force that is taken as zero [N]."""
 _POINTS = 2048
 _GAIN = 1e-4
 """Allowed gain of energy in a cycle, relative to the exchanged energy: the error of the sum over the cycle."""
 _SAME = 1e-6
-"""Allowed difference of two impacts, in units of depth and speed: ten times the error of the engine."""
+"""Allowed difference of two integrations of an impact: of the indentation in units of the depth, and of the rate in
+units of the approach speed. It is ten times the error of the engine."""
 _LONGEST = 30.0
 """Duration of a compared impact, in units of depth divided by approach speed."""
 _COMPLIANT = Claims()
@@ -160,7 +164,7 @@ def _depth(law: CompliantNormalLaw, depth: float) -> float:
 
 @_COMPLIANT.claim()
 def _reach(law: CompliantNormalLaw) -> str:
-    """The gap at which the contact lets go is finite and not negative."""
+    """The reach, the gap at which the contact opens, is finite and not negative."""
     return "" if 0.0 <= law.reach < math.inf else f"it is {law.reach:g} m"
 
 
@@ -173,7 +177,7 @@ def _nothing_at_zero(law: CompliantNormalLaw, speed: float) -> str:
 
 @_COMPLIANT.claim(_DEPTH, _FACTOR, _SPEED, n_inputs=24)
 def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -> str:
-    """At rest the force rises with the indentation, or stays, and reaches 1 N."""
+    """At rest the force never falls as the indentation rises, and it reaches 1 N."""
     unit, force = _unit(law), _plain(law)
     if not math.isfinite(unit) and _pulling(law, speed):
         raise NotChecked("not checked, as it pulls where it is pressed")
@@ -246,7 +250,7 @@ def _energies(law: CompliantNormalLaw, x: Array, fastest: float, closing_rate: f
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, _RATE)
 def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: float) -> str:
-    """The force of the law obeys it, and forces that differ by a hundredth do not."""
+    """The force of the law obeys the law, and a force that differs by a hundredth does not."""
     x, rate = _depth(law, depth), share * speed
     force = _plain(law)(x, rate, speed)
     off = 0.01 * abs(force) + _NOTHING

@@ -47,7 +47,7 @@ class Row(NamedTuple):
 
 
 def name_of(check: Callable[..., Any]) -> str:
-    """Return the name of a property: that of the function that checks it, with blanks."""
+    """Return the name of a property: the name of the function that checks it, with blanks."""
     return check.__name__.strip("_").replace("_", " ")
 
 

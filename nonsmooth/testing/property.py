@@ -122,7 +122,7 @@ class Property:
         )
         if found.kind == "not checked":
             raise NotChecked(reason)
-        if holds and self.departure and not PLAIN:  # fewer inputs are tried in plain mode
+        if holds and self.departure and not PLAIN:  # plain mode tries fewer inputs
             held = f"it holds, although the class departs from it, as it says, because {self.departure}"
             raise PropertyFailed(thing, self.name, held, "departures", self.name, {})
         if holds:

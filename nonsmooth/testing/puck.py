@@ -54,7 +54,7 @@ _RATES = JACOBIAN + 36
 _FORCE = _RATES + 7
 _INVERSE_MASS = _FORCE + 6
 _ENERGY = _INVERSE_MASS + 36
-"""Positions of the parts after the Jacobian of the block of a body with 7 coordinates and 6 velocities."""
+"""Positions of rates, force, inverse mass and energies in the block of a body with 7 coordinates and 6 velocities."""
 _FINE = 1e-9
 """Tolerances of gap, velocity and time, in units of the puck's length and speed."""
 _STEP = 1e-10

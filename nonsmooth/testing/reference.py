@@ -37,7 +37,10 @@ _MOST_CALLS = 50_000
 _STEP = 1e-6
 """Step of the differences by which the rates of a motion are bounded, in units of the scales of its numbers."""
 _SAME, _STEPS = 1e-5, 1e-7
-"""Allowed differences of two motions: relative to the change of velocity, and to the velocity by the engine's steps."""
+"""Allowed difference of two motions: the first number times the change of velocity, plus the second times the speed.
+
+The second allows for the steps of the engine.
+"""
 
 
 def _force(indentation: float) -> float:

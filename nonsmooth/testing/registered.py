@@ -29,7 +29,7 @@ _CHECKS: Mapping[Any, Callable[..., list[Property]]] = {
     interfaces.Engine: testing.check_engine,
     interfaces.Scenario: testing.check_scenario,
 }
-"""The function of the kit that checks the components of each interface."""
+"""Function of the kit that checks a component, by the interface of the component."""
 
 
 def check_class(owner: Any, name: str, words: Mapping[str, str]) -> list[Property]:

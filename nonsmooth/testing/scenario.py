@@ -264,7 +264,7 @@ def _results_can_be_saved(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _only_reads(trial: _Trial) -> None:
-    """Summary, coordinates and criteria leave the solution as it is."""
+    """Computing the summary, the coordinates and the criteria does not change the solution."""
     solution, scenario = trial.solution, trial.scenario
     before = copy.deepcopy((solution.t, solution.q, solution.u))
     for method in (scenario.summarise, scenario.coordinates, scenario.final, scenario.acceptance):

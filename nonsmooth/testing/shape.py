@@ -92,7 +92,7 @@ def _solid(shape: Shape) -> None:
 
 @_SHAPE.claim()
 def _parts(shape: Shape) -> None:
-    """Convex parts lie within the solid, or as far beyond it as contacts may see its surface."""
+    """Convex parts extend beyond the solid by at most its ``set_back``."""
     solid = shape.solid
     for part in shape.parts:
         if solid is None or part.function or part.is_half_space:

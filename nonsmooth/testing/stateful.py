@@ -35,7 +35,7 @@ _STAGES = Drawn(
     (*_SPEEDS, *_DURATIONS),
     lambda c: [(c["speed_1"], c["duration_1"]), (0.0, c["duration_2"]), (c["speed_2"], c["duration_3"])],
 )
-"""Speeds and how long they last: a speed, a rest, and another speed."""
+"""Drawn pairs of slip speed and duration for three stages: a speed, a rest, and another speed."""
 _PERIODS = 20.0
 """Duration of the compared motions, in units of the shortest time constant of the states."""
 _SLOWED = 0.3

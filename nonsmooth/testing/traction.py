@@ -38,7 +38,8 @@ _LONG, _SHORT = 40.0, 0.5
 """Times at which traction is steady and not yet steady, in units of the time that fills the states."""
 _SAMPLES = 20
 _TIMES, _TURNS = 5.0, 60.0
-"""Longest duration of a compared motion, in units of the states' filling time and of its shortest time constant."""
+"""Longest duration of a compared motion, in units of the time that fills the states, and of the shortest time constant
+of the motion. The shorter duration is taken."""
 _TRACTION = Claims()
 
 
@@ -181,7 +182,7 @@ def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float
 
 @_TRACTION.claim(_LOAD, _MOTION, _BENT)
 def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
-    """Force and moment of the law obey it, and those that differ by a hundredth do not."""
+    """Force and moment of the law obey the law; if they differ by a hundredth, they do not."""
     state = _bent(law, bent)
     wrench, _ = _look(law, load, motion, state)
     off = 0.01 * float(np.max(np.abs(wrench))) + 1e-9 * load

@@ -57,7 +57,7 @@ def test_parameters_of_bodies_and_laws(call: Call, name: str, parameter: str, ro
         ("BoxBody", "box: body of", "from nonsmooth.bodies import BoxBody"),
         ("box_body", "box: body of", "from nonsmooth.bodies import BoxBody"),
         ("Hinge", "hinge: joint of", "from nonsmooth.bodies import Hinge"),
-        ("EnergeticImpact", "energetic: law of", "from laws import EnergeticImpact"),
+        ("EnergeticImpact", "energetic: law of", "from nonsmooth.laws import EnergeticImpact"),
     ],
 )
 def test_a_class_is_shown_by_its_own_name(call: Call, word: str, name: str, line: str) -> None:

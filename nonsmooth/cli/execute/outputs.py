@@ -87,7 +87,7 @@ class Saver:
         except NonsmoothError as error:
             self.troubles.append(str(error))
             complain(str(error))
-        except Exception as error:  # a plug-in's mistake must not cost the results; its author needs the trace
+        except Exception as error:  # a fault of a plug-in must not lose the results; its author needs the traceback
             tell(traceback.format_exc())
             self.troubles.append(f"{what} failed: {type(error).__name__}: {error}")
             complain(self.troubles[-1])

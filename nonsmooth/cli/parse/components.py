@@ -71,12 +71,12 @@ def _component(option: str, group: str, base: type, word: str, form: str, exampl
 
 
 def described(kind: str, made: Any) -> dict[str, Any]:
-    """Return the entries of a component in the report: its class under the key ``kind``, and its parameters."""
+    """Return the entries of a component for the report: its class under the key ``kind``, and its parameters."""
     return {kind: type(made).__name__} | {name: getattr(made, name) for name in rules(type(made))}
 
 
 def replacements(laws: Mapping[str, Any]) -> dict[str, str]:
-    """Return each replaced role with the role of the new law; a compliant normal law also replaces the impact law."""
+    """Return the role of the new law by each role that it replaces; a compliant normal law replaces the impact law."""
     replaced = {role: role for role in laws}
     if isinstance(laws.get("normal"), CompliantNormalLaw):
         replaced["impact"] = "normal"

@@ -1,4 +1,4 @@
-"""Job of a request, typed or stored: its scenario, laws and engine. The options that name these."""
+"""Job of a request, typed or stored: its scenario, laws and engine. Also the options that name them."""
 
 from __future__ import annotations
 

@@ -17,11 +17,11 @@ from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
 _LONG_WORD = 80
-"""Largest number of characters of a mode word that is printed in full: it fits into a line."""
+"""Largest number of characters of a mode word that is printed in full, so that it fits into a line."""
 _NAMED = 2
 """Largest number of contacts that are named if a mode word is too long to be printed."""
 _COMMONEST = 5
-"""Largest number of mode words that are printed; the others are counted."""
+"""Largest number of mode words that are printed; the report gives the number of further mode words."""
 _INSTANT = 5e-5
 """Share of the run's time below which a mode word is only counted: its share would be printed as 0.00 %."""
 _ROUND_OFF = 1e-15
@@ -99,7 +99,7 @@ def as_text(report: Report) -> str:
 
 
 def _modes(shares: dict[str, float] | None, names: list[str]) -> list[str]:
-    """Return lines with the commonest mode words and their shares of time, and with the number of others."""
+    """Return lines with the commonest mode words and their shares of time, and the number of further mode words."""
     if shares is None:
         return ["unknown: the engine records no modes"]
     lasting = [(word, share) for word, share in shares.items() if share >= _INSTANT]

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     import xarray
 
 _MARGIN = 8
-"""Shortest side of the grid over the largest distance: at least three quarters of the side then have all neighbours."""
+"""Least ratio of the shortest side of the grid to the largest distance: three quarters of the side have all neighbours.
+"""
 _FEWEST = 3
 """Least number of distances in the fit: a standard error needs a third point."""
 _SMOOTH = 1.0
@@ -110,14 +111,14 @@ class Boundary:
         Share f of uncertain starts at each distance, shape [n].  A start is uncertain if a neighbour at this distance,
         along an axis of the grid, leads to another attractor.
     starts : int
-        Number of starts that count.
+        Number of starts whose neighbours all exist and reached their end.
     exponent, error : float
         Uncertainty exponent, 1 for a smooth boundary, and its standard error from the scatter about the fit.  No
         boundary has an exponent above 1, so the error is at least the excess of the exponent over 1.
     offset : float
         Value of ln f on the fitted line at a distance of one step.
     dimension : float
-        Dimension of the boundary: dimension of the grid less the exponent, of which at most 1 counts.
+        Dimension of the boundary: dimension of the grid less the exponent; an exponent above 1 is taken as 1.
     """
 
     steps: Array
@@ -189,7 +190,11 @@ def _check_even(attractor: xarray.DataArray) -> None:
 
 
 def _neighbours(labels: NDArray[np.int64], step: int, margin: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return two masks of the starts within a margin: all neighbours known, some neighbour with another attractor."""
+    """Return two masks of the starts at least ``margin`` from the edges of the grid.
+
+    The first mask is True if all neighbours ``step`` away lead to an attractor. The second mask is True if one of them
+    leads to another attractor.
+    """
     inner = tuple(slice(margin, n - margin) for n in labels.shape)
     known, other = labels[inner] >= 0, np.zeros(labels[inner].shape, bool)
     for axis in range(labels.ndim):

@@ -29,9 +29,10 @@ from nonsmooth.types import Array
 _PROBE = 1e-6
 """Step of the central differences of gaps and gap rates, in units of the scales of the bodies."""
 _DEPENDS = 1e-6
-"""Derivatives that count as zero, relative to the largest derivative."""
+"""Derivatives and independent parts of directions below this value, relative to the largest, are taken as zero."""
 _EARLIER = 0.1
-"""The first direction above this part of the largest is eliminated: neighbouring states then eliminate the same."""
+"""The first direction whose derivative reaches this part of the largest is eliminated, so that neighbouring states
+eliminate the same directions."""
 _MOST = 20
 """Largest number of steps of Newton's method."""
 
@@ -98,7 +99,7 @@ class Chart:
     inverse : array
         Pseudo-inverse of the derivatives of gaps and rates along the eliminated directions, shape [k, n_residual].
     ignored : array
-        Directions along which states count as equal, shape [n_q + n_u, s].
+        Directions along which states are taken as equal, such as those of a symmetry, shape [n_q + n_u, s].
     """
 
     basis: Array
@@ -132,7 +133,7 @@ class Chart:
         without : collection of str
             Names of constant coordinates and velocities, each with its body ("ball.z").
         ignored : array, optional
-            Directions along which states count as equal, shape [n_q + n_u, s].
+            Directions along which states are taken as equal, such as those of a symmetry, shape [n_q + n_u, s].
 
         Raises
         ------
@@ -144,7 +145,7 @@ class Chart:
         """
         contacts, quaternions = ClosedConstraints.at(model, state), tuple(quaternions_of(model.system).values())
         columns, names = _columns(model.system, state, within, without)
-        # only the part of an ignored direction counts that lies along coordinates that may change
+        # of an ignored direction, use only the components along coordinates that may change
         changes = np.any(columns, axis=1)[:, None]
         same = np.zeros((len(columns), 0)) if ignored is None else np.where(changes, ignored, 0.0)
         kept = _independent(columns, same)
@@ -215,7 +216,7 @@ class Chart:
 
 
 def _eliminated(rows: Array) -> list[int]:
-    """Return the directions to eliminate, one for each independent row, by Gram-Schmidt with pivots."""
+    """Return the numbers of the directions to eliminate, one for each independent row, by Gram-Schmidt with pivots."""
     # rows are normalised, because gaps and rates have different units
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
     left, found = rows / np.where(sizes > 0.0, sizes, 1.0), list[int]()
@@ -233,7 +234,7 @@ def _eliminated(rows: Array) -> list[int]:
 
 
 def _independent(columns: Array, same: Array) -> list[int]:
-    """Return the numbers of columns that are independent of each other and of the columns of ``same``, rising."""
+    """Return the rising numbers of columns that are independent of each other and of the columns of ``same``."""
     basis, kept = np.linalg.qr(same)[0], list[int]()
     while True:
         left = columns - basis @ (basis.T @ columns)

@@ -1,4 +1,4 @@
-"""Names, units, scales and places of the coordinates and velocities of a system."""
+"""Names, units, scales and indices of the coordinates and velocities of a system."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ _LEAST = 2e-7
 _REFUSED = 0.25
 """Factor that reduces a step whose runs pass other events: ten reductions span six decades."""
 _WORSE = 2.0
-"""Growth of the error that stops the search: a smaller growth may be scatter (Ridders)."""
+"""Factor by which the error must grow to stop the search: a smaller growth may be scatter (Ridders)."""
 _SCATTER = 3.0
 """Safety factor of the error: rounding varies with the step, so two estimates may agree by chance."""
 

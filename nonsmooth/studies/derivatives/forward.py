@@ -125,7 +125,10 @@ def _steady(family: Family, name: str, times: Array, expected: Signature) -> tup
 
 
 def _slope(family: Family, name: str, times: Array, expected: Signature, step: float) -> Array:
-    """Return the derivatives with a step; one-sided if the parameter has values on one side only."""
+    """Return the derivatives of the states by a parameter.
+
+    They are differences with one step, one-sided if the parameter has values on one side only.
+    """
 
     def sampled(change: float) -> tuple[Array, Signature]:
         return _states(family.model(**{name: family[name] + change}), times)[:2]

@@ -25,7 +25,7 @@ Observe = Callable[[State], Any]
 _STEP = 1e-5
 """Step of the differences of least squares, relative to the range of the parameter."""
 _ROUND_OFF = 1e-7
-"""Effect of parameters that counts as round-off, relative to the largest: error of runs, 1e-12, over the step."""
+"""Effects of parameters below this part of the largest are taken as round-off: error of runs, 1e-12, over the step."""
 _REFINED = 3
 """Number of best starting points from which the search starts."""
 
@@ -141,7 +141,7 @@ class _Problem:
     observe: Observe
 
     def values(self, scaled: Array) -> Array:
-        """Return the parameters for values scaled to the bounds, 0 to 1."""
+        """Return the parameters for scaled values: 0 is the lower bound of a parameter, 1 its upper bound."""
         return self.low + scaled * (self.high - self.low)
 
     def modelled(self, values: Array) -> Array:

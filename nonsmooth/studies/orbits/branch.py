@@ -28,11 +28,11 @@ _MOST = 2000
 _GROWS = 1.3
 """Factor by which the step grows after a success."""
 _SAME = 1e-6
-"""Allowed difference of motions that begin a period apart, in units of scales: round-off of runs is below it."""
+"""Largest difference of two motions that begin a period apart, in units of scales: round-off of runs is below it."""
 _PARTS = tuple(0.5**i for i in range(11))
-"""Fractions of the distance to an end of the range: the period is tested at the first where a motion can begin."""
+"""Fractions of the distance from the orbit to an end of the range: the first at which a motion can begin is tested."""
 _KNOWN = 1e-9
-"""Relative error of a predicted change of events that is small enough to end the branch there."""
+"""Relative error of a predicted change of events below which the branch ends at the change."""
 
 
 @final
@@ -251,4 +251,4 @@ _TESTS: dict[str, Callable[[ContinuationPoint], float]] = {
     "period doubling": _doubling,
     "Neimark-Sacker": _torus,
 }
-"""Test function of each bifurcation, which changes its sign there."""
+"""Test function of each bifurcation, by its kind; it changes its sign at the bifurcation."""

@@ -314,7 +314,7 @@ def hysteresis(
     family = Family.of(what, EventDriven())
     blank = sampling.diagram(family, name, row)
     last = dict[int, tuple[Model, State, float]]()
-    """Model, last state and period of the run before, by the place of its value."""
+    """Model, last state and period of the run before, by the index of its value."""
 
     def points_of(model: Model, value: float) -> Array:
         i, lasts = int(np.searchsorted(row, value)), sampling.lasts(value)

@@ -17,15 +17,15 @@ from nonsmooth.types import Array
 
 SIMULTANEOUS = "simultaneous impacts"
 _KINDS = {"approach": "grazing", "gap": "grazing", "between_impacts": SIMULTANEOUS}
-"""Kind of change at which each distance vanishes."""
+"""Kind of change at which each distance vanishes, by the field of :class:`GrazingDistance`."""
 _CANDIDATES = 200
 """Number of parts of a run in each of which a least gap is searched for."""
 _CLOSED, _COLLIDES = 1, 2
-"""Bits of the mode code of a contact."""
+"""Bits of the mode code of a contact: closed, and colliding."""
 _POINTS = 4
 """Largest number of orbits from which the zero of a distance is extrapolated."""
 _GROWS = 1.5
-"""Least ratio of the distances of two successive ones of these orbits."""
+"""Least ratio of the distances to grazing of two successive orbits in this extrapolation."""
 _LITTLE = 1e-2
 """Largest distance, relative to its scale, that is extrapolated to zero."""
 

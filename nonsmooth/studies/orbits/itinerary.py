@@ -43,7 +43,7 @@ class Itinerary:
     ----------
     at : array
         Times of the events, in periods since the beginning of the first period, shape [n].  A negative first time is
-        that of the last event before.
+        the time of the last event before the first period.
     events : Signature
         Cause and contact of each event.
     """

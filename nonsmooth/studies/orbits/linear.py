@@ -141,7 +141,7 @@ def _maps(
     """Return the directions at a state, the run to its image, and the image over a change along each direction."""
     chart, end = _chart_at(model, state, section, within), section.flow(model, state)
     there = _chart_at(model, end.state, section, within)
-    # away from an orbit other contacts may be closed at the end
+    # away from an orbit, other contacts may be closed at the end: then use the directions at the start
     there = there if there.names == chart.names else chart
 
     def moved(way: Array) -> Sampled:

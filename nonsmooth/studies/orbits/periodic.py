@@ -43,7 +43,7 @@ _MODES = {Mode.OPEN: "open", Mode.STICK: "closed and sticks", Mode.SLIDE: "close
 _NAMED = 3
 """Largest number of contacts that a message names."""
 _NEARLY_ONE = 1e-3
-"""Distance of a multiplier from 1 that explains a failure of Newton's method, which divides by it."""
+"""A multiplier nearer to 1 than this explains a failure of Newton's method, which divides by the difference."""
 
 
 class NoOrbit(NonsmoothError):

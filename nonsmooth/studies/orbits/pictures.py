@@ -59,7 +59,7 @@ def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes 
     ax = axes_of(ax)
     heights = np.array([shown(orbit) for orbit in found.orbits])
     stable = np.array([orbit.stable for orbit in found.orbits])
-    # the line between a stable orbit and an unstable one is dashed
+    # the segment that joins a stable orbit to an unstable one is dashed
     for which, style, word in ((stable, "-", "stable"), (~stable, "--", "unstable")):
         wide = which if style == "-" else which | np.roll(which, 1) | np.roll(which, -1)
         if np.any(which):

@@ -25,9 +25,10 @@ FREQUENCY_REMEDY = (
     "If the parameter changes the frequency, give period=lambda value: ... [s]; on the command line --period 1/NAME."
 )
 _SAME = 1e-6
-"""Allowed difference of motions that begin a period apart, in units of scales: tolerances of runs cause less."""
+"""Largest difference of two motions that begin a period apart, in units of scales: tolerances of runs cause less."""
 _TRIES = 3
-"""Number of periods of which one must agree: in one, rounding may decide the order of simultaneous impacts."""
+"""Number of compared periods, of which one must agree: in one, rounding may decide the order of simultaneous impacts.
+"""
 _MOST = 8
 """Largest number of periods tested until one has a contact: the drive may act on a body through contacts only."""
 

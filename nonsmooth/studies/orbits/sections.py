@@ -26,7 +26,7 @@ from nonsmooth.types import Array, Floats
 _CANDIDATES = 200
 """Number of times in a period among which the time of the section is chosen."""
 _CLOSED, _SLIDES = 1, 4
-"""Bits of the mode code of a contact."""
+"""Bits of the mode code of a contact: closed, and sliding."""
 
 
 class Section(ABC):
@@ -46,18 +46,21 @@ class Section(ABC):
 
     @abstractmethod
     def with_period(self, period: float) -> Section:
-        """Return the section for another period of the drive [s]; unchanged if it has no period."""
+        """Return the section for another period of the drive [s]; a section without a period is returned unchanged."""
 
     def fixed(self, model: Model) -> tuple[str, ...]:
         """Return the names of coordinates that are constant on the section; none by default."""
         return ()
 
     def ignored(self, model: Model, state: State) -> Array:
-        """Return directions along which states count as equal, shape [n_q + n_u, k]; none by default."""
+        """Return directions along which states are taken as equal, shape [n_q + n_u, k]; by default there are none."""
         return np.zeros((len(state.q) + len(state.u), 0))
 
     def check(self, model: Model, start: State) -> None:
-        """Raise InvalidInput if a period from a state contradicts an assumption of the section; none by default."""
+        """Raise InvalidInput if a period from a state contradicts an assumption of the section.
+
+        By default nothing is checked.
+        """
         return
 
     def turns(self, model: Model, start: State) -> dict[str, float]:

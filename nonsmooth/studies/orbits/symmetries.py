@@ -30,7 +30,8 @@ _AXES = "xyz"
 _TEST_ANGLE = 1.0
 """Angle by which a state is turned to test a symmetry [rad]."""
 _SAME = 1e-6
-"""Allowed difference of a turned motion, in units of scales: round-off of runs is below it."""
+"""Largest difference of the motion from a turned start to the turned motion, in units of scales: round-off of runs is
+below it."""
 _GUESSES, _MOST = 5, 20
 """Number of angles per turn that are tried first, and largest number of Newton's steps from the best of them."""
 _CLOSE = 1e-9
@@ -182,7 +183,7 @@ class RelativeSection(Section):
         return self.section.fixed(model)
 
     def ignored(self, model: Model, state: State) -> Array:
-        """Return the directions of the symmetries."""
+        """Return the directions of the symmetries, shape [n_q + n_u, k]."""
         return np.column_stack([one.direction(model.system, state) for one in self.symmetries])
 
     def check(self, model: Model, start: State) -> None:
