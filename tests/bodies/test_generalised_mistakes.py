@@ -70,7 +70,7 @@ MISTAKES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
     ({"end": {"jacobian": _wrong_sign}}, ("moving_frames[0].jacobian: _wrong_sign", "derivative of the position")),
     ({"end": {"bias": _half_bias}}, ("moving_frames[0].bias: _half_bias", "derivative of the Jacobian times u")),
     ({"end": {"bias": _no_square}}, ("moving_frames[0].bias: _no_square", "derivative of the Jacobian times u")),
-    ({"end": {"pose": _misspelt}}, ("_misspelt asks for a constant", "'halv'", "Did you mean 'half'")),
+    ({"end": {"pose": _misspelt}}, ("_misspelt: unknown constant", "'halv'", "Did you mean 'half'")),
     ({"mass": weight_force}, ("mass: weight_force", "must begin with ('q', 'out')")),
     ({"potential": 3.0}, ("potential", "plain function", "3.0")),
     ({"coordinates": ()}, ("coordinates", "at least one")),

@@ -124,7 +124,7 @@ def test_an_orbit_without_a_period(call: Call) -> None:
         ),
         (("continue", *ASKED, "--over", "gama=0.7:0.9"), "Did you mean 'gamma'"),
         (("continue", *BALL, "--over", "frequncy=24:26", "--period", "1/frequncy"), "Did you mean 'frequency'"),
-        (("continue", *BALL, "--over", "frequency=24:26", "--period", "1/f"), "--period: parameter of --over"),
+        (("continue", *BALL, "--over", "frequency=24:26", "--period", "1/f"), "--period: unknown parameter of --over"),
         (
             ("continue", *BALL, "--over", "frequency=24:26", "--period", "1:f"),
             "a number of seconds, N/NAME or Npi/NAME",
