@@ -1,4 +1,4 @@
-"""The package ``bodies`` that comes with nonsmooth, even if another module has that name (:mod:`nonsmooth.two_names`)."""
+"""The package ``bodies`` of nonsmooth, even if another module has that name (:mod:`nonsmooth.two_names`)."""
 
 from typing import TYPE_CHECKING
 

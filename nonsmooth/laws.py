@@ -1,4 +1,4 @@
-"""The package ``laws`` that comes with nonsmooth, even if another module has that name (:mod:`nonsmooth.two_names`)."""
+"""The package ``laws`` of nonsmooth, even if another module has that name (:mod:`nonsmooth.two_names`)."""
 
 from typing import TYPE_CHECKING
 

@@ -65,7 +65,10 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
 
 
 def _place_in_engine(value: Any) -> str:
-    """Name of a function of the engine, whose sources are part of the name of the folder of code; "" for other values."""
+    """Name of a function of the engine; "" for other values.
+
+    The sources of the engine are part of the name of the folder of code.
+    """
     if found := next((name for name, one in vars(kernel).items() if one is value and callable(one)), ""):
         return f"{kernel.__name__}:{found}"
     module, name = (str(getattr(value, attribute, "<none>")) for attribute in ("__module__", "__qualname__"))

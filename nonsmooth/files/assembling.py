@@ -70,7 +70,7 @@ def system(tables: TomlTable, path: Path, gate: Gate) -> System:
         made_guard = component(f"{path}: guards[{i}]", own, Guard, gate)
         with naming(f"{path}: guards[{i}]"):
             made_system.guard(made_guard, name=name)
-    for later in (False, True):  # a start with "place" puts a body onto other bodies, so the other bodies are placed first
+    for later in (False, True):  # a start with "place" puts a body onto others, so the others are placed first
         for name, start in starts.items():
             if not isinstance(start, dict):
                 raise InvalidInput(f"{path}: bodies.{name}.start", "must be a table", start, "See Body.state.")

@@ -237,7 +237,7 @@ def _own_class(hint: Any) -> Any:
 
 
 def group_of(hint: Any) -> str:
-    """Group of the installed names of the components that a type hint or its elements allow, "" if they allow no component."""
+    """Group of the names of components that a type hint or its elements allow, "" if they allow no component."""
     known = (*_options(hint), *(one for option in _options(hint) for one in typing.get_args(option)))
     base = next((one for one in known if isinstance(one, type) and issubclass(one, _BASES)), None)
     return "" if base is None else next(name for name, bases in registry.GROUPS.items() if issubclass(base, bases))

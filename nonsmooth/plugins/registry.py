@@ -87,7 +87,7 @@ def _is_installed_in(place: str) -> bool:
 
 
 def _own_folders() -> set[Path]:
-    """Folders from which Python imports although nothing is installed there: the working folder and the folder of the script.
+    """Folders from which Python imports although nothing is installed there: the working folder, the script's folder.
 
     They may hold files of other users.
     """

@@ -183,7 +183,10 @@ class Events:
         return cls(starts[-1], parts[0].n_contacts, read)
 
     def _bits(self, shift: int) -> Integers:
-        """Mode bits of every contact at every event, shape [n, n_contacts]; ``shift`` selects before, during or after."""
+        """Mode bits of every contact at every event, shape [n, n_contacts].
+
+        ``shift`` selects the bits before, during or after the events.
+        """
         bits = np.zeros((len(self), self.n_contacts), dtype=np.int64)
         bits[self._event_of_entry(), self.listed] = self.codes >> shift & CODE
         return bits

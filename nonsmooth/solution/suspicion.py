@@ -18,8 +18,7 @@ _MOST = 1e-3
 """Largest unexplained energy of a run of any number of steps, relative to the energy exchanged."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
 _OF_IMPACTS = 0.1
-"""Least tolerance of a step in the check of the energy account, relative to the tolerance of impacts, because impacts
-have errors, too."""
+"""Lower bound of the tolerance of a step in the check of the energy account, relative to the tolerance of impacts."""
 _ROUND_OFF = 1e-12
 """Round-off in a difference of potential energies, relative to the potential energy."""
 

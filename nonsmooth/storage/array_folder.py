@@ -290,7 +290,7 @@ class ArrayFolder:
         return _json({**content, "attributes": {**attributes, "checksum": _checksum(content)}})
 
     def spell_out(self, names: Iterable[str]) -> None:
-        """Write the metadata of some arrays into their own folders, too, for readers that ignore the metadata of the group.
+        """Write the metadata of some arrays into their own folders, too, for readers that ignore those of the group.
 
         Raises
         ------

@@ -303,7 +303,7 @@ def _of_contacts(law: ImpactMap, n: int) -> CheckedFunction:
 
 
 def _given(p: ImpactProblem) -> tuple[int, Array, Array]:
-    """Return the arguments of a map's function: number of contacts, Delassus matrix by rows, rates before the impact."""
+    """Return the arguments of a map's function: number of contacts, Delassus matrix by rows, rates before impact."""
     return p.n, np.ascontiguousarray(p.delassus).ravel(), p.rates
 
 

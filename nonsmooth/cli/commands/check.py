@@ -22,7 +22,7 @@ _NAME = Option("name", "a name or class of `nonsmooth list`, or FILE.py:CLASS", 
 
 def _execute(arguments: argparse.Namespace) -> bool:
     """Check all components of a name and print the outcomes; return True if no property fails."""
-    with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in goes to standard error; standard output is for the result
+    with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print; standard output is for the result
         found = _checked(arguments.name, assignments(arguments.set))
     failed = any(row["outcome"] == _FAILS for part in found for row in part["properties"])
     if arguments.json:

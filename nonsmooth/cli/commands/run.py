@@ -42,7 +42,7 @@ _RESUME = (Option("folder", "the folder that `run --out` was given", metavar="DI
 
 def _run(arguments: argparse.Namespace) -> bool:
     saver = Saver(None if arguments.out is None else Output.to(arguments.out).folder)
-    with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in goes to standard error; standard output is for the result
+    with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print; standard output is for the result
         report = _performed(arguments, saver)
     accepted = not arguments.accept or is_accepted(report)
     return _said(report, saver, arguments.json) and accepted

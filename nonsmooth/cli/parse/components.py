@@ -76,7 +76,7 @@ def described(kind: str, made: Any) -> dict[str, Any]:
 
 
 def replacements(laws: Mapping[str, Any]) -> dict[str, str]:
-    """Return the role of the new law by each role that it replaces; a compliant normal law also replaces the impact law."""
+    """Return the role of the new law, by the role replaced; a compliant normal law also replaces the impact law."""
     replaced = {role: role for role in laws}
     if isinstance(laws.get("normal"), CompliantNormalLaw):
         replaced["impact"] = "normal"

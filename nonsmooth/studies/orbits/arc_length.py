@@ -84,8 +84,7 @@ class Path:
     def at(
         self, state: State, value: float, along: float, before: ContinuationPoint | None, *, is_quick: bool = False
     ) -> ContinuationPoint:
-        """Return the point of a state: the map linearised about the state, and a tangent in the sense of that of
-        ``before``.
+        """Return the point of a state: the map linearised about the state, and a tangent along that of ``before``.
 
         Quick derivatives use the steps of ``before``, and their errors are unknown.  They serve Newton's method.
 
