@@ -11,6 +11,7 @@ from nonsmooth.cli.commands import COMMANDS
 from nonsmooth.cli.parse.options import Command, CommandGroup, Option
 
 EXAMPLES = {
+    "compile": "nonsmooth compile",
     "list": "nonsmooth list bodies",
     "show": "nonsmooth show dumbbell",
     "check": "nonsmooth check coulomb --set friction=0.3",

@@ -1,6 +1,7 @@
-"""Functions for evaluators: ``compiled`` shares a function, ``block_at`` gives a row of a table.
+"""Functions for plug-ins whose evaluators the engine calls: helpers, rows of tables, support functions.
 
-``call_support`` calls the support function of a shape.
+The decorator ``compiled`` marks a function that evaluators may call. ``block_at`` returns the floats of a table from an
+offset on. ``call_support`` returns the farthest point of a shape in a direction [m].
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _PATIENCE = 5.0
 """Time within which a scheduler must answer [s]."""
 _DEATHS = 3
-"""Number of workers that may die during a chunk; the chunk is then repeated run by run."""
+"""Number of workers that die during a chunk before the chunk is repeated run by run."""
 
 
 class SchedulerLost(NonsmoothError):

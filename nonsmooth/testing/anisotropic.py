@@ -208,7 +208,7 @@ def _frame_invariance(law: AnisotropicFrictionLaw, speed: float, heading: float,
 
 @claim(SPEED, HEADING)
 def _vanishes(law: AnisotropicFrictionLaw, speed: float, heading: float) -> str:
-    """Friction vanishes in an impact and in sliding."""
+    """Friction vanishes in an impact."""
     slip = along(speed, heading)
     after, _ = _after(law, slip, 0.0, approach=1.0, t_end=1e-9)
     left = math.dist(slip, after)
