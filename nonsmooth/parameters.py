@@ -104,7 +104,9 @@ def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
 def check_number(thing: str, value: Any, rule: Rule) -> None:
     """Raise InvalidInput unless ``value`` is a finite number within the rule; warn if it is unusual."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        remedy = "It is text: take off the quotes and give it in [{rule.unit}]." if _is_quoted(value) else f"Give it in [{rule.unit}]."
+        remedy = f"Give it in [{rule.unit}]."
+        if _is_quoted(value):
+            remedy = f"It is text: take off the quotes. {remedy}"
         raise InvalidInput(thing, "must be a finite number", value, remedy)
     if value < rule.minimum or value > rule.maximum or value <= rule.above:
         raise InvalidInput(thing, f"must be {rule.describe()} [{rule.unit}]", value, f"It is the {rule.doc}.")
