@@ -2,7 +2,6 @@ from nonsmooth.engine.memory.modes import Cause as Cause
 from nonsmooth.engine.memory.modes import Mode as Mode
 from nonsmooth.engines.event_driven import EventDriven as EventDriven
 from nonsmooth.errors import InvalidInput as InvalidInput
-from nonsmooth.errors import MissingArgument as MissingArgument
 from nonsmooth.errors import NoDistance as NoDistance
 from nonsmooth.errors import NonsmoothError as NonsmoothError
 from nonsmooth.errors import PluginError as PluginError
