@@ -1,4 +1,4 @@
-"""Make the moving picture of the README: ``python docs/picture.py``; it needs the extra browser, Chromium and Pillow.
+"""Make the picture of the viewer on the first page: ``python docs/picture.py``; it needs the extra browser, Chromium and Pillow.
 
 The drift mode, four periods of the plate, as the viewer shows it.
 """
