@@ -1,6 +1,6 @@
-"""Make the moving picture of the README: ``python docs/picture.py``; it needs the extra browser, Chromium and Pillow.
+"""Make the picture of the viewer for the first page: ``python docs/picture.py``; it needs the extra browser, Chromium.
 
-The drift mode, four periods of the plate, as the viewer shows it.
+It shows the drift mode over three periods of the plate.
 """
 
 from __future__ import annotations
