@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +47,7 @@ def beyond_cones(
     -------
     array
         Booleans.  If the coefficient depends on direction, the largest is taken.  Laws with inner states, traction
-        laws,
-        and the pull of adhesive laws are not checked.
+        laws, the pull of adhesive laws, and laws without a value at a speed are not checked.
     """
     bound, may_pull = np.full(len(number), np.inf), np.zeros(len(number), dtype=bool)
     for i in np.unique(number).tolist():
@@ -55,13 +55,21 @@ def beyond_cones(
         may_pull[entries] = isinstance(normal_law, CompliantNormalLaw) and normal_law.reach > 0.0
         if isinstance(law, FrictionLaw) and not isinstance(law, StatefulFrictionLaw):
             coefficient = coefficient_of(law)
-            most = max(coefficient(float(v)) for v in _SPEEDS)
-            bound[entries] = [most if np.isnan(v) else coefficient(v) for v in speed[entries].tolist()]
+            most = max(_value(coefficient, float(v)) for v in _SPEEDS)
+            bound[entries] = [most if np.isnan(v) else _value(coefficient, v) for v in speed[entries].tolist()]
     known = np.isfinite(bound)
     slack = _ROUND_OFF * _largest_of_instants(normal, first)
     allowed = np.where(known, bound, 0.0) * np.maximum(normal, 0.0) * (1.0 + _ROUND_OFF) + slack
     rubs = known & (np.linalg.norm(friction, axis=1) > allowed)
     return np.asarray(rubs | (normal < -slack) & ~may_pull)
+
+
+def _value(coefficient: Callable[[float], float], speed: float) -> float:
+    """Coefficient [1] at a slip speed [m/s]; infinite if the law has no value there, as a logarithm at rest."""
+    try:
+        return coefficient(speed)
+    except (ArithmeticError, ValueError):
+        return math.inf
 
 
 def _largest_of_instants(normal: Floats, first: Integers) -> Floats:
