@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
-from abc import ABCMeta
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -15,6 +15,7 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput, MissingArgument, NonsmoothWarning, UnknownName
 from nonsmooth.notices import warn
+from nonsmooth.readable import Readable
 
 
 class UnusualValue(NonsmoothWarning):
@@ -161,15 +162,32 @@ Value: TypeAlias = float | tuple[float, ...] | SharedNumbers
 """A parameter of a compiled function."""
 
 
-class _Checked(ABCMeta):
+class _Checked(Readable):
     """Class of components: a missing or unknown argument gets an error that names it, as a wrong value does."""
 
-    def __call__(cls, *given: Any, **named: Any) -> Any:
+    def __call__(cls, *given: Any, **named: Any) -> Any:  # noqa: N805 -- the object is a class
         try:
             return super().__call__(*given, **named)
         except TypeError:
             _check_arguments(cls, given, named)
             raise
+
+
+def _documented(owner: type) -> str | None:
+    """Docstring of a class of components, with a section for the parameters that the class body declares."""
+    declared = ((name, value.metadata) for name, value in vars(owner).items() if isinstance(value, dataclasses.Field))
+    lines = [
+        f"{name} : {owner.__annotations__[name]}\n    {_with_unit(rule)}, {rule.describe()}"
+        for name, rule in ((name, metadata["rule"]) for name, metadata in declared if "rule" in metadata)
+    ]
+    if not lines:
+        return owner.__doc__
+    return "\n".join([inspect.cleandoc(owner.__doc__ or ""), "", "Parameters", "----------", *lines])
+
+
+def _with_unit(rule: Rule) -> str:
+    """Description of a parameter, with the unit of a number."""
+    return f"{rule.doc} [{rule.unit}]" if rule.unit else rule.doc
 
 
 def _check_arguments(owner: type, given: Sequence[Any], named: Mapping[str, Any]) -> None:
@@ -184,8 +202,7 @@ def _check_arguments(owner: type, given: Sequence[Any], named: Mapping[str, Any]
     for name, field in list(fields.items())[len(given) :]:
         is_required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
         if is_required and name not in named:
-            unit = f" [{known[name][1].unit}]" if name in known else ""
-            doc = f" It is the {known[name][1].doc}{unit}." if name in known else ""
+            doc = f" It is the {_with_unit(known[name][1])}." if name in known else ""
             raise MissingArgument(f"{owner.__name__}.{name}", f"Write {owner.__name__}({name}=...).{doc}")
 
 
@@ -197,6 +214,10 @@ class Component(metaclass=_Checked):
     """
 
     departures: ClassVar[Mapping[str, str]] = MappingProxyType({})
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.__doc__ = _documented(cls)
 
     def __post_init__(self) -> None:
         for name, (field, rule) in rules(type(self)).items():

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from nonsmooth.errors import STUCK
 from nonsmooth.interfaces import Body
 from nonsmooth.notices import say
+from nonsmooth.readable import Readable
 from nonsmooth.solution.end import Counters, End, EndSource, RunStatus
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 @final
 @dataclass(frozen=True, eq=False, match_args=False)
-class Solution:
+class Solution(metaclass=Readable):
     """The result of a run: samples, events, energies, and the history of any quantity.
 
     Attributes

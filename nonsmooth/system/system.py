@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
@@ -20,6 +21,7 @@ from nonsmooth.interfaces import (
     TangentialLaw,
 )
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.readable import Readable
 from nonsmooth.system.contact import Contact, ContactDeclaration, Tie, Watched
 from nonsmooth.system.declarations import ContactDeclarations
 from nonsmooth.system.input_checks import check_bodies, gravity_of, start_of
@@ -28,7 +30,7 @@ from nonsmooth.system.members import Members
 from nonsmooth.system.names import Names, between, kind_word
 
 
-class System:
+class System(metaclass=Readable):
     """A mechanical system: bodies, contacts with laws, joints, loads, guards and starts.
 
     Parameters
@@ -212,10 +214,47 @@ class System:
         """Coordinates q and velocities u of all bodies at t = 0, in the order of the bodies."""
         return np.concatenate([q for q, _ in self._starts]), np.concatenate([u for _, u in self._starts])
 
-    def place(self, body: Body, **start: Any) -> None:
-        """Set position and velocities of a body at t = 0; the keywords are those of the body's method ``state``."""
+    def place(
+        self,
+        body: Body,
+        *,
+        position: ArrayLike | None = None,
+        orientation: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+        angular_velocity: ArrayLike | None = None,
+        **start: Any,
+    ) -> None:
+        """Set position and velocities of a body at t = 0.
+
+        Parameters
+        ----------
+        body : Body
+            A body of the system.
+        position : array_like, optional
+            Position of the mass centre in world axes [m], shape [3]; a planar body has (x, z), a line body a number.
+        orientation : array_like, optional
+            Unit quaternion (w, x, y, z) from body axes to world axes, shape [4]; ``nonsmooth.turned_about`` makes one.
+        velocity : array_like, optional
+            Velocity of the mass centre in world axes [m/s], shaped as the position.
+        angular_velocity : array_like, optional
+            Angular velocity in body axes [rad/s], shape [3]; a planar body has a number.
+        **start
+            Other keywords of the body's method ``state``, such as ``angle`` of a planar body.
+
+        Raises
+        ------
+        InvalidInput
+            If the body is not of this system, or cannot be placed; if a keyword is not one of its method ``state``, or
+            a value has a wrong shape or is not finite.
+        """
         number = self._members.number("System.place", body)
-        self._starts[number] = body.state(**start)
+        named = {
+            "position": position,
+            "orientation": orientation,
+            "velocity": velocity,
+            "angular_velocity": angular_velocity,
+        }
+        self._starts[number] = body.state(**{k: v for k, v in named.items() if v is not None}, **start)
 
     def set_start(self, body: Body, q: Vector, u: Vector) -> None:
         """Set coordinates q and velocities u of a body at t = 0, shapes [n_q] and [n_u].

@@ -65,6 +65,7 @@ def test_a_diagram_over_a_frequency(call: Call) -> None:
     status, output, _ = call(*words, "--period", "1/frequency")
     assert status == 0
     assert "2 repeat after 1 periods" in output
+    assert call(*words) == (status, output, "")  # the period of the table follows by itself
     status, output, errors = call(*words, "--period", "0.04")
     assert status == 1
     assert "1 failed" in output

@@ -57,8 +57,9 @@ _ORBIT = (
     OVERWRITE,
 )
 _PERIOD = Option.of(orbits.orbit, "period", form="that of the driven bodies by default", metavar="SECONDS", kind=float)
+_PERIOD_ALONG = f"{values.PERIOD}; that of the driven bodies by default"
 _BRANCH = (
-    Option.of(orbits.continuation, "period", form=values.PERIOD, metavar="SECONDS"),
+    Option.of(orbits.continuation, "period", form=_PERIOD_ALONG, metavar="SECONDS"),
     _required(orbits.continuation, "span", name="over", form="the parameter and its ends", metavar="NAME=LOW:HIGH"),
     Option("--show", "coordinate of the picture; the first of --within by default", metavar="NAME"),
 )
@@ -75,7 +76,7 @@ _BIFURCATION = (
     SET,
     TRUST,
     _required(orbits.bifurcation, "values", name="over", form=_N_VALUES, metavar="NAME=LOW:HIGH:N"),
-    _required(orbits.bifurcation, "period", form=values.PERIOD, metavar="SECONDS"),
+    Option.of(orbits.bifurcation, "period", form=_PERIOD_ALONG, metavar="SECONDS"),
     *_SAMPLES,
     flag("--follow", f"hysteresis: {first_line(orbits.hysteresis)}"),
     _PICTURE,
@@ -85,27 +86,40 @@ _BIFURCATION = (
 
 def _orbit(arguments: argparse.Namespace) -> bool:
     saver = Saver.of_pictures(arguments.out, arguments.overwrite)
-    found = _found(arguments, lambda scenario: _period(arguments, scenario))
+    scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
+    found = _found(arguments, scenario, _period(arguments, scenario))
     say(orbit_report.as_text(found))
     numbers = "\n".join(map(str, found.multipliers))
     return saver.diagram("multipliers", lambda: orbits.pictures.multipliers(found), numbers)
 
 
 def _period(arguments: argparse.Namespace, scenario: Scenario) -> float | None:
-    """Return the period of a request [s], by default that of the driven bodies; None if a section is given.
+    """Return the period of a request [s], by default that of the driven bodies; None if a section is given."""
+    if arguments.period is not None or arguments.section is not None:
+        given_period: float | None = arguments.period
+        return given_period
+    return _drive_period(scenario)
+
+
+def _period_along(arguments: argparse.Namespace, name: str, scenario: Scenario) -> Callable[[float], float] | float:
+    """Return the period of a request [s], by default that of the driven bodies at each value of the parameter."""
+    if arguments.period is not None:
+        return values.period(arguments.period, name)
+    return lambda value: _drive_period(scenario.varied(**{name: value}))
+
+
+def _drive_period(scenario: Scenario) -> float:
+    """Return the period of the driven bodies of a scenario [s].
 
     Raises
     ------
     InvalidInput
-        If no period and no section is given, and the driven bodies have no single period.
+        If no body is driven periodically, or driven bodies have different periods.
     """
-    if arguments.period is not None or arguments.section is not None:
-        given_period: float | None = arguments.period
-        return given_period
-    periods = {motion.period for motion in _motions(scenario)} - {None}
+    periods = {motion.period for motion in _motions(scenario) if motion.period is not None}
     if len(periods) != 1:
         rule = "must be given, or a section in its place"
-        many = ", ".join(f"{period:.9g} s" for period in sorted(filter(None, periods)))
+        many = ", ".join(f"{period:.9g} s" for period in sorted(periods))
         why = f"Its driven bodies have different periods: {many}." if many else "No body of it is driven periodically."
         raise InvalidInput("orbit: period", rule, None, f"{why} Add --period SECONDS, or --section NAME=LEVEL.")
     return periods.pop()
@@ -119,9 +133,11 @@ def _motions(scenario: Scenario) -> list[Motion]:
 
 def _continue(arguments: argparse.Namespace) -> bool:
     name, span = values.span(arguments.over)
-    period = None if arguments.period is None else values.period(arguments.period, name)
     saver = Saver.of_pictures(arguments.out, arguments.overwrite)
-    found = _found(arguments, lambda scenario: period(Family.of(scenario)[name]) if callable(period) else period)
+    scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
+    start = Family.of(scenario)[name]
+    period = None if arguments.section is not None else _period_along(arguments, name, scenario)
+    found = _found(arguments, scenario, period(start) if callable(period) else period)
     if not found.map.chart.names:
         remedy = "Choose another --section or --at, or name more of what repeats by --within."
         raise InvalidInput("orbit", "must leave something free at the section", arguments.within, remedy)
@@ -140,12 +156,11 @@ def _continue(arguments: argparse.Namespace) -> bool:
     )
 
 
-def _found(arguments: argparse.Namespace, period_of: Callable[[Scenario], float | None]) -> orbits.Orbit:
-    """Find the periodic orbit of a request; ``period_of`` gives its period [s], or None, for the scenario."""
-    scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
+def _found(arguments: argparse.Namespace, scenario: Scenario, period: float | None) -> orbits.Orbit:
+    """Find the periodic orbit of a request, with its period [s] or None for a section."""
     symmetries = (*([orbits.Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
     words = given(orbits.orbit, _ORBIT, arguments)
-    return orbits.orbit(scenario, period_of(scenario), **words, symmetries=symmetries)
+    return orbits.orbit(scenario, period, **words, symmetries=symmetries)
 
 
 def _table(branch: orbits.Branch) -> str:
@@ -162,7 +177,7 @@ def _bifurcation(arguments: argparse.Namespace) -> bool:
     name, row = values.axis(arguments.over)
     saver = Saver.of_pictures(arguments.out, arguments.overwrite)
     scenario = job(arguments.scenario, arguments.set, trust=arguments.trust).scenario
-    period, samples = values.period(arguments.period, name), given(orbits.bifurcation, _SAMPLES, arguments)
+    period, samples = _period_along(arguments, name, scenario), given(orbits.bifurcation, _SAMPLES, arguments)
     ways: dict[str, orbits.Diagram]
     found: orbits.Diagram | orbits.Hysteresis
     if arguments.follow:
