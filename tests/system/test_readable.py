@@ -11,7 +11,7 @@ import nonsmooth as ns
 from nonsmooth.bodies import Ball, BoxBody
 from nonsmooth.laws import Coulomb
 from nonsmooth.parameters import Component, rules
-from nonsmooth.scenarios import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 
 MACHINERY = "__dataclass", "__init__", "__eq__", "__annotations__", "_DataclassParams", "mappingproxy", "_abc_impl"
 
