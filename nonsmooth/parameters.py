@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -174,15 +175,15 @@ class _Checked(Readable):
 
 
 def _documented(owner: type) -> str | None:
-    """Docstring of a class of components, with a section for the parameters that the class body declares."""
-    declared = ((name, value.metadata) for name, value in vars(owner).items() if isinstance(value, dataclasses.Field))
+    """Docstring of a class of components, with a section for those declared parameters that it does not describe."""
+    text = inspect.cleandoc(owner.__doc__ or "")
+    fields = {name: value.metadata for name, value in vars(owner).items() if isinstance(value, dataclasses.Field)}
     lines = [
-        f"{name} : {owner.__annotations__[name]}\n    {_with_unit(rule)}, {rule.describe()}"
-        for name, rule in ((name, metadata["rule"]) for name, metadata in declared if "rule" in metadata)
+        f"{name} : {owner.__annotations__[name]}\n    {_with_unit(metadata['rule'])}, {metadata['rule'].describe()}"
+        for name, metadata in fields.items()
+        if "rule" in metadata and not re.search(rf"^(\w+, )*{name}(, \w+)* : ", text, re.MULTILINE)
     ]
-    if not lines:
-        return owner.__doc__
-    return "\n".join([inspect.cleandoc(owner.__doc__ or ""), "", "Parameters", "----------", *lines])
+    return "\n".join([text, "", "Parameters", "----------", *lines]) if lines else owner.__doc__
 
 
 def _with_unit(rule: Rule) -> str:

@@ -79,14 +79,14 @@ class FunctionMotion(Motion):
     """A motion given by plain Python functions of time [s], each returning a tuple of floats; numba compiles them.
 
     The functions are sampled over ``duration`` when the motion is made: values must be finite, and velocities and
-    accelerations the derivatives, without jumps.  What they do later nobody has looked at.
+    accelerations the derivatives, without jumps.  Later values are not checked.
 
     Attributes
     ----------
     position, velocity, acceleration : callable
         Of the origin of the frame: (x, y, z) [m], [m/s], [m/s^2].
     duration : float
-        How long it is looked at [s]; give the end of the run, or a period.
+        Time over which the functions are checked [s]; give the end of the run, or a period.
     shortest_change : float
         Shortest time over which it changes [s], for example the period of its fastest vibration; bounds the steps.
     orientation, angular_velocity, angular_acceleration : callable, optional
@@ -101,7 +101,7 @@ class FunctionMotion(Motion):
     position: Function
     velocity: Function
     acceleration: Function
-    duration: float = parameter(doc="how long it is looked at", unit="s", above=0.0)
+    duration: float = parameter(doc="time over which the functions are checked", unit="s", above=0.0)
     shortest_change: float = parameter(doc="shortest time over which it changes", unit="s", above=0.0)
     orientation: Function | None = None
     angular_velocity: Function | None = None
