@@ -38,7 +38,7 @@ _TURNS = ((_ROOT, 0.0, _ROOT, 0.0), (_ROOT, 0.0, -_ROOT, 0.0), (_ROOT, -_ROOT, 0
 @final
 @dataclass(frozen=True)
 class BallBox(Scenario):
-    """Equal balls drop into an open box, collide and come to roll on its floor.
+    """Equal balls drop into an open box, collide, and end up rolling on its floor.
 
     Nothing resists rolling: balls on the floor lose their speed in collisions with each other and with the walls only.
     """

@@ -32,10 +32,10 @@ _LENGTH = 10.0
 @final
 @dataclass(frozen=True)
 class BlockOnBelt(Scenario):
-    """A block on a moving belt, held by a spring: stick and slip alternate. q is the elongation of the spring.
+    """A spring holds a block on a moving belt: stick and slip alternate.
 
-    The friction force falls with the slip speed, F = F_s / (1 + delta |v|): the coefficient is F over the weight.
-    By default the block starts at rest on the belt.
+    The coordinate q is the elongation of the spring.  The friction force falls with the slip speed, F = F_s / (1 +
+    delta |v|): the coefficient is F over the weight. By default the block starts at rest on the belt.
 
     References
     ----------

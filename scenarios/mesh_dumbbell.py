@@ -39,7 +39,7 @@ _CORNERS = np.array([np.roll((0.0, a, b * _GOLDEN), k) for k in (0, 2, 1) for a 
 @final
 @dataclass(frozen=True)
 class MeshDumbbell(Scenario):
-    """The dumbbell with polyhedra instead of balls, compared with the dumbbell of balls.
+    """A dumbbell of polyhedra on a vibrating plate, compared with the dumbbell of balls.
 
     It has the mass and inertia of the dumbbell with balls, so that only the surface differs.
     """

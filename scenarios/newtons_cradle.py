@@ -38,7 +38,9 @@ _ON_SPRINGS: Mapping[tuple[int, float], tuple[float, ...]] = MappingProxyType(
 @final
 @dataclass(frozen=True)
 class NewtonsCradle(Scenario):
-    """Newton's cradle: ``n_strikers`` touching balls strike a row of touching balls at ``speed``, without gravity.
+    """Newton's cradle: balls strike a row of touching balls, and balls leave at the other end.
+
+    There is no gravity; ``n_strikers`` touching balls strike at ``speed``.
 
     References
     ----------

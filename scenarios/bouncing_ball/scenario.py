@@ -35,10 +35,10 @@ _REPEATS = 1e-4
 @final
 @dataclass(frozen=True)
 class BouncingBall(Scenario):
-    """A ball bounces on a vibrating table A sin(2 pi f t), A = Gamma g / (2 pi f)^2.
+    """A ball bounces on a vibrating table: periodic orbits, period doublings and chaos.
 
-    It starts on the orbit whose flights take ``orbit`` periods of the table, where that exists, or is dropped from
-    rest at ``height`` above it.
+    The table moves as A sin(2 pi f t), with A = Gamma g / (2 pi f)^2.  The ball starts on the orbit whose flights take
+    ``orbit`` periods of the table, where that exists, or is dropped from rest at ``height`` above it.
 
     References
     ----------

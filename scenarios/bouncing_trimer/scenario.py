@@ -32,10 +32,10 @@ _SAMPLES = 40000
 @final
 @dataclass(frozen=True)
 class BouncingTrimer(Scenario):
-    """Three balls on a rigid triangle bounce, turn and wander on a plate that vibrates as A sin(2 pi f t).
+    """Three rigidly joined balls bounce, turn and wander on a vibrating plate.
 
-    The paper below has centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  The links
-    between the balls have no mass and no contacts.
+    The plate moves as A sin(2 pi f t).  The paper below has centimetric steel beads and 25 to 100 Hz; sizes and
+    coefficients here are assumed.  The links between the balls have no mass and no contacts.
 
     References
     ----------

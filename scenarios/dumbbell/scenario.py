@@ -67,10 +67,11 @@ def _quiet() -> Iterator[None]:
 @final
 @dataclass(frozen=True)
 class DumbbellScenario(Scenario):
-    """A dumbbell drifts, jumps or flutters on a plate that vibrates as z_p = A_z sin(2 pi f t + phi_0).
+    """A dumbbell on a vibrating plate drifts, jumps or flutters: the system of the paper.
 
-    The paper prints 2 g / f as the start of the jump; that is a flight of four plate periods.  Period 1 needs
-    g / (2 f), which ``mode=jump`` takes; the printed one is ``vertical_velocity=0.7848`` at 25 Hz.
+    The plate moves as z_p = A_z sin(2 pi f t + phi_0).  The paper prints 2 g / f as the start of the jump; that is a
+    flight of four plate periods.  Period 1 needs g / (2 f), which ``mode=jump`` takes; the printed one is
+    ``vertical_velocity=0.7848`` at 25 Hz.
     """
 
     title: ClassVar[str] = "Dumbbell on a vibrating plate"

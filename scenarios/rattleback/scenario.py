@@ -35,10 +35,10 @@ _MOMENT: Mapping[str, Any] = {"unit": "kg m^2", "above": 0.0}
 @final
 @dataclass(frozen=True)
 class Rattleback(Scenario):
-    """An ellipsoid on a plane whose principal axes of inertia are turned against the axes of its surface.
+    """Spun one way, an ellipsoid rattles, stops and spins back; spun the other way, it spins on.
 
-    Spun in one sense it spins for long; spun in the other one it begins to rattle, stops and spins back.  Kane and
-    Levinson let the same body roll; here it has Coulomb friction, so that it can slip.
+    Its principal axes of inertia are turned against the axes of its surface.  Kane and Levinson let the same body roll;
+    here it has Coulomb friction, so that it can slip.
 
     References
     ----------

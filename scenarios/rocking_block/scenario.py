@@ -39,7 +39,7 @@ def laws_of(block: Any) -> dict[str, Any]:
 @final
 @dataclass(frozen=True)
 class RockingBlock(Scenario):
-    """A tilted block of ``base`` and ``height`` falls back and rocks on its two lower corners.
+    """A tilted block falls back and rocks on its two lower corners.
 
     References
     ----------

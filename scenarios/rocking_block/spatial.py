@@ -27,9 +27,10 @@ Floats = NDArray[np.float64]
 @final
 @dataclass(frozen=True)
 class RockingBlock3D(Scenario):
-    """A tilted block rocks in space, on edges or from corner to corner; its side towards ``direction`` starts raised.
+    """A tilted block rocks in space, on edges or from corner to corner.
 
-    With direction 0 it stands on the edge of length ``depth`` and moves as :class:`RockingBlock` does.
+    Its side towards ``direction`` starts raised.  With direction 0 it stands on the edge of length ``depth`` and moves
+    as :class:`RockingBlock` does.
     """
 
     title: ClassVar[str] = "Rocking block in space"

@@ -30,10 +30,11 @@ GRAVITY = 9.81
 @final
 @dataclass(frozen=True)
 class SlidingRod(Scenario):
-    """A rod slides on its leading end and jams: Painlevé's paradox. It moves towards +x at ``speed``.
+    """A rod slides with its lower end ahead and jams: Painlevé's paradox.
 
-    The ends are spheres, much smaller than the length.  For sharp ends the least friction coefficient of the paradox is
-    4/3, at tan(angle) = 2.  The moment of inertia is m (2 s)^2 / 12, as for a thin rod of half-length s.
+    It moves towards +x at ``speed``.  The ends are spheres, much smaller than the length.  For sharp ends the least
+    friction coefficient of the paradox is 4/3, at tan(angle) = 2.  The moment of inertia is m (2 s)^2 / 12, as for a
+    thin rod of half-length s.
 
     References
     ----------
