@@ -1,4 +1,4 @@
-"""Draw the figures of the pages on joints, mechanisms, meshes and exports.
+"""Draw the figures of the pages on bodies, joints, mechanisms, meshes and exports.
 
 ``python docs/body_figures.py docs/pages/figures`` runs the examples of these pages.
 """
@@ -190,10 +190,49 @@ def export(folder: Path) -> None:
     ns.simulate(system, 0.8).export(folder / "export_ball.webp", view="front", speed=0.5, size=320)
 
 
+def feet(folder: Path) -> None:
+    """A cylinder on its feet: a face from below, flat on a plane, and tilted until the rim touches."""
+    radius, length, height = 1.0, 1.3, 0.08  # as high as is allowed, to be seen
+    figure, (below, flat, tilted) = make_axes("The three feet of a flat face (height exaggerated)", 3)
+    turn = np.linspace(0.0, 2.0 * math.pi, 200)
+    circle = 2.0 / 3.0 * radius
+    below.fill(radius * np.cos(turn), radius * np.sin(turn), color="0.85", edgecolor=_GROUND)
+    below.plot(circle * np.cos(turn), circle * np.sin(turn), "--", color=_GROUND, linewidth=0.8)
+    for angle in (0.0, 2.0 / 3.0 * math.pi, 4.0 / 3.0 * math.pi):
+        below.plot(circle * math.cos(angle), circle * math.sin(angle), "o", color=_RED, markersize=8)
+    below.annotate(r"$\frac{2}{3} R$", (0.3, 0.06), fontsize=10)
+    below.plot([0.0, circle], [0.0, 0.0], color=_GROUND, linewidth=0.8)
+    below.set_title("face from below", fontsize=9)
+    # a side view across a foot at +2 R / 3; the two others are at -R / 3
+    outline = np.array([(-radius, height), (radius, height), (radius, length), (-radius, length)])
+    tips = [(circle, 0.0), (-0.5 * circle, 0.0)]
+    angle = math.atan(3.0 * height / radius)
+    turned = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    lowest = min(float((turned @ tip)[1]) for tip in (*tips, (radius, height)))
+    for axis, rotation, lift in ((flat, np.eye(2), 0.0), (tilted, turned, -lowest)):
+        body = outline @ rotation.T + (0.0, lift)
+        axis.fill(body[:, 0], body[:, 1], color="0.85", edgecolor=_GROUND)
+        for x, _ in tips:
+            foot = np.array([(x - 0.06, height), (x, 0.0), (x + 0.06, height)]) @ rotation.T + (0.0, lift)
+            axis.fill(foot[:, 0], foot[:, 1], color=_RED)
+        axis.axhline(0.0, color=_GROUND, linewidth=2.0)
+    flat.annotate("", (1.12, 0.0), (1.12, height), arrowprops={"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0})
+    flat.annotate("$b$", (1.17, 0.04), fontsize=10, va="center")
+    flat.set_title("flat: on the feet", fontsize=9)
+    tilted.set_title(r"$\tan(\mathrm{tilt}) = 3 b / R$: rim and foot touch", fontsize=9)
+    for axis in (below, flat, tilted):
+        axis.set_aspect("equal")
+        axis.set_axis_off()
+    for axis in (flat, tilted):
+        axis.set_xlim(-1.4, 1.4)
+        axis.set_ylim(-0.15, 1.75)
+    figure.savefig(folder / "body_feet.png", dpi=90)
+
+
 def main() -> None:
     """Save the figures in the folder given."""
     folder = Path(sys.argv[1])
-    for draw in (joints, mechanism, mesh, export):
+    for draw in (joints, mechanism, mesh, export, feet):
         draw(folder)
 
 
