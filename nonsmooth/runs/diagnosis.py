@@ -116,7 +116,7 @@ def _failed_check(model: LaidOut, status: Status) -> str:
     if status == Status.GAP_UNEXPLAINED:
         # other closed contacts of its bodies can force a closed contact open; otherwise the gap jumps in its kinematics
         if memory[owners.ContactRecord.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
-            return f"{text}It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
+            return f"{text}It is closed, and {others} hold its bodies in another position. {_COMPLIANT}"
         return f"{text}It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
     return f"{text}{_CHECK}" if status == Status.QUATERNION_UNEXPLAINED else text
 
