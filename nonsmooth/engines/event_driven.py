@@ -91,6 +91,6 @@ class EventDriven(Engine):
             Island.closed_step: step,
         }
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Call the compiled entry point ``advance``; the result is its status."""
-        return int(call("advance", most_steps, int(wary)))
+        return int(call("advance", most_steps, int(pauses_before_end)))

@@ -168,7 +168,7 @@ class Engine(Component, ABC):
         """
 
     @abstractmethod
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Continue to the end time ``ws.request.t_end``, a failure, full buffers or ``most_steps``.
 
         Parameters
@@ -180,7 +180,7 @@ class Engine(Component, ABC):
             The memory.
         most_steps : int
             Largest number of steps.
-        wary : bool
+        pauses_before_end : bool
             Whether to pause before a step whose length depends on the end time.
 
         Returns

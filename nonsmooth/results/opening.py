@@ -56,7 +56,7 @@ class Unavailable(Engine):
         """No settings, because this engine never runs."""
         return {}
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> NoReturn:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> NoReturn:
         """Raise InvalidInput, because the run can continue only with the engine that began it."""
         raise InvalidInput("engine", "must be there to go on", dict(self.described), "Give the one that ran.")
 

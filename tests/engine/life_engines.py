@@ -101,11 +101,11 @@ class SingleSteps(Engine):
         """As the inner engine."""
         return self.inner.settings(time_scale)
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Continue by single steps; ends as the inner engine, or if it does nothing because it waits for the end."""
         for _ in range(most_steps):
             before = _progress(memory)
-            status = self.inner.advance(call, memory, 1, wary)
+            status = self.inner.advance(call, memory, 1, pauses_before_end)
             is_idle = _progress(memory) == before
             if status != Status.PAUSED:
                 return status
@@ -136,12 +136,12 @@ class Poisoned(SingleSteps):
     booleans: bool = True
     callbacks: list[Any] = field(default_factory=list, repr=False)
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Continue by single steps, with poison after each, and after each event and impact in them."""
         if not PLAIN:
             self._divert(memory, "update_at_event", ENDS_WITH_EVENT)
             self._divert(memory, "collide", ENDS_WITH_IMPACT)
-        return super().advance(call, memory, most_steps, wary)
+        return super().advance(call, memory, most_steps, pauses_before_end)
 
     def after_step(self, call: Callable[..., Any], memory: Memory) -> None:
         """Poison what ends with a step."""

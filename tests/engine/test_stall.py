@@ -82,8 +82,8 @@ class Relay(Engine):
     def settings(self, time_scale: float) -> Mapping[Any, float]:
         return self.first.settings(time_scale)
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        status = self.first.advance(call, memory, most_steps, wary)
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
+        status = self.first.advance(call, memory, most_steps, pauses_before_end)
         if status != Status.STALLED:
             return status
         n_q, n_u, n = (

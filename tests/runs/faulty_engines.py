@@ -37,8 +37,8 @@ class Blind(Engine):
     def settings(self, time_scale: float) -> Mapping[Any, float]:
         return {Tolerance.relative: 1e-5, Tolerance.impact: 1e-5}
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        return Midpoint(self.step).advance(call, memory, most_steps, wary)
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
+        return Midpoint(self.step).advance(call, memory, most_steps, pauses_before_end)
 
 
 class WrongSetting(Blind):
@@ -118,33 +118,33 @@ class NegativeLength(Blind):
 
 
 class WrongStatus(Blind):
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         return 77
 
 
 class NoStatus(Blind):
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> Any:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> Any:
         return None
 
 
 class WrongEntry(Blind):
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         return int(call("nonsense"))
 
 
 class DoneAtOnce(Blind):
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         return Status.DONE
 
 
 class WithoutSamples(Blind):
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         memory[Island.time] = memory[Request.t_end]
         return Status.DONE
 
 
 class Idle(Blind):
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         call("evaluate_at")
         return Status.PAUSED
 

@@ -50,7 +50,7 @@ class Midpoint(Engine):
         """Return the error of a step that explains what the account of energy lacks."""
         return {Tolerance.relative: 1e-5, Tolerance.impact: 1e-5}
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Step as far as the step fits, and the rest at the end."""
         y, t_end = memory[Island.y], memory[Request.t_end]
         for _ in range(most_steps):
@@ -60,7 +60,7 @@ class Midpoint(Engine):
             if 2 * memory[OutputNumbers.n_samples] > memory[ModelNumbers.sample_capacity]:
                 return Status.PAUSED
             h = min(self.step, t_end - t)
-            if wary and h < self.step:
+            if pauses_before_end and h < self.step:
                 return Status.PAUSED
             before = y.copy()
             y += 0.5 * h * _slope(call, memory)

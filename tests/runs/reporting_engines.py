@@ -54,7 +54,7 @@ class Resting(Blind):
     def records_contacts(self) -> bool:
         return self.tells
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         n, y, t_end = memory[Island.n_contacts], memory[Island.y], memory[Request.t_end]
         while memory[OutputNumbers.next_sample] <= t_end:
             if 2 * memory[OutputNumbers.n_samples] > memory[ModelNumbers.sample_capacity]:
@@ -115,11 +115,11 @@ class Judged(Blind):
     def settings(self, time_scale: float) -> Mapping[Any, float]:
         return {Tolerance.relative: 1e-9, Tolerance.impact: 1e-8}
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         n_q, n_u = memory[ModelNumbers.n_q], memory[ModelNumbers.n_u]
         for _ in range(most_steps):
             before = memory[Island.time]
-            status = Midpoint(self.step).advance(call, memory, 1, wary)
+            status = Midpoint(self.step).advance(call, memory, 1, pauses_before_end)
             fall = -float(memory[Island.y][n_q + n_u - 4])
             memory[Falling.fastest_fall] = max(memory[Falling.fastest_fall], fall)
             if memory[Island.time] > max(before, 0.0505):

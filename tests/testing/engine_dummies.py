@@ -123,10 +123,10 @@ class Dummy(Engine):
     def settings(self, time_scale: float) -> Mapping[Any, float]:
         return EventDriven().settings(time_scale)
 
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         self.calls.append(1)
         self.fault(memory, len(self.calls))
-        status = EventDriven().advance(call, memory, most_steps, wary)
+        status = EventDriven().advance(call, memory, most_steps, pauses_before_end)
         self.later(memory, len(self.calls))
         return status
 

@@ -409,10 +409,10 @@ def _derive(ws: Workspace) -> None:
 
 
 @entry_point("Status(ws, i8, b1)")
-def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
+def advance(ws: Workspace, most_steps: int, pauses_before_end: bool) -> Status:
     """Run until the end time, a failure, full buffers or ``most_steps``; return the status.
 
-    A wary run pauses before a step that may lead past the end time.
+    With ``pauses_before_end`` it pauses before a step that may lead past the end time.
     """
     if not ws.run.has_started:
         ws.run.has_started = True
@@ -432,7 +432,7 @@ def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))
-        if is_wary and longest_wanted(ws) > ws.request.t_end - ws.island.time:
+        if pauses_before_end and longest_wanted(ws) > ws.request.t_end - ws.island.time:
             return Status.PAUSED
         if ws.request.t_end - ws.island.time <= ws.tolerance.time:
             return _arrived(ws)
