@@ -62,7 +62,7 @@ class DrawnMesh:
 class Film:
     """Meshes of a run, and tracks: the motions with which the meshes move.
 
-    Tracks of frames come first, then those of sheets, then those of strokes.
+    Tracks of frames come first, then tracks of sheets, then tracks of strokes.
 
     A sheet shows an infinite plane.  A stroke is a load, a joint or a link between two points.  A point x of a track is
     at ``origin + axes @ (scale x)``; ``scale`` stretches only the first axis.

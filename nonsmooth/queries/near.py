@@ -31,7 +31,7 @@ def near_bodies(
     Parameters
     ----------
     bodies : sequence of Body
-        The bodies; those without shapes have no box.
+        The bodies; a body without shapes has no box.
     places : sequence
         Places of the frames of each body.
     margins : Vector

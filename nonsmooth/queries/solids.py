@@ -117,7 +117,7 @@ def _overlapping(out: Penetration) -> DistanceResult:
 
 
 def _of_pieces(one: Placed, two: Placed) -> DistanceResult:
-    """Distance of two solids that do not overlap: the least distance of their pieces, those with near boxes first."""
+    """Distance of two solids that do not overlap: the least distance of their pieces, pieces with near boxes first."""
     way = _middle(two) - _middle(one)
     reach = float(np.linalg.norm(two.support(-way) - one.support(way))) if np.any(way) else _size(one, two)
     (low, high), (below, above) = one.bounds, two.bounds

@@ -43,7 +43,7 @@ class CaseStatus(StrEnum):
 VALUED = (CaseStatus.DONE.code, CaseStatus.SUSPECT.code)
 """Codes of runs that have records."""
 WORKER_DIED, RAISED, UNKNOWN = -2, -1, 0
-"""Codes of reasons other than those of the engine: the process died, an exception was raised, the run has not begun."""
+"""Codes of reasons that the engine does not give: the process died, an exception was raised, the run has not begun."""
 
 
 def reason_of(message: str) -> int:

@@ -128,8 +128,7 @@ def _start(body: Body) -> None:
 def _writes_its_block(body: Body, at: State) -> str:
     """The evaluator writes every number that can be non-zero, whatever the block held, and nothing beyond the block."""
     call, (t, q, u), (start, rest) = plain(body), at, body.state()
-    # a state whose numbers differ from those of ``at``: it is evaluated first, and a number that is not written then
-    # keeps its value
+    # another state than ``at``: it is evaluated first, so that a number that is not written for ``at`` has its value
     before = 1.0 - t, start - 0.9 * (q - start) + 0.1, rest - 0.9 * (u - rest) + 0.1
     return left_over(lambda out: call(*at, out), lambda out: call(*before, out), block_size(body))
 

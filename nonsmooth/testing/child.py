@@ -7,8 +7,8 @@ the traceback of the running code to the file and ends the process. The parent r
 for the next component.
 
 Components are sent by cloudpickle. The child cannot import some modules by name, such as a file of tests or of
-``nonsmooth check FILE.py:CLASS``: it loads them from their files. A child takes some seconds to start, so it serves one
-component after the other.
+``nonsmooth check FILE.py:CLASS``: it loads them from their files. A child takes some seconds to start, so it serves all
+components in turn.
 """
 
 from __future__ import annotations

@@ -47,8 +47,8 @@ _FRICTION = Claims(fewest=FEWEST)
 def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None = None) -> list[Property]:
     """Return the properties of a friction law.
 
-    An anisotropic law has properties of its own. A law with inner states is checked at its initial states as any other
-    law; then its states are checked, too.
+    An anisotropic law has properties of its own. A law with inner states is first checked at its initial states, as any
+    other law. Then its states are checked.
 
     Parameters
     ----------

@@ -104,7 +104,7 @@ def left_over(call: Callable[[Array], Any], other: Callable[[Array], Any], size:
     """Return a message if ``call`` leaves a number in a block unwritten; "" if it writes all numbers.
 
     ``other`` writes the block for another input: a number that it wrote and ``call`` did not is found. ``row`` is the
-    length of the rows of the block, 0 if it has none.
+    length of the rows of the block, 0 for a block without rows.
     """
     wrong = np.flatnonzero(written(call, size, written(other, size)[:size]) != written(call, size))
     if len(wrong) == 0:
@@ -203,8 +203,8 @@ def scalar_function(owner: Any, name: str, values: Sequence[float], offered: Map
 class _Functions:
     """The functions of a component, each with checks that it must pass before the engine may call it.
 
-    If a function fails one, the other properties of the component are not checked, because the engine would call that
-    function.
+    If a function fails a check, the other properties of the component are not checked, because the engine would call
+    that function.
     """
 
     made: Callable[[], Sequence[CheckedFunction]]
@@ -264,7 +264,7 @@ class _Functions:
 def all_rows(
     component: Any, functions: Callable[[], Sequence[CheckedFunction]], found: Sequence[Row], first: Sequence[Row] = ()
 ) -> list[Row]:
-    """Return all properties of a component that has functions which the engine calls.
+    """Return all properties of a component whose functions the engine calls.
 
     Parameters
     ----------

@@ -222,7 +222,7 @@ def _plastic(law: ImpactLaw, speed: float, mu: float) -> str:
 
 @claim(_SPEED, _MU)
 def _elastic(law: ImpactLaw, speed: float, mu: float) -> str:
-    """With full restitution a slow impact keeps the energy."""
+    """With full restitution a slow impact does not change the energy."""
     slow = 1e-9 * speed
     after = float(_respond(law, point((0.0, 0.0, -slow)), mu).after[0, 0])
     return f"of {slow:g} m/s it leaves {after:g} m/s" if abs(after - slow) > 1e-4 * slow else ""
@@ -340,8 +340,7 @@ def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str
         "1.2 times its friction": obeying + 0.2 * across,
         "no impulses": 0.0 * obeying,
     }
-    # other impulses that lead to the same velocities after the impact obey the law, too: they are not tried as wrong
-    # ones
+    # impulses that lead to the same velocities after the impact also obey the law: do not try them as wrong ones
     others = {k: v for k, v in wrong.items() if np.max(np.abs(delassus @ (v - obeying))) > 1e3 * tolerance}
     friction = vectors_of([law] * p.n, [mu] * p.n)["friction"]
     for words, impulses in {"its impulses": obeying, **others}.items():

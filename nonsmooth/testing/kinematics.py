@@ -31,7 +31,7 @@ _DRAWS, _MOST_DRAWS = 40, 400
 _STEP = 5e-4
 _PLACE = (0.31, -0.23, 0.37)
 """Place of the second body in the simplest input, relative to the largest distance of the bodies (``reach``). The first
-body is at the origin; the place is on none of its axes."""
+body is at the origin, and the place is off its axes."""
 _DEEP = 0.1
 """Largest penetration of two bounded bodies that is checked, in units of the largest distance of the bodies."""
 _RATE, _BIAS = 1e-7, 1e-5

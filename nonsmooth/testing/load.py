@@ -113,7 +113,7 @@ def _unlike(given: Array, wanted: Array, words: str) -> str:
 
 @_FREE.claim(_TIME, MOVEMENT)
 def _frame_invariance(load: Load, t: float, move: Movement) -> str:
-    """If both bodies are moved together, force and moment turn with them."""
+    """If both bodies are moved together, force and moment turn with the bodies."""
     wanted = (_look(load, t, move.at()).reshape(3, 3) @ TURN.T).ravel()
     wanted[_PARTS["point"]] += SHIFT
     return _unlike(_look(load, t, moved(move.at())), wanted, "moved with the bodies")
@@ -121,6 +121,6 @@ def _frame_invariance(load: Load, t: float, move: Movement) -> str:
 
 @_FREE.claim(_TIME, MOVEMENT)
 def _relative_motion(load: Load, t: float, move: Movement) -> str:
-    """A motion that both bodies share changes neither force nor moment."""
+    """Force and moment do not change if the same rigid motion is added to the motion of both bodies."""
     there = shared(move.at(), np.array([0.7, -1.1, 0.4]), np.array([-0.5, 0.9, 1.3]))
     return _unlike(_look(load, t, there), _look(load, t, move.at()), "without the shared motion")

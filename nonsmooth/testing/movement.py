@@ -16,8 +16,8 @@ Frames = tuple[Array, Array]
 """The frame blocks of the first and of the second body, shape [24] each."""
 _UNIT = (1.0, 0.0, 0.0, 0.0)
 _PLACE = (0.31, -0.23, 0.37)
-"""Place of the second frame in the simplest input of a check [m]; the first frame is at the origin. The place is on
-none of the first frame's axes."""
+"""Place of the second frame in the simplest input of a check [m]; the first frame is at the origin. The place is
+off the first frame's axes."""
 _TURNS = {"a": (0.12, -0.05, 0.15), "b": (-0.1, 0.2, 0.08)}
 """Turns of both frames in the simplest input of a check [rad]: no axis of one frame is parallel to an axis of the
 other."""

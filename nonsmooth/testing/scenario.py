@@ -223,7 +223,7 @@ def _final_state(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _acceptance(trial: _Trial) -> None:
-    """A run to the scenario's end time fails no check of the run ("suspect"), and fulfils the acceptance criteria."""
+    """A run to the end time is not "suspect" (no check of the run fails) and fulfils the acceptance criteria."""
     scenario, _ = trial.scenario, trial.solution
     solution = trial.run(scenario.t_end, scenario.sample_interval)
     if solution.status == "suspect":

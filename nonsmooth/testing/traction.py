@@ -168,7 +168,7 @@ def _through(law: TractionLaw, load: float, motion: Array, times: list[float]) -
 
 @_TRACTION.claim(_LOAD, _MOTION)
 def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
-    """In a motion at constant velocity, traction takes out energy in the long run, or none."""
+    """In a motion at constant velocity, traction adds no energy on average."""
     times = _filling(law, load, motion) * np.linspace(0.5 * _LONG, _LONG, _SAMPLES)
     wrenches = _through(law, load, motion, times.tolist())
     mean = float(np.mean([wrench @ motion for wrench in wrenches]))

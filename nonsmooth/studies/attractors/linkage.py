@@ -44,7 +44,7 @@ def linked(points: Array) -> Integers:
 
 
 def nearest(points: Array, others: Array) -> Array:
-    """Return the distance from each point to the nearest of the others, in the maximum norm, shape [n_points]."""
+    """Return the distance of each of ``points`` to the nearest of ``others`` in the maximum norm, shape [n_points]."""
     from scipy.spatial import cKDTree
 
     return np.asarray(cKDTree(others).query(points, p=np.inf)[0])

@@ -100,7 +100,7 @@ class Chart:
     inverse : array
         Pseudo-inverse of the derivatives of gaps and rates along the eliminated directions, shape [k, n_residual].
     ignored : array
-        Directions along which states are taken as equal, such as those of a symmetry, shape [n_q + n_u, s].
+        Directions along which states are taken as equal, for example by a symmetry, shape [n_q + n_u, s].
     """
 
     basis: Array
@@ -134,7 +134,7 @@ class Chart:
         without : collection of str
             Names of constant coordinates and velocities, each with its body ("ball.z").
         ignored : array, optional
-            Directions along which states are taken as equal, such as those of a symmetry, shape [n_q + n_u, s].
+            Directions along which states are taken as equal, for example by a symmetry, shape [n_q + n_u, s].
 
         Raises
         ------

@@ -108,7 +108,8 @@ def continuation(
     span : tuple of float
         Range of the parameter, around its value at the orbit.
     period : callable, optional
-        ``period(value)`` returns the period of the drive at a value of the parameter [s]; that of the orbit by default.
+        ``period(value)`` returns the period of the drive at a value of the parameter [s]; by default the
+        period of the orbit.
     most : int
         Largest number of steps in each direction.
     display : Display, optional

@@ -215,7 +215,7 @@ class PeriodicSampling:
         return period
 
     def diagram(self, family: Family, name: str, values: Array) -> Diagram:
-        """Return a diagram over a parameter that has no points yet; name, unit and scale of the coordinate are checked.
+        """Return the diagram before the first run, without points but with labels, unit and scale of the coordinate.
 
         Raises
         ------

@@ -103,7 +103,7 @@ class Orbit:
 
     @property
     def monodromy(self) -> Array:
-        """Derivatives of the period map along the directions of :attr:`smooth`, in units of scales, shape [m, m]."""
+        """Derivatives of the period map along the directions of :attr:`smooth`, relative to their scales, [m, m]."""
         return self._smooth_part(self.map.matrix)
 
     @property
@@ -275,7 +275,8 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         smooth = ~np.isnan(found.matrix[0]) if len(found.matrix) else np.zeros(0, dtype=bool)
         change = np.zeros(len(found.way))
         reduced = found.matrix[np.ix_(smooth, smooth)] - np.eye(int(np.sum(smooth)))
-        # lstsq returns the shortest change, so the state does not drift along a continuum of orbits
+        # lstsq returns the shortest change, so the state does not drift along a continuum of orbits: directions in
+        # which the period map and the identity differ by less than 1e-9, relative to the largest difference
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
         state, step = found.chart.moved(model, state, change), found.step
     raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; {_advice(found)}")
