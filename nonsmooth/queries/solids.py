@@ -14,7 +14,8 @@ from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.solids.separation import nearest
 
 _CLOSE, _ROUND_OFF = 1e-13, 1e-14
-"""Allowed error of nearest points, and largest overlap that is treated as touching; both relative to the size."""
+"""Allowed error of nearest points, and largest overlap that is treated as touching; both relative to the size
+of the two solids."""
 _SAME = 1e-9
 """Largest difference between the gap computed by contacts and the gap between two planes along its normal, and largest
 error of its nearest points; relative to the size of the two solids."""

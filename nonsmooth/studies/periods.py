@@ -1,4 +1,4 @@
-"""Number of periods after which a sampled motion repeats, and a test whether it still settles."""
+"""Number of periods after which a sampled motion repeats, and a test whether it still approaches its attractor."""
 
 from __future__ import annotations
 

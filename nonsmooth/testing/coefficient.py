@@ -24,7 +24,7 @@ from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import NotChecked, Row
 
 Pair = tuple[float, float]
-"""A vector along the axis of the law and across it."""
+"""Components of a tangential vector along the axis of the friction bound, and across it."""
 SPEED = number("slip_speed", 1e-4, 1e2, 1.0, is_log=True)
 HEADING = number("heading", -3.1, 3.1)
 FORCE = number("normal_force", 1e-2, 1e3, 1.0, is_log=True)
@@ -122,7 +122,7 @@ def vanishing_names(law: FrictionLaw) -> tuple[str, ...]:
 
 
 def verdict(law: FrictionLaw, slip: Pair, load: float, force: Pair, expected: bool) -> str:
-    """Return the fault of the law's verdict on a force [N]; "" if the verdict is as expected."""
+    """Return a message if the law's verdict on a force [N] is not as expected; "" if it is."""
     return wrong_verdict(law.is_fulfilled(slip, load, force, 1e-9 * load), expected)
 
 
@@ -134,7 +134,7 @@ def _not_negative(law: FrictionLaw, speed: float) -> str:
 
 @COEFFICIENT.claim()
 def _static_limit(law: FrictionLaw) -> str:
-    """The coefficient at rest is not below the limit of slow slip."""
+    """The coefficient at rest is at least the limit of the coefficient for slip speeds that tend to zero."""
     rest, slow, slower = mu(law, 0.0), mu(law, 1e-12), mu(law, 1e-300)
     if slower > rest * (1.0 + 1e-12) + 1e-12:
         return f"coefficient(0) is {rest:g}, below {slower:g} of incipient slip"

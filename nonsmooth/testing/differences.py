@@ -59,7 +59,7 @@ def spin_of(rates: Array, axes: Array) -> Array:
 
 
 def rotation_fault(axes: Array) -> str:
-    """Return the fault of 9 numbers that must be a rotation matrix row by row; "" if they are."""
+    """Return a message if 9 numbers are not a rotation matrix row by row; "" if they are."""
     matrix = axes.reshape(3, 3)
     is_rotation = np.allclose(matrix.T @ matrix, np.eye(3), rtol=0.0, atol=1e-9) and np.linalg.det(matrix) >= 0.0
     return "" if is_rotation else f"the axes are {matrix.tolist()}"

@@ -132,7 +132,7 @@ def _names(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _free_fall(trial: _Trial) -> None:
-    """A free body falls on a parabola, with the same spin."""
+    """A free body falls on a parabola with constant angular velocity."""
     t, solution = trial.solution.t, trial.solution
     path = np.outer(t, _START[:3])
     path[:, 2] -= 0.5 * scenes.GRAVITY * t**2
@@ -141,7 +141,7 @@ def _free_fall(trial: _Trial) -> None:
 
 
 def _require_times(solution: Solution, n: int) -> None:
-    """Raise Broken or AssertionError unless there are n samples after the first, at equal distances."""
+    """Raise Broken or AssertionError unless n samples follow the first one, at equal intervals of time."""
     if len(solution.t) != n + 1:
         raise Broken(f"must be {n + 1}", "number of samples", len(solution.t))
     assert_allclose(solution.t, np.linspace(0.0, _END, n + 1), rtol=0.0, atol=1e-12)
@@ -212,7 +212,7 @@ def _quaternion(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _driven_plate(trial: _Trial) -> None:
-    """A plate that swings throws a ball to the height of the closed form."""
+    """A plate that swings throws a ball as high as the solution in closed form."""
     solution = trial.run(scenes.thrown())
     height = solution.of(solution.system.bodies[1])[0][-1, 2] - scenes.RADIUS
     exact = scenes.thrown_height(_END)

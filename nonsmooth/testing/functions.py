@@ -143,7 +143,7 @@ class CheckedFunction:
 
     @property
     def function(self) -> Caller:
-        """The function."""
+        """The function to check."""
         return getattr(self.owner, self.name)  # type: ignore[no-any-return]
 
     @property
@@ -212,11 +212,11 @@ class _Functions:
 
     @cached_property
     def all(self) -> Sequence[CheckedFunction]:
-        """The functions."""
+        """The functions of the component."""
         return self.made()
 
     def check(self, name: str) -> None:
-        """Raise the fault of a stage; raise NotChecked if an earlier stage has a fault."""
+        """Raise the fault that the check ``name`` found; raise NotChecked if a check before it found a fault."""
         for stage, look in _STAGES.items():
             if stage not in self.found:
                 self.found[stage] = self._first_fault(look)

@@ -100,7 +100,7 @@ def _respond(law: ImpactLaw, p: ImpactProblem, mu: float) -> ImpactResponse:
 
 @_SHARED.claim(GIVEN, _MU)
 def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """After the impact no contact approaches."""
+    """After an impact, the bodies approach at no contact."""
     r = _respond(law, p, mu)
     least = float(np.min(r.after[:, 0]))
     return f"a gap closes at {-least:g} m/s afterwards" if least < -1e-7 * r.size else ""
@@ -144,7 +144,7 @@ def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> s
 
 @_SHARED.claim(_ONE, _MU, _FACTOR)
 def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
-    """If all masses are c times as large, so are the impulses, and the velocities are the same."""
+    """If all masses are multiplied by c, impulses are multiplied by c and velocities do not change."""
     one, other = _respond(law, p, mu), _respond(law, replace(p, mass=c * p.mass), mu)
     if fault := _difference(one, other.velocity, f"with {c:g} times the mass"):
         return fault
@@ -169,14 +169,14 @@ def _is_homogeneous(law: ImpactProcess) -> bool:
 
 @_SHARED.claim(GIVEN, _MU, _TURN)
 def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) -> str:
-    """Turning the tangents of the contacts changes no velocity."""
+    """If the tangents of the contacts are turned, the velocities after an impact do not change."""
     one, other = _respond(law, p, mu), _respond(law, p.turned(turn), mu)
     return _difference(one, other.velocity, f"in tangents turned by {turn:g} rad")
 
 
 @_SHARED.claim(GIVEN, _MU, _OTHER_MU)
 def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -> str:
-    """The order of the contacts does not matter."""
+    """The velocities after an impact do not depend on the order of the contacts."""
     if _is_alone(law):
         raise NotChecked(f"{type(law).__name__}: it is a law of one contact")
     swapped = replace(p, normal=p.normal[:, ::-1].copy(), tangential=p.tangential[:, ::-1].copy())
@@ -215,7 +215,7 @@ def _contact_time(law: ImpactLaw) -> str:
 
 @claim(_SPEED, _MU)
 def _plastic(law: ImpactLaw, speed: float, mu: float) -> str:
-    """Without restitution the bodies do not part."""
+    """Without restitution the bodies do not separate after an impact."""
     after = _respond(law, point((0.0, 0.0, -speed)), mu).after[0, 0]
     return f"it leaves at {after:g} m/s" if abs(after) > _NEAR * speed else ""
 
@@ -248,7 +248,7 @@ def _list(values: Any) -> str:
 
 @_PROCESS.claim(_INDENTATION)
 def _force(law: ImpactProcess, indentation: float) -> str:
-    """The force is zero without indentation and rises with it."""
+    """The force is zero without indentation and rises with the indentation."""
     force = plain_caller(law.force, "scalar", law.parameters())
     if force(0.0) != 0.0:
         return f"force(0) is {force(0.0):g}"
@@ -291,7 +291,7 @@ def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
 
 
 def _is_alone(law: ImpactLaw) -> bool:
-    """True for a law of a single contact."""
+    """True for a law that solves impacts of a single contact only."""
     return isinstance(law, ImpactMap) and law.one_contact
 
 

@@ -83,7 +83,7 @@ def _rates(joint: Joint, at: Frames) -> Array:
 
 @claim()
 def _number_of_rows(joint: Joint) -> None:
-    """The joint takes one to six degrees of freedom."""
+    """The joint constrains one to six degrees of freedom."""
     if joint.n_rows not in range(1, _MOST_ROWS + 1):
         raise Broken(f"it must be a whole number from 1 to {_MOST_ROWS}", "n_rows", joint.n_rows)
 
@@ -164,7 +164,7 @@ def _closed(joint: Joint) -> list[Frames]:
 
 @_JOINT.claim()
 def _can_be_closed(joint: Joint) -> str:
-    """There are poses of the bodies at which all residuals vanish."""
+    """There are poses of the bodies at which all residuals of the joint vanish."""
     return "" if _closed(joint) else f"Newton's method finds none from {_TRIES} places"
 
 

@@ -97,7 +97,7 @@ def _unit(motion: Motion) -> float:
 
 @claim()
 def _positive_time_scale(motion: Motion) -> None:
-    """The time scale is positive."""
+    """The time scale of the motion is positive."""
     if not motion.time_scale > 0.0:
         raise Broken("it must be positive [s], or infinite", "time_scale", motion.time_scale)
 
@@ -111,7 +111,7 @@ def _writes_its_block(motion: Motion, t: float) -> str:
 
 @_MOTION.claim(GIVEN)
 def _rotation(motion: Motion, t: float) -> str:
-    """The axes are a rotation matrix."""
+    """The axes that the motion gives are a rotation matrix."""
     return rotation_fault(_look(motion, t)[_PARTS["rotation"]])
 
 

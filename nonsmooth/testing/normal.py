@@ -92,7 +92,7 @@ def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
 
 
 def _accepted(law: RigidNormalLaw, acceleration: float, force: float, size: float) -> str:
-    """Return the fault of a law that accepts an acceleration and a force that it must refuse; "" if it refuses them."""
+    """Return a message if a law accepts an acceleration and a force that it must refuse; "" if it refuses them."""
     g, f = acceleration * size, force * size
     if not law.is_fulfilled(g, f, _TOLERANCE * size):
         return ""
@@ -196,7 +196,7 @@ def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -
 
 
 def _pulling(law: CompliantNormalLaw, speed: float) -> str:
-    """Return the fault of a force that pulls at the largest indentation that is tried; "" if it does not pull."""
+    """Return a message if the force pulls at the largest indentation that is tried; "" if it does not pull."""
     force = _plain(law)(_FARTHEST, 0.0, speed)
     if force >= 0.0:
         return ""

@@ -246,7 +246,7 @@ def start_of(law: StatefulLaw) -> tuple[Array, Array]:
 
 
 def start_fault(law: StatefulLaw) -> str:
-    """Return the fault of the initial states and scales of a law; "" if they are valid."""
+    """Return a message if the initial states or scales of a law are invalid; "" if they are valid."""
     initial, scale = law.initial_state, law.state_scale
     if len(initial) != len(scale):
         return f"there are {len(initial)} initial states and {len(scale)} scales"
@@ -264,7 +264,7 @@ def require(fault: str) -> None:
 
 
 def writing_fault(call: Callable[..., Any], given: Sequence[Array], size: int) -> str:
-    """Return the fault of a function that changes its arguments or leaves a number unwritten; "" if it is sound."""
+    """Return a message if a function changes its arguments or leaves a number unwritten; "" otherwise."""
     copies = [one.copy() for one in given]
     one, other = (written(lambda out: call(*copies, out), size, old) for old in (0.5, -0.25))
     if any(not np.array_equal(a, b) for a, b in zip(given, copies, strict=True)):

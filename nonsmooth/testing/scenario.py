@@ -66,7 +66,7 @@ class _Trial:
 
     @cached_property
     def end(self) -> float:
-        """End of the short runs [s]."""
+        """End time of the short runs that the checks make [s]."""
         return self.given_end or min(self.scenario.t_end, _SAMPLES * self.scenario.sample_interval)
 
     def run(self, t_end: float, sample_interval: float, folder: Path | None = None) -> Solution:
@@ -101,7 +101,7 @@ class _Trial:
 
     @cached_property
     def found(self) -> Solution | Exception:
-        """The first short run, or the error that it raised."""
+        """The first run to the time :attr:`end`, or the error that it raised."""
         try:
             return self.short_run()
         except Exception as error:

@@ -79,7 +79,7 @@ def initial_state(law: StatefulFrictionLaw) -> str:
 
 @STATES.claim(SPEED)
 def _writes_its_block(law: StatefulFrictionLaw, speed: float) -> str:
-    """It writes the rate of every state and nothing else."""
+    """The function of the rates writes the rate of every state and nothing else."""
     call, (state, _) = plain_caller(law.rates, "rates", law.parameters()), start_of(law)
     return writing_fault(lambda state, out: call(speed, state, out), [state], len(state))
 

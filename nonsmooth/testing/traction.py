@@ -117,7 +117,7 @@ def _initial_state(law: TractionLaw) -> str:
 
 @_TRACTION.claim(_LOAD, _MOTION)
 def _writes_its_block(law: TractionLaw, load: float, motion: Array) -> str:
-    """It writes force, moment and the rate of every state, and nothing else."""
+    """The law's function writes force, moment and the rate of every state, and nothing else."""
     call, (state, _) = plain_caller(law.traction, "traction", law.parameters()), start_of(law)
     for one in (motion, np.zeros(FORCE_AND_MOMENT)):
         if found := writing_fault(functools.partial(call, load), [one, state], FORCE_AND_MOMENT + len(state)):
@@ -205,7 +205,7 @@ def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> s
 
 @_TRACTION.claim(_LOAD, _MOTION, fewest=FEWEST)
 def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
-    """A body that slides, rolls and drills moves in the engine as in an independent integration."""
+    """A body that slides, rolls and drills moves in the engine as in an independent integration of its motion."""
     state, state_scale = start_of(law)
     start, size = np.concatenate([motion, state]), float(np.max(np.abs(motion)))
     scale = np.concatenate([np.full(FORCE_AND_MOMENT, size), state_scale])

@@ -182,7 +182,7 @@ class Chart:
         return state
 
     def between(self, one: State, two: State) -> Array:
-        """Return the coefficients of the difference of two states along the free directions, shape [m]."""
+        """Return the difference of two states along the free directions, as coefficients of ``basis``, shape [m]."""
         columns = np.column_stack([self.basis, self.ignored])
         return self._along(columns, one, two)[: self.basis.shape[1]]
 
@@ -195,7 +195,7 @@ class Chart:
         return self._along(columns, one, two)[: self.following.shape[1]]
 
     def _along(self, columns: Array, one: State, two: State) -> Array:
-        """Return the coefficients of columns in the difference of two states, by least squares."""
+        """Return the coefficients with which ``columns`` best give the difference of two states, by least squares."""
         q = two.q.copy()
         for start in self.quaternions:
             # an orientation has two quaternions, q and -q, and a full turn swaps them: take the nearer one

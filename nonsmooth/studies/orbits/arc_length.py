@@ -81,7 +81,7 @@ class Path:
         return self.high - self.low
 
     def value(self, point: ContinuationPoint) -> float:
-        """Return the parameter of a point."""
+        """Return the value of the parameter at a point of the branch."""
         return point.orbit.family[self.name]
 
     def at(

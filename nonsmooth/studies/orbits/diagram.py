@@ -203,7 +203,7 @@ class PeriodicSampling:
         check_periods(self.study, settle=self.settle, keep=self.keep)
 
     def lasts(self, value: float) -> float:
-        """Return the period at a value of the parameter [s].
+        """Return the period of the samples at a value of the parameter [s].
 
         Raises
         ------

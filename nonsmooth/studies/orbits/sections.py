@@ -64,7 +64,7 @@ class Section(ABC):
         return
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
-        """Return the angle by which a period turns a state [rad], by symmetry; empty by default."""
+        """Return the angle by which a state has turned after one period [rad], by symmetry; empty by default."""
         return {}
 
 
@@ -82,7 +82,7 @@ class StroboscopicSection(Section):
     period: float
 
     def flow(self, model: Model, start: State) -> FlowSegment:
-        """Run for a period."""
+        """Run a model from a state for one period of the drive."""
         return flow(model, start, start.time + self.period)
 
     def with_period(self, period: float) -> StroboscopicSection:

@@ -214,7 +214,7 @@ class RelativeSection(Section):
                 raise InvalidInput("orbit: symmetries", rule, str(one), "Leave it out.")
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
-        """Return the angle by which the next period turns a state [rad], within half a turn."""
+        """Return the angle by which a state has turned after the next period [rad], by symmetry, within half a turn."""
         angles = self._angles(model, start, self.section.flow(model, start).state)
         return dict(zip(map(str, self.symmetries), angles.tolist(), strict=True))
 
@@ -224,7 +224,7 @@ class RelativeSection(Section):
         return state
 
     def _angles(self, model: Model, start: State, end: State) -> Array:
-        """Return the angles [rad] by which to turn the end back so that it is nearest to the start, by Newton."""
+        """Return the angles by which the end state is turned back to be nearest to the start [rad], by Newton."""
         scales = np.concatenate([body.scales[1] for body in model.system.bodies])
         rows = [slice(at, at + 4) for at in quaternions_of(model.system).values()]
 
