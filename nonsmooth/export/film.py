@@ -1,4 +1,4 @@
-"""Film of a run: meshes that are drawn, and the motion of the tracks that carry them."""
+"""Film of a run: meshes for drawing, and tracks, which give position, axes and stretch of each mesh over time."""
 
 from __future__ import annotations
 
@@ -21,15 +21,17 @@ if TYPE_CHECKING:
 _BODIES = ("#6fa8dc", "#f2b36b", "#7cc08f", "#d98fb8", "#b9a3e3", "#9fb8ad", "#d8c66a", "#8fc7d4")
 _HELD, _SHEET, _LINK, _JOINT = "#aab2bd", "#dfe4ea", "#5b6675", "#8c6d46"
 _ROUND, _TURNED = 100, 0.72
-"""Pattern that shows the rotation of a solid: least number of triangles of a solid that gets it, and its brightness."""
+"""Least number of triangles of a solid that gets a pattern to show its rotation, and brightness of the dark parts of
+the pattern, where 1 is the colour itself."""
 _CELLS, _MOST_CELLS = 10, 40
-"""Least and largest number of chequered cells along a sheet; in between, a cell has a fixed size of 2 ``unit``."""
+"""Least and largest number of chequered cells along the rectangle that shows an infinite plane.  In between, a cell
+is as long as twice the film's ``unit`` [m]."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class DrawnMesh:
-    """A mesh in one colour that a track carries.
+    """A mesh in one colour, which moves with a track of the film.
 
     Attributes
     ----------
@@ -44,7 +46,7 @@ class DrawnMesh:
     colour : str
         Colour as "#rrggbb".
     sheet : bool
-        True if the mesh stands for an infinite plane, which is drawn if seen from its upper side.
+        True if the mesh shows an infinite plane; such a mesh is visible only from its upper side.
     """
 
     name: str
@@ -58,9 +60,9 @@ class DrawnMesh:
 @final
 @dataclass(frozen=True, eq=False)
 class Film:
-    """Meshes of a run, and tracks, the motions that carry them.
+    """Meshes of a run, and tracks: the motions with which the meshes move.
 
-    Tracks of frames come first, then those of sheets, then those of strokes.
+    Tracks of frames come first, then tracks of sheets, then tracks of strokes.
 
     A sheet shows an infinite plane.  A stroke is a load, a joint or a link between two points.  A point x of a track is
     at ``origin + axes @ (scale x)``; ``scale`` stretches only the first axis.
@@ -149,7 +151,7 @@ def _colour(scene: Scene, body: int) -> str:
 
 
 def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
-    """Meshes of a look, each with True if it shows a line."""
+    """Meshes for the look of a frame; True with a mesh that shows a line, False with a solid or a point."""
     if len(look.triangles):
         middle = 0.5 * (look.vertices.min(axis=0) + look.vertices.max(axis=0))
         centre = look.vertices[look.triangles].mean(axis=1) - middle
@@ -166,10 +168,10 @@ def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
 def _sheet(
     part: FrameLook, origin: Floats, axes: Floats, low: Floats, high: Floats, unit: float
 ) -> tuple[Floats, ShadedMesh]:
-    """Centre of the rectangle that shows an infinite plane, at each time [m], shape [n, 3], and its mesh.
+    """Rectangle that shows an infinite plane: its centre at each time [m], shape [n, 3], and its mesh.
 
-    The rectangle stays under the bodies if the plane slides in itself.  It covers the box from ``low`` to ``high`` [m],
-    projected along the normal at the first time, with a margin.
+    The rectangle stays under the bodies if the plane moves along its own surface.  It covers the box from ``low`` to
+    ``high`` [m], projected along the normal at the first time, with a margin.
     """
     normal, middle = axes[:, :, 2], 0.5 * (low + high)
     through = origin + part.look.vertices[0, 2] * normal

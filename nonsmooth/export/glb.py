@@ -81,7 +81,8 @@ def arrows(solution: Solution) -> Iterator[Arrows]:
 
 _KNOTS = Rule("most times that are stored, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _IMPULSE, _ARM = "#d55e00", 1.6
-"""Colour of the arrows of impulses, and length of the arrow of the strongest, relative to the unit of the film."""
+"""Colour of the arrows that show impulses, and length of the arrow of the run's strongest impulse, relative to
+``Film.unit``."""
 
 
 @final

@@ -67,11 +67,24 @@ class Tree:
         return self.known[key]
 
     def keys(self, times: NDArray[np.float32]) -> int:
-        """Add the times of tracks [s], shape [n]; return their number."""
+        """Add the times of tracks [s], shape [n]; return the number of their accessor."""
         return self.buffer.add(times, min=[float(times[0])], max=[float(times[-1])])
 
     def move(self, node: int, time: int, how: str, **tracks: Floats) -> None:
-        """Set a node to the first values of its tracks, and add the tracks that change; shapes [n, 3] or [n, 4]."""
+        """Give a node its position, rotation or scale over time.
+
+        Parameters
+        ----------
+        node : int
+            Number of the node.
+        time : int
+            Number of the accessor of the times, from :meth:`keys`.
+        how : str
+            Interpolation between the times, "LINEAR" or "STEP".
+        tracks : array
+            ``translation``, ``rotation`` or ``scale`` at each time, shape [n, 3], or [n, 4] for quaternions.  The node
+            gets the first values; a track is stored only if its values change.
+        """
         for name, track in tracks.items():
             values = track.astype(np.float32)
             self.nodes[node][name] = values[0].tolist()

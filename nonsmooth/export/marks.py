@@ -36,9 +36,10 @@ class Marks:
 
     @classmethod
     def of(cls, solution: Solution, times: Floats, seen: float) -> Marks:
-        """Marks of a run at times [s], shape [n]; an impact is marked for the duration ``seen`` [s].
+        """Points of contacts that stick or slip, and of impacts, at times of a run [s], shape [n].
 
-        There are no marks if the engine of the run cannot compute forces.
+        The point of an impact is marked for the duration ``seen`` [s].  All marks are missing if the engine of the run
+        cannot compute forces.
         """
         if not replay_of(solution).is_flow:
             return cls(len(times) * (len(WORDS) * (np.zeros((0, 3)),),))

@@ -10,7 +10,8 @@ import numpy as np
 from nonsmooth.histories.arrays import Floats, Integers
 
 _SIDES, _RINGS = 12, 6
-"""Number of sides of a bar, and of parts of its length, so that pictures can sort the parts by depth."""
+"""Number of flat sides around a round bar, and of pieces along it.  A picture sorts pieces by depth, so that a bar is
+drawn correctly if another mesh covers a part of it."""
 _CREASE = np.cos(0.6)
 """Cosine of 0.6 rad: two faces at a larger angle have a visible edge between them."""
 

@@ -18,7 +18,8 @@ from nonsmooth.queries.result import EXACT, DistanceResult
 from nonsmooth.system.pairing import installed_pair
 
 _HALVINGS = 40
-"""Largest number of times that the distance of a search is halved, because it finds more pairs than contacts."""
+"""Largest number of halvings of the search distance.  It is halved while a search for features finds more pairs than
+the kinematics has contacts."""
 
 
 class _Given:
@@ -28,7 +29,7 @@ class _Given:
         self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Geometry block of each contact, with the gap up to which all features are known [m], which is infinite."""
+        """Geometry block of each contact, and infinity: the features are given, so every gap is known."""
         for call in self._calls:
             out = np.zeros(GEOMETRY)
             call(a, b, out)
@@ -46,7 +47,10 @@ class _Searched:
         self._most = len(contacts)
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Geometry block of each pair of features within ``reach`` [m], and ``reach``, halved if there are too many."""
+        """Geometry block of each pair of features within ``reach`` [m], and this distance.
+
+        The distance is halved until the number of pairs is at most the number of contacts.
+        """
         found, n = np.zeros(1 + CANDIDATE * (self._most + 1)), 0
         for _ in range(_HALVINGS):
             found[0] = reach
@@ -77,7 +81,7 @@ class Contacts:
     LookupError
         If no kinematics is installed for the shapes.
     InvalidInput
-        If the kinematics refuses them, as meshes with too many features.
+        If the kinematics refuses the shapes, for example meshes with too many features.
     PluginError
         In a query, if the search of the kinematics for features fails.
     """
@@ -93,7 +97,10 @@ class Contacts:
         self._extent = first.extent + second.extent
 
     def least(self, one: Place, two: Place) -> DistanceResult | None:
-        """Least gap of features that face each other, None if no features do. Both bounds are the gap, unproved."""
+        """Least gap of the features that face each other, None if no features do.
+
+        The lower and the upper bound are set to the gap: kinematics proves no bounds.
+        """
         a, b = np.zeros(FRAME), np.zeros(FRAME)
         for block, (position, axes) in zip((a, b), (one, two) if self._in_order else (two, one), strict=True):
             block[:3], block[3:12] = position, axes.ravel()

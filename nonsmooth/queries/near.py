@@ -31,7 +31,7 @@ def near_bodies(
     Parameters
     ----------
     bodies : sequence of Body
-        The bodies; those without shapes have no box.
+        The bodies; a body without shapes has no box.
     places : sequence
         Places of the frames of each body.
     margins : Vector
@@ -51,13 +51,13 @@ def near_bodies(
 
 
 def size_of(body: Body) -> float:
-    """Largest finite extent of the shapes of a body [m]; infinite if no shape has one."""
+    """Largest finite extent of the shapes of a body [m]; infinite if all of its shapes are infinite."""
     extents = [shape.extent for shapes in body.frames for shape in shapes if np.isfinite(shape.extent)]
     return max(extents, default=np.inf)
 
 
 def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
-    """Lower and upper corner of the box of all shapes [m], shape [3] each; without shapes, a box that meets none."""
+    """Lower and upper corner of the box of all shapes [m], shape [3] each; an empty box if the body has no shapes."""
     balls = [(place, shape.extent) for (place, _), shapes in zip(frames, body.frames, strict=True) for shape in shapes]
     if not balls:
         return np.full(3, np.inf), np.full(3, -np.inf)

@@ -43,7 +43,10 @@ class LibraryPair:
             return None
 
     def result(self, told: Separation) -> DistanceResult:
-        """Distance of shapes that do not overlap, from their separation by the library."""
+        """Distance of two shapes that do not overlap.
+
+        ``told`` is the library's answer: distance [m], its error [m], nearest points and normal.
+        """
         gap, error = told.distance, told.error
         return DistanceResult(gap, gap - error, gap + error, told.first, told.second, told.normal, self.name)
 
@@ -95,10 +98,12 @@ def library_names() -> tuple[str, ...]:
 
 
 _ROUND_OFF, _LEAST = 1e-9, 1e-12
-"""Difference of two methods that may be round-off: part relative to the gap, and absolute part [m]."""
+"""Round-off allowed between the gap by contacts and the bounds by another method: relative to the gap, and absolute
+[m]; the sum of both is allowed."""
 
 _MOST_PIECES = 2000
-"""Largest number of pieces of a surface whose contacts are prepared, in a second; 100 000 pieces take many minutes."""
+"""Largest number of pieces of a surface for which the contacts of a pair are prepared.  Preparation takes about a
+second at this number, and many minutes for 100 000 pieces."""
 
 
 @final
@@ -110,9 +115,9 @@ class ShapePair:
     first, second : Shape
         The shapes.
     by : str, optional
-        Method: "exact", "planes" or the name of a library.  By default the distance is that of the contacts, with
-        bounds by planes or, for surfaces that are not convex, by a library.  If the bounds exclude it, the distance is
-        that of the planes or the library.
+        Method: "exact", "planes" or the name of a library.  By default the gap is computed by contacts, and its bounds
+        by planes or, for surfaces that are not convex, by a library.  If the gap is outside these bounds, the result of
+        the planes or the library is returned.
     quick : bool
         True to use solids in place of contacts, if both shapes have one: contacts of a mesh take seconds to prepare.
 
@@ -149,7 +154,7 @@ class ShapePair:
 
     @property
     def _many(self) -> bool:
-        """Whether a surface has so many pieces that its contacts would take minutes to prepare."""
+        """True if a shape is a surface of more than 2000 pieces, whose contacts would take too long to prepare."""
         surfaces = [solid for solid in self._solids if solid is not None and solid.hollow]
         return any(len(solid.pieces(*solid.bounds)) > _MOST_PIECES for solid in surfaces)
 
@@ -187,7 +192,11 @@ class ShapePair:
         return self._of_surfaces(found, one, two)
 
     def _of_surfaces(self, found: DistanceResult | None, one: Place, two: Place) -> DistanceResult:
-        """Distance of surfaces that are not convex: by contacts, if within the bounds by a library or by planes."""
+        """Distance of surfaces that are not convex.
+
+        It is the gap by contacts if this gap is within the bounds of the library or, without these bounds, of the
+        planes.  Otherwise it is the distance by the library or the planes.
+        """
         told = None if self._library is None else self._library.separation(one, two)
         if told is not None and not told.overlap:
             assert self._library is not None
@@ -198,10 +207,14 @@ class ShapePair:
         return self._within(found, self._by_planes(*self._placed(one, two)))
 
     def _within(self, found: DistanceResult | None, bound: DistanceResult) -> DistanceResult:
-        """Distance by contacts, with the bounds of another method; if these exclude it, the result of that method."""
+        """Return ``found``, the distance by contacts, with the bounds of ``bound``, the distance by another method.
+
+        If the gap of ``found`` is outside the bounds, or ``found`` is None, ``bound`` is returned.
+        """
         if found is None:
             return bound
-        # bounds by planes may be equal up to round-off; contacts see some shapes smaller than their solids
+        # allow for round-off, since lower and upper bound may be equal, and for shapes whose contacts use a surface
+        # that is set back from the boundary of the solid (``set_back``)
         slack = _ROUND_OFF * abs(bound.gap) + _LEAST
         slack += sum(solid.set_back for solid in self._solids if solid is not None)
         if not bound.lower - slack <= found.gap <= bound.upper + slack:

@@ -68,7 +68,8 @@ class BodyFrames:
         The order of the numbers is that of :mod:`nonsmooth.engine.memory.blocks`.
         """
         self._out[:] = 0.0
-        # a driven body has no coordinates, and an empty array has no address of its own
+        # the compiled function takes the addresses of the arrays: a zero is appended because the empty array of a
+        # driven body, which has no coordinates, has no valid address
         self._call(t, np.append(q, 0.0), np.append(u, 0.0), self._out)
         return self._out[: self._n * self._width].reshape(self._n, self._width)[:, :FRAME].copy()
 

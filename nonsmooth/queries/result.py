@@ -21,7 +21,7 @@ class DistanceResult:
     gap : float
         Distance; if they overlap, minus the length of a translation that separates them [m].
     lower, upper : float
-        Bounds of the gap [m]; for a library, the gap less and plus the error that it states.
+        Bounds of the gap [m]; if a library computed the gap, the gap minus and plus the error bound of the library.
     first, second : Vector
         Point of each body that is nearest to the other body, or deepest in it, in world axes [m], shape [3].
     normal : Vector

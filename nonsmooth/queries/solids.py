@@ -14,9 +14,11 @@ from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.solids.separation import nearest
 
 _CLOSE, _ROUND_OFF = 1e-13, 1e-14
-"""Allowed error of nearest points, and largest overlap that is treated as touching; both relative to the size."""
+"""Allowed error of nearest points, and largest overlap that is treated as touching; both relative to the size
+of the two solids."""
 _SAME = 1e-9
-"""Largest difference of a gap by contacts from the planes and points that prove it, relative to the size."""
+"""Largest difference between the gap computed by contacts and the gap between two planes along its normal, and largest
+error of its nearest points; relative to the size of the two solids."""
 _MOST_PAIRS = 4_000_000
 
 
@@ -64,7 +66,7 @@ def deep(one: Placed, two: Placed) -> DistanceResult | None:
 
 
 def proved(found: DistanceResult, one: Placed, two: Placed) -> DistanceResult | None:
-    """Distance of two convex solids by contacts, with bounds that planes prove; None if the bounds exclude it.
+    """Add bounds to ``found``, the distance of two convex solids by contacts; None if planes contradict it.
 
     If the solids are apart, two planes across the normal have the gap between them.  If the solids overlap, a
     translation along the normal by the depth separates them, and the search for the depth finds no shorter one.
@@ -116,7 +118,7 @@ def _overlapping(out: Penetration) -> DistanceResult:
 
 
 def _of_pieces(one: Placed, two: Placed) -> DistanceResult:
-    """Distance of two solids that do not overlap: the least distance of their pieces, those with near boxes first."""
+    """Distance of two solids that do not overlap: the least distance of their pieces, pieces with near boxes first."""
     way = _middle(two) - _middle(one)
     reach = float(np.linalg.norm(two.support(-way) - one.support(way))) if np.any(way) else _size(one, two)
     (low, high), (below, above) = one.bounds, two.bounds

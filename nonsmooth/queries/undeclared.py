@@ -57,12 +57,12 @@ class Undeclared:
 
     @classmethod
     def of(cls, system: System) -> Undeclared:
-        """Undeclared pairs of a system."""
+        """Undeclared pairs of bodies of a system, as the class describes them."""
         return cls(system, Ties.of(system))
 
     @functools.cached_property
     def any(self) -> bool:
-        """Whether the system has an undeclared pair, at any distance."""
+        """True if the system has a pair of bodies without declared contact that may meet, at any distance."""
         if not self.system.declarations:
             return False
         shaped = [i for i, body in enumerate(self.system.bodies) if any(body.frames)]
@@ -111,7 +111,7 @@ class Undeclared:
         self._warn(found, "overlap at the start, and will pass through each other")
 
     def warn_of_end(self, before: Places, after: Places) -> None:
-        """Warn of bodies that overlap at the end of a run and did not at its start, planes included."""
+        """Warn of pairs of bodies, planes too, that overlap at the end of a run but did not overlap at its start."""
         found = [
             (i, j, -gap)
             for i, j in self.near(after)
@@ -120,13 +120,13 @@ class Undeclared:
         self._warn(found, "overlap where the run ended, having passed into each other")
 
     def _gap(self, i: int, j: int, places: Places) -> float:
-        """Gap of two bodies [m]; 0 if they touch or no method gives their distance."""
+        """Gap of two bodies [m], negative if they overlap; 0 if they touch or no method gives their distance."""
         bodies = self.system.bodies
         sizes = [size for size in (size_of(bodies[i]), size_of(bodies[j])) if math.isfinite(size)]
         try:
             gap = BodyPair(bodies[i].frames, bodies[j].frames, quick=True).at(places[i], places[j]).gap
         except (InvalidInput, NoDistance):
-            # two unbounded shapes, or shapes that no method supports, have no distance
+            # no method gives the distance of two unbounded or of unsupported shapes: with 0 the pair gets no warning
             return 0.0
         return gap if abs(gap) > touching(min(sizes, default=0.0)) else 0.0
 

@@ -49,7 +49,7 @@ def draw_study(study: xarray.Dataset) -> Figure:
         remedy = 'For example record=["impacts"].'
         raise InvalidInput("draw", "needs a record that is one number or one word", list(study.data_vars), remedy)
     valued = np.isin(study.status.values, VALUED)
-    # the sort is stable: records of one kind keep their order
+    # records of words come before records of numbers; the sort is stable, so each kind keeps its order
     names = sorted(_varying(records, valued) or records, key=lambda name: not _words(records[name]))
     is_map = len(runs) == 2 and all(study[name].dtype.kind != "U" and study.sizes[name] > 1 for name in runs)
     panels = [(name, "") for name in names] if is_map else [(name, over) for name in names for over in parameters]
@@ -73,7 +73,10 @@ def draw_study(study: xarray.Dataset) -> Figure:
 
 
 def _varying(records: dict[str, xarray.DataArray], valued: NDArray[np.bool_]) -> list[str]:
-    """Return the names of the records that are words, or numbers that differ between runs."""
+    """Return the names of the records to draw: records of words, and numbers that differ between runs.
+
+    ``valued`` is True for runs that have records.
+    """
     return [
         name for name, one in records.items() if _words(one) or len(np.unique(one.values[valued], equal_nan=True)) > 1
     ]

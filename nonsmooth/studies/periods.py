@@ -1,4 +1,4 @@
-"""Number of periods after which a sampled motion repeats, and a test whether it still settles."""
+"""Number of periods after which a sampled motion repeats, and a test whether it still approaches its attractor."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from numpy.typing import NDArray
 from nonsmooth.types import Array
 
 _ALIKE = 1e-5
-"""Largest difference of points that are taken as equal, relative to the range of all points."""
+"""Largest difference of points that are taken as equal, relative to the range of all points of a diagram."""
 _LEAST = 1e-3
-"""Smallest range, relative to the scale of the coordinate: points that are all equal have the range 0."""
+"""Least range used for this difference, relative to the scale of the coordinate: if all points are equal, their range
+is 0 and round-off would exceed the allowed difference."""
 
 
 def alike(points: Array, scale: float) -> float:
-    """Return the largest difference at which points of a diagram are taken as equal, in their unit.
+    """Return the tolerance within which two points of a diagram are equal, in the unit of the coordinate.
 
     Parameters
     ----------
@@ -49,16 +50,16 @@ def periods(points: Array, near: float) -> NDArray[np.int64]:
 def settling(points: Array, near: float) -> NDArray[np.bool_]:
     """Return True for each motion that still approaches its attractor.
 
-    The differences of samples n apart are then compared, with n from :func:`periods`, or n = 1 to 4 if the motion does
-    not repeat.  The motion settles if the largest difference in the second half of the samples is less than half of
-    that in the first half.  It also settles if differences keep their sign and never grow.  Differences below a
-    thousandth of ``near`` count as zero, because tolerances of runs cause them.  A spiral that loses less than half of
-    its size in half of the samples is not noticed.
+    The differences of samples n apart are compared, with n from :func:`periods`, or n = 1 to 4 if the motion does not
+    repeat.  The motion still approaches its attractor if the largest difference in the second half of the samples is
+    less than half of the largest difference in the first half.  It also does so if the differences keep their sign and
+    never grow.  Differences below a thousandth of ``near`` count as zero, because errors of runs cause them.  A spiral
+    that loses less than half of its size in half of the samples is not noticed.
 
     Parameters
     ----------
     points : array
-        Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan does not settle.
+        Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan gives False.
     near : float
         Largest difference of points that are taken as equal, in each coordinate.
     """
@@ -71,7 +72,8 @@ def settling(points: Array, near: float) -> NDArray[np.bool_]:
             if half < 2 * n or not np.isfinite(change).all():
                 continue
             early, late = (float(np.max(np.abs(part))) for part in (change[:half], change[half:]))
-            # rounding and chaos change the sign of differences, or make them grow
+            # each row: the differences of one coordinate at one phase; near an attractor, rounding or chaos makes some
+            # of them grow or change sign
             rows = [change[k::n, j] for k in range(n) for j in range(one.shape[1])]
             drifts = all(np.all(row * row[0] >= 0.0) and np.all(np.diff(np.abs(row)) <= 0.0) for row in rows)
             found[i] |= early > 1e-3 * near and (late < 0.5 * early or drifts)

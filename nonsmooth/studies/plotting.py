@@ -23,9 +23,9 @@ MARKS = {
 }
 """Mark of matplotlib for each kind of special point of a branch."""
 HATCHED: dict[str, Any] = {"edgecolor": "0.6", "hatch": "xxx", "linewidth": 0.0}
-"""Style of areas of runs without records."""
+"""Style of the areas of a map that show runs without records, such as failed runs."""
 DOTTED: dict[str, Any] = {"linewidth": 0.9, "linestyle": ":"}
-"""Style of lines at runs without records."""
+"""Style of the vertical lines at parameter values of runs without records, such as failed runs."""
 MOST_CLASSES = 12
 """Largest number of classes that one picture distinguishes."""
 _TITLE, _TICKS = 10, 6
@@ -86,7 +86,7 @@ def with_unit(name: str, unit: str) -> str:
 
 
 def class_colours(n: int) -> list[str]:
-    """Return a colour for each of n classes: those of lines, then a row of hues."""
+    """Return a colour for each of n classes: first the colours used for lines, then hues of a colour map."""
     # black comes last: black areas would dominate the others
     first, more = (*COLOURS[1:], COLOURS[0]), n - len(COLOURS)
     if more <= 0:

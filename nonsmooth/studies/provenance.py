@@ -12,7 +12,8 @@ from typing import Any
 from nonsmooth.results.output import versions
 
 _BEFORE, _SHOWN = 20, 60
-"""Numbers of characters of a specification that a message shows: before the first difference, and in total."""
+"""Length of the part of a specification that a message shows, in characters: before the first difference, and in
+total."""
 
 
 def digest(owner: Any) -> str:
@@ -47,7 +48,7 @@ def _about(text: str, at: int) -> str:
 
 
 def provenance() -> Mapping[str, str]:
-    """Return the versions that decide the last bits of results, and the processor of this machine."""
+    """Return the processor, and the versions of software on which the last bits of results depend, by name."""
     return {**versions(), "processor": _processor()}
 
 

@@ -118,7 +118,7 @@ class StudyRecord:
 
 
 class Recorder(ABC):
-    """Makes a record out of the first run of a study."""
+    """Definition of a record that needs labels or units of the system, which the first run of a study provides."""
 
     @abstractmethod
     def record(self, first: RunResult) -> StudyRecord:

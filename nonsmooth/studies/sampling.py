@@ -184,7 +184,11 @@ def latin_hypercube(n: int, seed: int = 0, /, **ranges: Range) -> Sampling:
 
 
 def _drawn(kind: str, n: int, seed: int, ranges: Mapping[str, Range], unit: Callable[[int], Array]) -> Sampling:
-    """Return points of the unit cube, ``unit(d)`` of shape [n, d], scaled to ranges."""
+    """Return draws from ranges.
+
+    ``unit(d)`` returns n points of the unit cube in d dimensions, shape [n, d]; each column is scaled to the range of
+    its parameter.
+    """
     for name, value, least in (("n", n, 1), ("seed", seed, 0)):
         rule = f"must be a whole number from {least} on"
         check_count(f"{kind}: {name}", value, rule, f"For example {kind}(1024, 1, ...).", least)

@@ -1,4 +1,4 @@
-"""Records of states: at given times, or once a period at the end of a run, which distinguish attractors."""
+"""Records of the states of a run: at given times, or once a period in the last periods, to distinguish attractors."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NAME = "stroboscopic"
 _AXES = {"q": "coordinate", "u": "velocity"}
 _REMEDY = "If a parameter that varies changes the frequency, make a study of its own for each of its values."
 _ROUND = 1e-9
-"""Part of a period by which the last section may be after the end of the run, because of round-off."""
+"""Part of a period by which the last recorded state may be after the end of the run, because of round-off."""
 
 
 @final
@@ -51,7 +51,7 @@ class Trajectory(Recorder):
             raise InvalidInput("Trajectory: times", rule, self.times, remedy)
 
     def record(self, first: RunResult) -> StudyRecord:
-        """Return the record; InvalidInput if the runs end before the last time."""
+        """Return the record; InvalidInput if the runs end before the last of ``times``."""
         if max(self.times) > first.t_end:
             rule, remedy = f"must lie within a run of {first.t_end:g} s", "Raise t_end, or leave out later times."
             raise InvalidInput("Trajectory: times", rule, max(self.times), remedy)
@@ -72,16 +72,16 @@ class Stroboscope(Recorder):
     Parameters
     ----------
     period : float
-        Period of the drive, or a multiple [s].  A run fails if its drive has another period.
+        Period of the drive, or a multiple [s].  A run fails if the period of its drive differs from it.
     within : tuple of str
         Names of the coordinates and velocities that determine the motion, "z" or "ball.vz"; no coordinate that drifts.
     keep : int
-        Number of recorded sections, at the end of the run.
+        Number of states that are recorded, one per period, up to the end of the run.
     at : float
-        Time of the section in each period [s], at which no velocity jumps.
+        Time of the recorded state in each period [s], at which no velocity jumps.
     phase : str, optional
-        Parameter of the scenario that is the phase of the drive at t = 0 [rad], if the study varies it.  Then ``at`` is
-        measured from phase 0; by default it is measured from t = 0.
+        Parameter of the scenario that is the phase of the drive at t = 0 [rad], if the study varies it.  Then ``at``
+        counts from the time at which the phase of the drive is 0; by default it counts from t = 0.
 
     Raises
     ------
@@ -130,12 +130,12 @@ class Stroboscope(Recorder):
         return StudyRecord(NAME, self, text, axes, how=repr(self))
 
     def __call__(self, result: RunResult) -> Any:
-        """Return the coordinates and velocities of a run at its last sections, shape [keep, n_within].
+        """Return the coordinates and velocities of a run once a period, in its last periods, shape [keep, n_within].
 
         Raises
         ------
         InvalidInput
-            If the run is too short, or its drive has another period.
+            If the run is too short, or the period of its drive differs from ``period``.
         """
         solution = result.solution
         check_period(result.model, solution.state, self.period, "Stroboscope: period", _REMEDY)
@@ -150,7 +150,7 @@ class Stroboscope(Recorder):
         return float(result.scenario.values[self.phase]) / (2.0 * math.pi)
 
     def _times(self, t_end: float, start: float) -> Array:
-        """Return the times of the last sections of a run that ends at ``t_end`` [s], shape [keep]."""
+        """Return the times of the last recorded states of a run that ends at ``t_end`` [s], shape [keep]."""
         before = start - self.at / self.period
         last = math.floor(t_end / self.period + before + _ROUND)
         times = (np.arange(last - self.keep + 1, last + 1) - before) * self.period

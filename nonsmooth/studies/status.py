@@ -43,7 +43,7 @@ class CaseStatus(StrEnum):
 VALUED = (CaseStatus.DONE.code, CaseStatus.SUSPECT.code)
 """Codes of runs that have records."""
 WORKER_DIED, RAISED, UNKNOWN = -2, -1, 0
-"""Codes of reasons other than those of the engine: the process died, an exception was raised, the run has not begun."""
+"""Codes of reasons that the engine does not give: the process died, an exception was raised, the run has not begun."""
 
 
 def reason_of(message: str) -> int:
@@ -60,14 +60,17 @@ def reason_attributes() -> dict[str, object]:
 
 
 def summary(study: xarray.Dataset) -> str:
-    """Return the number of runs by status, and the range or the counts of each record with one value per run."""
+    """Return a text with the number of runs of each status, and the range or the counts of each record.
+
+    Only records with one value per run are listed.
+    """
     valued = np.isin(study.status.values, VALUED)
     lines = [f"  {name}: {of_record(one, valued)}" for name, one in records_of(study).items()]
     return "\n".join([f"{study.status.size} runs: {ends(study.status.values)}", *lines])
 
 
 def ends(status: NDArray[Any]) -> str:
-    """Return the number of runs by status."""
+    """Return a text with the number of runs of each status that occurs, such as "10 done, 2 failed"."""
     counts = ((word.replace("_", " "), (status == word.code).sum()) for word in CaseStatus)
     return ", ".join(f"{count} {word}" for word, count in counts if count)
 
@@ -79,7 +82,7 @@ def records_of(study: xarray.Dataset) -> dict[str, xarray.DataArray]:
 
 
 def of_record(record: xarray.DataArray, valued: NDArray[np.bool_]) -> str:
-    """Return the range of the numbers, or the count of each word, over the runs that have records."""
+    """Return a text with the range of the numbers, or the count of each word, over the runs that have records."""
     values = record.values[valued]
     if words := record.attrs.get("flag_meanings"):
         counted = ((word, int((values == i).sum())) for i, word in enumerate(words.split(" ")))

@@ -36,7 +36,8 @@ EXECUTORS: Mapping[str, Callable[[], Executor]] = {"serial": Serial, "threads": 
 _CHUNKS, _LARGEST = 40, 1000
 """Default number of chunks, and largest default number of runs in a chunk."""
 _FIRST_SAMPLES = 2
-"""Length of the first run, from which the records are made, in sample intervals."""
+"""Length of a short first run, in sample intervals.  It only provides labels, units and shapes for the records, so two
+intervals are enough."""
 
 
 @final

@@ -120,7 +120,7 @@ class StudyFolder:
 
     @property
     def attributes(self) -> Mapping[str, Any]:
-        """Attributes of the study."""
+        """Attributes of the study by name, all texts: "title", "spec", "sha256", "provenance", "request", "layout"."""
         return self._arrays.attributes
 
     @property
@@ -227,7 +227,10 @@ class StudyFolder:
 
 
 def is_study(path: Path) -> bool:
-    """True if a folder holds a study that has begun, or other arrays; a study without its metadata has not begun."""
+    """True if the folder holds metadata of stored arrays ("zarr.json"), which mark a study that has begun.
+
+    Arrays of another program have this file, too.
+    """
     return (path / "zarr.json").exists()
 
 
@@ -281,7 +284,7 @@ def _on_grid(flat: xarray.Dataset, dims: dict[str, int]) -> xarray.Dataset:
 
 
 def _classes(words: Sequence[str]) -> dict[str, Any]:
-    """Return the numbers and names of words, as attributes of the CF conventions."""
+    """Return CF attributes for a record of words: the stored number of each word, and the words in this order."""
     return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(word.replace(" ", "_") for word in words)}
 
 
@@ -300,7 +303,7 @@ def _variables(records: Sequence[StudyRecord], n_runs: int, chunk: int) -> dict[
 
 
 def _coordinates(records: Sequence[StudyRecord], sampling: Sampling, cases: CaseFactory) -> list[LabelledArray]:
-    """The parameters over the runs, and the axes of records."""
+    """Values of the parameters for each run, and the labels along each further axis of the records, such as times."""
     found = {
         name: LabelledArray(name, ("run",), values, cases.attributes(name)) for name, values in sampling.columns.items()
     }

@@ -129,7 +129,7 @@ class Work:
         if solution.status == "interrupted":
             raise KeyboardInterrupt
         reason = reason_of(solution.message)
-        # the budget of steps is the only condition that can end a run of a study
+        # a run of a study has one end condition, its largest number of steps: "condition met" means that it is reached
         if solution.message == REASONS[Status.CONDITION_MET]:
             text = f"At t = {solution.t_end:.9g} s its {self.budget} steps were used up."
             return RunRow(CaseStatus.BUDGET, reason, text)

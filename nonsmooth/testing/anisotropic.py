@@ -1,4 +1,7 @@
-"""Conformance checks of anisotropic friction: its bound is made of two half ellipses along an axis fixed to a body."""
+"""Conformance checks of anisotropic friction: its bound is made of two half ellipses along an axis fixed to a body.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +39,8 @@ from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact, requi
 from nonsmooth.types import Array
 
 _INSTANT = 1e-7
-"""Part of the time to stop over which a force is taken as the change of momentum: the slip hardly changes in it."""
+"""Duration of the run whose change of momentum gives the friction force, relative to the time in which friction stops
+the puck: so short that the slip hardly changes."""
 _SLIGHT = 1e-4
 """Approach speed of a slight impact, relative to the slip speed: so small that the slip hardly changes."""
 _N_OTHERS = 24
@@ -65,7 +69,7 @@ def _coefficient(law: AnisotropicFrictionLaw) -> CheckedFunction:
 
 @claim()
 def _ratios(law: AnisotropicFrictionLaw) -> str:
-    """The ratios of the bound are three positive numbers, and the largest is 1."""
+    """The three ratios of the friction bound (forward, backward, across) are positive, and the largest is 1."""
     ratios = law.ratios
     sound = len(ratios) == 3 and all(0.0 < r <= 1.0 for r in ratios) and max(ratios) == 1.0
     return "" if sound else f"they are {tuple(ratios)}"
@@ -73,7 +77,7 @@ def _ratios(law: AnisotropicFrictionLaw) -> str:
 
 @claim()
 def _axis_and_body(law: AnisotropicFrictionLaw) -> str:
-    """The axis is a vector that is not zero, of the first or the second body."""
+    """The axis of the friction bound is a vector that is not zero, fixed to the first or to the second body."""
     if law.body not in ("first", "second"):
         return f"the body is {law.body!r}"
     axis = law.axis
@@ -83,7 +87,7 @@ def _axis_and_body(law: AnisotropicFrictionLaw) -> str:
 
 @_ANISOTROPIC.claim(SPEED, HEADING)
 def _maximum_dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float) -> str:
-    """Under slip, of all forces on the bound, only the force that takes out most energy obeys the law."""
+    """Under slip, the law accepts no force on its bound that dissipates less than the force of largest dissipation."""
     slip = along(speed, heading)
     own = force_under_slip(law, slip)
     most = -own[0] * slip[0] - own[1] * slip[1]
@@ -101,7 +105,7 @@ def _maximum_dissipation(law: AnisotropicFrictionLaw, speed: float, heading: flo
 
 
 def _turns(law: AnisotropicFrictionLaw, heading: float, lean: float) -> dict[str, tuple[float, ...]]:
-    """Return the unit quaternions of puck and slab that give the law's axis a direction.
+    """Return unit quaternions of puck and slab that turn the axis of the friction bound into a given direction.
 
     The axis has the angle ``heading`` in the tangent plane and leans out of the plane by the angle ``lean`` [rad].
     """
@@ -140,10 +144,10 @@ def _after(
     approach: float = 0.0,
     t_end: float,
 ) -> tuple[Pair, float]:
-    """Return the slip velocity of a puck of 1 kg after a time [m/s], and the energy lost to friction [J].
+    """Return the slip velocity of a puck of 1 kg on a slab at ``t_end`` [m/s], and the energy lost to friction [J].
 
-    All vectors have a component along the law's axis and a component across it. With an approach speed the puck strikes
-    the slab at once.
+    All vectors have a component along the axis of the friction bound and a component across it. If ``approach`` [m/s]
+    is positive, the puck strikes the slab at the start.
     """
     speed = max(math.hypot(*slip), 1e-3)
     puck = Puck(push=(*_rotated(push, heading), 0.0), speed=_SLIGHT * speed)
@@ -157,7 +161,7 @@ def _after(
 def _sustained_contact(
     law: AnisotropicFrictionLaw, speed: float, heading: float, load: float, share: float, axis: float, lean: float
 ) -> str:
-    """Forces that the engine finds for contacts that stick or slide obey the law."""
+    """The law accepts the friction forces that the engine finds for contacts that stick or slide."""
     held = times(share * load, force_on_bound(law, mu(law, 0.0), heading + math.pi))
     after, _ = _after(law, (0.0, 0.0), axis, lean, push=times(-1.0, held), weight=load, t_end=1.0)
     if math.hypot(*after) > 1e-9:
@@ -176,15 +180,16 @@ def _sustained_contact(
 
 @_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _dissipation(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
-    """Friction takes energy out of impacts."""
+    """Friction adds no energy in an impact."""
     _, lost = _after(law, along(speed, heading), axis, approach=speed, t_end=1e-9)
     return f"friction gives {-lost:g} J to the impact" if lost < -1e-8 * speed**2 else ""
 
 
 @_ANISOTROPIC.claim(SPEED, HEADING, _AXIS_HEADING, fewest=FEWEST)
 def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: float, axis: float) -> str:
-    """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
-    # the slip changes by about the coefficient times the approach: a large coefficient needs a slower approach
+    """In a slight impact, which hardly changes the slip, the ratio of friction to normal impulse is that of sliding."""
+    # friction changes the slip by about the coefficient times the approach speed: a large coefficient needs a lower
+    # approach speed
     slip, approach = along(speed, heading), _SLIGHT / max(1.0, mu(law, speed)) * speed
     after, _ = _after(law, slip, axis, approach=approach, t_end=1e-12)
     # normal impulse on 1 kg: the spring of the reference gives back half of the energy
@@ -198,7 +203,7 @@ def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: 
 
 @_ANISOTROPIC.claim(SPEED, HEADING, TURN, fewest=FEWEST)
 def _frame_invariance(law: AnisotropicFrictionLaw, speed: float, heading: float, turn: float) -> str:
-    """If the bodies and the slip are turned together, an impact turns with them."""
+    """If both bodies and the slip are turned together, the slip after an impact is turned by the same angle."""
     slip = along(speed, heading)
     a, b = (_after(law, slip, axis, approach=speed, t_end=1e-9)[0] for axis in (0.0, turn))
     if math.dist(a, b) > 1e-6 * speed:
@@ -208,7 +213,7 @@ def _frame_invariance(law: AnisotropicFrictionLaw, speed: float, heading: float,
 
 @claim(SPEED, HEADING)
 def _vanishes(law: AnisotropicFrictionLaw, speed: float, heading: float) -> str:
-    """Friction vanishes in an impact."""
+    """If the coefficients are zero, friction does not change the slip in an impact."""
     slip = along(speed, heading)
     after, _ = _after(law, slip, 0.0, approach=1.0, t_end=1e-9)
     left = math.dist(slip, after)

@@ -7,8 +7,8 @@ the traceback of the running code to the file and ends the process. The parent r
 for the next component.
 
 Components are sent by cloudpickle. The child cannot import some modules by name, such as a file of tests or of
-``nonsmooth check FILE.py:CLASS``: it loads them from their files. A child takes some seconds to start, so it serves one
-component after the other.
+``nonsmooth check FILE.py:CLASS``: it loads them from their files. A child takes some seconds to start, so it serves all
+components in turn.
 """
 
 from __future__ import annotations
@@ -42,10 +42,11 @@ TRIAL = 600.0 if PLAIN else 60.0
 CALL = 1.0
 """Time that a call of a component's function may take [s]: the engine calls it thousands of times a second."""
 _SLACK = 0.1
-"""Age at which a watchdog is set again, relative to its time limit: setting it costs as much as a short trial."""
+"""Part of its time limit after which a running watchdog is set anew. It is not set anew for each call, because this
+costs as much as a short trial."""
 
 
-# the parent
+# functions and classes of the parent process
 
 
 class _Child:
@@ -92,7 +93,10 @@ class _Child:
             raise EOFError from error
 
     def fault(self) -> tuple[str, Outcome]:
-        """Return the property that ended the child, "" for the requested property, and its outcome."""
+        """Return the property during whose check the child ended, and its outcome, which is "broken" with the reason.
+
+        The property is "" if it is the one that the parent requested.
+        """
         status = self._process.wait()
         with self._report.open("rb") as file:
             prop, words, seconds, parameter, value, case = pickle.load(file)
@@ -119,7 +123,8 @@ _NOTHING = Subject(None, lambda component: [], {})
 _children: list[_Child] = []
 """The child process: empty before the first check, then a list with one entry."""
 _ended: WeakKeyDictionary[Subject, tuple[str, Outcome]] = WeakKeyDictionary()
-"""For components that ended their child: the property at fault and its outcome. Their other properties are not run."""
+"""For each component during whose check the child process ended: the property at fault and its outcome. Other
+properties of this component are not checked."""
 _LOCK = threading.Lock()
 
 
@@ -173,9 +178,10 @@ def _text(pattern: Any) -> str:
 
 
 def _line(trace: str, words: str) -> str:
-    """Return text for the innermost line of a traceback that is in the author's own code.
+    """Return text that names the innermost line of a traceback in the author's own code; "" without a line.
 
-    Code of this package, of Python and of installed packages is skipped. The file is named unless ``words`` names it.
+    Code of this package, of Python and of installed packages is skipped. The text names the file, unless the message
+    ``words`` does.
     """
     ours = [str(Path(__file__).parents[1]), *sysconfig.get_paths().values()]
     for file, line in re.findall(r'File "(.*)", line (\d+)', trace):
@@ -184,11 +190,11 @@ def _line(trace: str, words: str) -> str:
     return ""
 
 
-# the child
+# functions and classes of the child process
 
 
 class _Watchdog:
-    """Ends this process if a call takes too long; its file then holds the report of that call."""
+    """Ends the child process if a call takes too long. The parent then reads about the call in a report file."""
 
     def __init__(self, file: int) -> None:
         self._file, self._set_at, self._seconds = file, 0.0, 0.0
@@ -223,15 +229,15 @@ def about_to(
     Parameters
     ----------
     words : str
-        The beginning of a sentence, in which "{takes}" stands for "takes longer than 60 s".
+        The beginning of the message, such as "it {takes}", where "{takes}" stands for "takes longer than 60 s".
     component : object
         The component; its parameters are part of the report.
     case : mapping, optional
-        The input.
+        The input of the call, its numbers by name.
     seconds : float, optional
         Time that the call may take [s].
     prop : str, optional
-        The property that fails if the call takes longer; by default the property that is checked.
+        Name of the property that fails if the call takes longer; by default the property that is being checked.
     """
     for watchdog in _watchdogs:
         watchdog.about_to(seconds, prop, words, seconds, *described(component), dict(case or {}))
@@ -268,7 +274,11 @@ def serve(report: str) -> None:
 
 
 def _take(looks: dict[str, Any], path: list[str], filters: list[tuple[Any, ...]], content: bytes) -> str:
-    """Store a pickled component in ``looks``. Return the name of a missing module, "" if the component is complete."""
+    """Unpickle a component, and store it with its properties in ``looks`` as "component" and "rows".
+
+    ``path`` is the module path of the parent, ``filters`` its filters of warnings. Returns the name of a module that is
+    missing in the child, "" if none is missing.
+    """
     sys.path[:] = path
     warnings.resetwarnings()
     for words in filters:

@@ -16,7 +16,7 @@ from nonsmooth.testing.inputs import Drawn, draws, simplified
 from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, name_of, says_of, words_of
 
 FEWEST = 3
-"""Number of inputs of claims that run the engine in plain mode, which is some 400 times slower."""
+"""Number of inputs of claims that run the engine in plain mode: as plain Python it is some 400 times slower."""
 
 
 @final
@@ -46,7 +46,7 @@ class Claim:
     n_inputs : int or None
         Number of inputs that are tried; by default (None) the number given to :meth:`examine`.
     fewest : int or None
-        Number of inputs that are tried in plain mode; None for all inputs.
+        Number of inputs that are tried in plain mode (engine as plain Python); None for all inputs.
     """
 
     name: str
@@ -97,7 +97,7 @@ class Claim:
 def claim(
     *inputs: Drawn, name: str = "", n_inputs: int | None = None, fewest: int | None = None
 ) -> Callable[[Callable[..., str | None]], Claim]:
-    """Return a decorator that makes a claim of a function, with its name and its docstring as the statement."""
+    """Return a decorator that turns a function into a :class:`Claim`, with its docstring as the statement."""
 
     def made(trial: Callable[..., str | None]) -> Claim:
         return Claim(name or name_of(trial), says_of(trial), trial, inputs, n_inputs, fewest)
@@ -114,12 +114,13 @@ def wrong_verdict(is_accepted: bool, expected: bool) -> str:
 
 @final
 class Claims(list[Claim]):
-    """The claims (:class:`Claim`) about a kind of component, in the order in which they are written.
+    """Claims (:class:`Claim`) about one kind of component, such as a friction law, in the order of their definition.
 
     Parameters
     ----------
     fewest : int, optional
-        Number of inputs that are tried in plain mode, for claims that do not set it themselves.
+        Number of inputs that are tried in plain mode (engine as plain Python), for claims that do not set it
+        themselves.
     """
 
     def __init__(self, *, fewest: int | None = None) -> None:
@@ -127,7 +128,7 @@ class Claims(list[Claim]):
         self._fewest = fewest
 
     def claim(self, *inputs: Drawn, **options: Any) -> Callable[[Callable[..., str | None]], Claim]:
-        """Return a decorator that makes a claim of a function, as :func:`claim` does, and adds it to this list."""
+        """Return a decorator that turns a function into a :class:`Claim` and appends the claim to these claims."""
 
         def added(trial: Callable[..., str | None]) -> Claim:
             self.append(claim(*inputs, **{"fewest": self._fewest, **options})(trial))
@@ -139,7 +140,9 @@ class Claims(list[Claim]):
 def rows(
     claims: Sequence[Claim], components: Callable[[], Iterable[Any]], count: int, given: Sequence[Drawn] = ()
 ) -> list[Row]:
-    """Return the property of each claim, as a :class:`Row`. The components are made only when a row is checked.
+    """Return a :class:`Row` for each claim: its name, its statement, and a function that tries it on the components.
+
+    The components are made only when a row is checked.
 
     Parameters
     ----------

@@ -1,7 +1,10 @@
 """Conformance checks of the friction coefficient, which all laws with a coefficient share.
 
-The bound of friction is made of two half ellipses along and across an axis. For an isotropic law the bound is a disc:
-all ratios are 1, and any axis will do.
+The bound of the friction force consists of two half ellipses, one forward and one backward along an axis. Its
+semi-axes, relative to the coefficient times the normal force, are the three ratios: forward, backward and across. For
+an isotropic law the bound is a disc: all three ratios are 1, and any axis will do.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
 """
 
 from __future__ import annotations
@@ -21,7 +24,7 @@ from nonsmooth.testing.inputs import number
 from nonsmooth.testing.outcome import NotChecked, Row
 
 Pair = tuple[float, float]
-"""A vector along the axis of the law and across it."""
+"""Components of a tangential vector along the axis of the friction bound, and across it."""
 SPEED = number("slip_speed", 1e-4, 1e2, 1.0, is_log=True)
 HEADING = number("heading", -3.1, 3.1)
 FORCE = number("normal_force", 1e-2, 1e3, 1.0, is_log=True)
@@ -31,7 +34,7 @@ DRAWS = 10
 _ANY_SPEED = number("slip_speed", 1e-9, 1e3, 1.0, is_log=True)
 _SPEEDS = (0.0, 1e-300, *np.geomspace(1e-12, 1e3, 16).tolist())
 COEFFICIENT = Claims()
-"""The claims about every law with a coefficient."""
+"""Claims about every friction law with a coefficient."""
 
 
 @final
@@ -53,7 +56,7 @@ class _Fresh(FrictionLaw):
 
 
 def fresh(law: FrictionLaw) -> FrictionLaw:
-    """Return the law itself, or a law with inner states as a law whose states stay at their initial values."""
+    """Return a law without inner states unchanged, and a law with inner states as one that never changes its states."""
     return _Fresh(law) if isinstance(law, StatefulFrictionLaw) else law
 
 
@@ -78,17 +81,23 @@ def along(size: float, heading: float) -> Pair:
 
 
 def times(share: float, vector: Pair) -> Pair:
-    """Return a multiple of a vector."""
+    """Return a vector multiplied by the number ``share``."""
     return share * vector[0], share * vector[1]
 
 
 def ratios_of(law: FrictionLaw) -> tuple[float, float, float]:
-    """Return the ratios of the bound forward, backward and across; they are 1 for an isotropic law."""
+    """Return the semi-axes of the friction bound forward, backward and across, relative to mu times the normal force.
+
+    They are 1 for an isotropic law.
+    """
     return law.ratios if isinstance(law, AnisotropicFrictionLaw) else (1.0, 1.0, 1.0)
 
 
 def force_under_slip(law: FrictionLaw, slip: Pair) -> Pair:
-    """Return the friction force that dissipates most at a slip velocity, for a normal force of 1 N [N]."""
+    """Return the friction force [N] at a slip velocity [m/s] and a normal force of 1 N.
+
+    It is the force on the friction bound that dissipates most.
+    """
     forward, backward, across = ratios_of(law)
     first = forward if slip[0] > 0.0 else backward
     counted = first * slip[0], across * slip[1]
@@ -98,7 +107,7 @@ def force_under_slip(law: FrictionLaw, slip: Pair) -> Pair:
 
 
 def force_on_bound(law: FrictionLaw, coefficient: float, heading: float) -> Pair:
-    """Return the largest friction force in a direction, for a normal force of 1 N [N]."""
+    """Return the force on the friction bound in a direction ``heading`` [rad], for a normal force of 1 N [N]."""
     forward, backward, across = ratios_of(law)
     c, s = along(1.0, heading)
     # a backward force opposes forward slip
@@ -107,13 +116,13 @@ def force_on_bound(law: FrictionLaw, coefficient: float, heading: float) -> Pair
 
 
 def vanishing_names(law: FrictionLaw) -> tuple[str, ...]:
-    """Return the names of parameters with which friction vanishes: dimensionless, with zero as lower bound."""
+    """Return the names of the parameters without which friction is zero: dimensionless, with zero as lower bound."""
     found = numbers_of(law).items()
     return tuple(name for name, (value, rule) in found if rule.unit == "1" and max(rule.minimum, rule.above) == 0.0)
 
 
 def verdict(law: FrictionLaw, slip: Pair, load: float, force: Pair, expected: bool) -> str:
-    """Return the fault of the law's verdict on a force [N]; "" if the verdict is as expected."""
+    """Return a message if the law's verdict on a force [N] is not as expected; "" if it is."""
     return wrong_verdict(law.is_fulfilled(slip, load, force, 1e-9 * load), expected)
 
 
@@ -125,7 +134,7 @@ def _not_negative(law: FrictionLaw, speed: float) -> str:
 
 @COEFFICIENT.claim()
 def _static_limit(law: FrictionLaw) -> str:
-    """The coefficient at rest is not below the limit of slow slip."""
+    """The coefficient at rest is at least the limit of the coefficient for slip speeds that tend to zero."""
     rest, slow, slower = mu(law, 0.0), mu(law, 1e-12), mu(law, 1e-300)
     if slower > rest * (1.0 + 1e-12) + 1e-12:
         return f"coefficient(0) is {rest:g}, below {slower:g} of incipient slip"
@@ -136,7 +145,7 @@ def _static_limit(law: FrictionLaw) -> str:
 
 @COEFFICIENT.claim(SPEED, HEADING, FORCE)
 def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load: float) -> str:
-    """The force on the bound against the slip obeys the law; a force along the slip or off the bound does not."""
+    """Under slip, the law accepts the force on the bound against the slip, and refuses other forces."""
     slip = along(speed, heading)
     force = times(load, force_under_slip(law, slip))
     wrong = (-1.0, 0.5, 1.5, 0.0) if math.hypot(*force) > 1e-6 * load else ()
@@ -148,7 +157,7 @@ def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load
 
 @COEFFICIENT.claim(HEADING, FORCE, SHARE)
 def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: float) -> str:
-    """At rest a force within the static bound obeys the law, and a larger force does not."""
+    """At rest, the law accepts a force within the static bound and refuses a larger force."""
     bound = times(load, force_on_bound(law, mu(law, 0.0), heading))
     size = math.hypot(*bound)
     outside = along(1.01 * size + 1e-3 * load, heading)
@@ -159,7 +168,7 @@ def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: f
 
 
 def limit_row(law: FrictionLaw, names: tuple[str, ...], vanishes: Claim) -> Row:
-    """Return the property that friction vanishes if the named parameters are at their lower bound of zero."""
+    """Return the property that friction is zero if the parameters ``names`` are zero, tried by ``vanishes``."""
 
     def check() -> None:
         if not names:

@@ -14,7 +14,8 @@ _PIECES = 64
 _SUSPECTS = 3
 _HALVINGS = 30
 _LEFT = 1e-4
-"""Least part of a change that remains after 30 halvings of its interval if the function jumps; a slope leaves 1e-9."""
+"""A function jumps if at least this part of a change remains while its interval is halved 30 times: the change of a
+smooth function shrinks to 1e-9."""
 _SAME = 1e-6
 """Allowed deviation of a derivative from its differences, relative to the size of the differences."""
 _ROUND_OFF = 1e-14
@@ -31,11 +32,11 @@ def slope(value: Callable[[float], Any], dt: float) -> tuple[Array, float]:
 
 
 def slope_fault(name: str, given: Array, found: Array, known: float) -> str:
-    """Return the fault of a derivative ``given`` that differs from ``found`` by :func:`slope`; "" if it agrees.
+    """Compare a derivative ``given`` with one ``found`` by :func:`slope`; return a message, "" if they agree.
 
     ``known`` is the bound of the error of ``found``.
     """
-    # at a knot of a table the bound of the error is large, and any value passes
+    # at a kink, such as a point of a table with linear interpolation, the bound of the error is large: any value passes
     if np.max(np.abs(given - found)) <= _SAME * np.max(np.abs(found)) + 10.0 * known:
         return ""
     return f"the {name} is {given.tolist()}, the differences give {found.tolist()}"
@@ -58,7 +59,7 @@ def spin_of(rates: Array, axes: Array) -> Array:
 
 
 def rotation_fault(axes: Array) -> str:
-    """Return the fault of 9 numbers that must be a rotation matrix row by row; "" if they are."""
+    """Return a message if 9 numbers are not a rotation matrix row by row; "" if they are."""
     matrix = axes.reshape(3, 3)
     is_rotation = np.allclose(matrix.T @ matrix, np.eye(3), rtol=0.0, atol=1e-9) and np.linalg.det(matrix) >= 0.0
     return "" if is_rotation else f"the axes are {matrix.tolist()}"

@@ -31,10 +31,12 @@ _MANY_SAMPLES = 5000
 """Number of samples that is larger than the buffers of samples."""
 _START = np.array([0.3, -0.2, 1.0, 2.0, -1.0, 0.5])
 _EXACT = 1e-6
-"""Allowed error of free fall [m, rad/s], and residual allowed of an engine that promises no residual."""
+"""Allowed error of free fall: position [m] and angular velocity [rad/s]. Also the allowed relative energy residual, if
+the engine's ``promised_residual`` is None."""
 _THROUGH = 0.1
-"""Allowed overlap, relative to the height of a fall or the radius of a ball, and relative error of a height: fixed
-steps find contacts only at their ends."""
+"""Allowed overlap, relative to the height of a fall or the radius of a ball, and allowed relative error of the height
+to which a plate throws a ball. It is large, because an engine with fixed steps finds contacts only at the ends of
+steps."""
 _HEAP_SAMPLES = 60
 _HEIGHT = 0.5 * scenes.GRAVITY * (0.5 * _END) ** 2
 """Height of a fall that ends in the middle of the run [m]."""
@@ -45,8 +47,8 @@ def check_engine(engine: Engine) -> list[Property]:
     """Return the properties of an engine.
 
     It runs free bodies, a body that falls on a slab, a ball that a driven plate throws, and a heap of ten balls. If the
-    engine's ``check`` refuses a system, the properties of that system are skipped. Only the property "contact" then
-    holds, because refusing is correct.
+    engine's ``check`` refuses a system, the properties that need this system are not checked. There is one exception:
+    the property "contact" then holds, because an engine may refuse contacts.
     """
     return properties(engine, _rows)
 
@@ -111,7 +113,7 @@ class _Trial:
         return solution
 
     def require_account(self, solution: Solution) -> None:
-        """Raise Broken unless the energy account of a run closes."""
+        """Raise Broken if the energy residual of a run is larger than :attr:`promised`."""
         _require_at_most("energy residual", np.array([solution.energy.residual]), self.promised)
 
     def require_same(self, other: Solution) -> None:
@@ -130,7 +132,7 @@ def _names(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _free_fall(trial: _Trial) -> None:
-    """A free body falls on a parabola, with the same spin."""
+    """A free body falls on a parabola with constant angular velocity."""
     t, solution = trial.solution.t, trial.solution
     path = np.outer(t, _START[:3])
     path[:, 2] -= 0.5 * scenes.GRAVITY * t**2
@@ -139,7 +141,7 @@ def _free_fall(trial: _Trial) -> None:
 
 
 def _require_times(solution: Solution, n: int) -> None:
-    """Raise Broken or AssertionError unless there are n samples after the first, at equal distances."""
+    """Raise Broken or AssertionError unless n samples follow the first one, at equal intervals of time."""
     if len(solution.t) != n + 1:
         raise Broken(f"must be {n + 1}", "number of samples", len(solution.t))
     assert_allclose(solution.t, np.linspace(0.0, _END, n + 1), rtol=0.0, atol=1e-12)
@@ -161,13 +163,13 @@ def _many_samples(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _energy(trial: _Trial) -> None:
-    """The energy account of the run closes."""
+    """The energy residual of a run is at most the residual that the engine promises, or 1e-6 without a promise."""
     trial.require_account(trial.solution)
 
 
 @_ENGINE.claim()
 def _repeatable(trial: _Trial) -> None:
-    """A second run of a model is the same to the last bit."""
+    """A second run of the same model has the same end to the last bit."""
     trial.require_same(trial.model.run(_END, sample_interval=_END / _SAMPLES))
 
 
@@ -185,7 +187,7 @@ def _contact(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _modes(trial: _Trial) -> None:
-    """A body that lies on a slab is closed, and a body that lands has impulses."""
+    """The contact of a body that lies on a slab is closed, and the contact of a body that falls on it has impulses."""
     if not trial.engine.records_contacts:
         raise NotChecked("the engine records no contacts")
     lying = trial.run(_slab(0.0)).history("mode")["mode"][1:]
@@ -210,7 +212,7 @@ def _quaternion(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _driven_plate(trial: _Trial) -> None:
-    """A plate that swings throws a ball to the height of the closed form."""
+    """A plate that swings throws a ball as high as the solution in closed form."""
     solution = trial.run(scenes.thrown())
     height = solution.of(solution.system.bodies[1])[0][-1, 2] - scenes.RADIUS
     exact = scenes.thrown_height(_END)
@@ -221,7 +223,7 @@ def _driven_plate(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _heap(trial: _Trial) -> None:
-    """Of ten balls on a plate the energy never rises, and none passes into another."""
+    """In a heap of ten balls on a plate, the energy never rises, and no ball passes into another ball."""
     if PLAIN:
         raise NotChecked("a heap takes minutes in plain mode")
     solution = trial.run(scenes.heap(), _HEAP_SAMPLES)
@@ -235,7 +237,7 @@ def _heap(trial: _Trial) -> None:
 
 @_ENGINE.claim()
 def _continues(trial: _Trial) -> None:
-    """A run that is stopped and resumed is the same to the last bit."""
+    """A run that is stopped and resumed has the same end as a run without a stop, to the last bit."""
     half = trial.model.run(0.55 * _END)
     trial.require_same(trial.model.run(_END, start=half.state))
 

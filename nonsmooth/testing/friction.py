@@ -1,4 +1,7 @@
-"""Conformance checks of friction laws: sustained contact, impacts, and the limit without friction."""
+"""Conformance checks of friction laws: sustained contact, impacts, and the limit without friction.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -44,8 +47,8 @@ _FRICTION = Claims(fewest=FEWEST)
 def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None = None) -> list[Property]:
     """Return the properties of a friction law.
 
-    An anisotropic law has properties of its own. A law with inner states is checked at its initial states as any other
-    law; then its states are checked, too.
+    An anisotropic law has properties of its own. A law with inner states is first checked at its initial states, as any
+    other law. Then its states are checked.
 
     Parameters
     ----------
@@ -88,7 +91,7 @@ def _impact(law: FrictionLaw, p: ImpactProblem) -> Any:
 
 @_FRICTION.claim(SPEED, HEADING, FORCE, _PUSH)
 def _sustained_contact(law: FrictionLaw, speed: float, heading: float, weight: float, push: float) -> str:
-    """Forces that the engine finds for contacts that stick, start to slide or slide obey the law."""
+    """The law accepts the friction forces that the engine finds for contacts that stick, begin to slide or slide."""
     pushed = along(push * weight * (mu(law, 0.0) + 1e-3), heading)
     for slip in ((0.0, 0.0), along(speed, heading)):
         normal, (t1, t2) = _contact(law, [*pushed, -weight], slip)
@@ -99,7 +102,7 @@ def _sustained_contact(law: FrictionLaw, speed: float, heading: float, weight: f
 
 @_FRICTION.claim(problem_of(2))
 def _dissipation(law: FrictionLaw, p: ImpactProblem) -> str:
-    """Friction takes energy out of impacts."""
+    """Friction adds no energy in an impact."""
     if not np.any(p.normal.T @ p.velocity < 0.0):
         return ""
     least = float(np.min(_impact(law, p).friction_loss))
@@ -108,10 +111,11 @@ def _dissipation(law: FrictionLaw, p: ImpactProblem) -> str:
 
 @_FRICTION.claim(SPEED, HEADING)
 def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> str:
-    """In an impact too slight to change the slip, friction has the direction and ratio of sliding friction."""
+    """In a slight impact, which hardly changes the slip, the ratio of friction to normal impulse is that of sliding."""
     slip = along(speed, heading)
     normal, traction = _contact(law, [0.0, 0.0, -1.0], slip)
-    # the slip changes by about the coefficient times the approach: a large coefficient needs a slower approach
+    # friction changes the slip by about the coefficient times the approach speed: a large coefficient needs a lower
+    # approach speed
     size = max(1.0, mu(law, speed))
     result = _impact(law, point((*slip, -_SLIGHT / size * speed)))
     t1, t2 = (float(x) / float(result.normal_impulse[0]) for x in result.tangential_impulse[0])
@@ -125,7 +129,7 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
 
 @_FRICTION.claim(SPEED, HEADING, TURN)
 def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: float) -> str:
-    """Turning the tangents changes neither the verdicts of the law nor an impact."""
+    """If the tangents are turned, the law accepts the same forces, and velocities after an impact are the same."""
     bound = mu(law, speed)
     for share in (-1.0, 0.5):
         one, other = (
@@ -141,7 +145,7 @@ def _frame_invariance(law: FrictionLaw, speed: float, heading: float, turn: floa
 
 @claim(SPEED, HEADING)
 def _vanishes(law: FrictionLaw, speed: float, heading: float) -> str:
-    """Friction vanishes in an impact and in sliding."""
+    """If the coefficients are zero, friction is zero in an impact and in sliding."""
     slip = along(speed, heading)
     impulse = _impact(law, point((*slip, -1.0))).tangential_impulse[0]
     _, force = _contact(law, [0.0, 0.0, -1.0], slip)

@@ -25,7 +25,8 @@ Caller = Callable[..., Any]
 ROOM = 4
 """Number of extra floats behind a function's block, to detect writing beyond the block."""
 OLD = 7.0e3
-"""Value of the extra floats behind a block, which a function must not change."""
+"""Value of the extra floats behind a block before a call: if it has changed after the call, the function wrote beyond
+its block."""
 _SAME = 1e-9
 """Largest difference of compiled and plain results that is taken as round-off, relative to their size."""
 
@@ -46,9 +47,10 @@ def plain_caller(function: Caller, form: str, values: Mapping[str, Any]) -> Call
 
 @functools.cache
 def _without_pointers(function: Caller) -> Caller:
-    """Return a copy of a function with array slices in place of moved pointers, which plain Python does not have.
+    """Return a copy of a function in which slices of arrays replace pointers, for a call in plain Python.
 
-    Functions that are composed of several parts move pointers. Any other function is returned as it is.
+    Compiled functions that are composed of several parts give each part a pointer into an array. Plain Python has no
+    pointers. A function without pointers is returned unchanged.
     """
     scope = getattr(function, "__globals__", {})
     if PLAIN or not any(value is at for value in scope.values()):
@@ -99,9 +101,10 @@ def written(call: Callable[[Array], Any], size: int, old: float | Array = 0.0) -
 
 
 def left_over(call: Callable[[Array], Any], other: Callable[[Array], Any], size: int, row: int = 0) -> str:
-    """Return the fault of a block in which a number of the last call remains; "" if the function writes all numbers.
+    """Return a message if ``call`` leaves a number in a block unwritten; "" if it writes all numbers.
 
-    ``row`` is the length of the rows of the block, 0 if it has none.
+    ``other`` writes the block for another input: a number that it wrote and ``call`` did not is found. ``row`` is the
+    length of the rows of the block, 0 for a block without rows.
     """
     wrong = np.flatnonzero(written(call, size, written(other, size)[:size]) != written(call, size))
     if len(wrong) == 0:
@@ -140,7 +143,7 @@ class CheckedFunction:
 
     @property
     def function(self) -> Caller:
-        """The function."""
+        """The function to check."""
         return getattr(self.owner, self.name)  # type: ignore[no-any-return]
 
     @property
@@ -163,7 +166,10 @@ class CheckedFunction:
         return Broken(reason, *described(self.owner))
 
     def about_to_call(self, words: str, prop: str) -> None:
-        """Report to the watchdog that a call of the function begins, which may take :data:`CALL` seconds."""
+        """Report to the watchdog that a call begins, which may take one second.
+
+        ``words`` is the call as text. If the call takes longer, the property named ``prop`` fails.
+        """
         about_to(f"{words} {{takes}} in {self.place}", self.owner, seconds=CALL, prop=prop)
 
     def has_come_back(self) -> None:
@@ -171,7 +177,7 @@ class CheckedFunction:
         about_to("it {takes}", self.owner)
 
     def plain(self, *given: Any) -> Any:
-        """Return the number or the block of a call in plain Python."""
+        """Call the function in plain Python; return its number, or the block of numbers that it writes."""
         return self._result(plain_caller(self.function, self.form, self.offered), given)
 
     def compiled(self) -> Caller:
@@ -195,9 +201,10 @@ def scalar_function(owner: Any, name: str, values: Sequence[float], offered: Map
 @final
 @dataclass(frozen=True, eq=False)
 class _Functions:
-    """The functions of a component, which are checked once before the engine runs them.
+    """The functions of a component, each with checks that it must pass before the engine may call it.
 
-    If a function has a fault, the other properties are not checked, because the engine would call that function.
+    If a function fails a check, the other properties of the component are not checked, because the engine would call
+    that function.
     """
 
     made: Callable[[], Sequence[CheckedFunction]]
@@ -205,11 +212,11 @@ class _Functions:
 
     @cached_property
     def all(self) -> Sequence[CheckedFunction]:
-        """The functions."""
+        """The functions of the component."""
         return self.made()
 
     def check(self, name: str) -> None:
-        """Raise the fault of a stage; raise NotChecked if an earlier stage has a fault."""
+        """Raise the fault that the check ``name`` found; raise NotChecked if a check before it found a fault."""
         for stage, look in _STAGES.items():
             if stage not in self.found:
                 self.found[stage] = self._first_fault(look)
@@ -230,8 +237,11 @@ class _Functions:
         return None
 
     def rows(self, found: Sequence[Row]) -> list[Row]:
-        """Return the properties of the functions, then others, which are checked only if the functions can be run."""
-        # "writes its block" is stated by a claim of the component
+        """Return the properties of the functions, then the properties ``found``.
+
+        The latter are checked only if all functions can be run.
+        """
+        # the check "writes its block" has no row here: it has no docstring, because a claim of the component states it
         own = [
             Row(name, says_of(look), functools.partial(self.check, name))
             for name, look in _STAGES.items()
@@ -261,11 +271,11 @@ def all_rows(
     component : object
         The component.
     functions : callable
-        Returns its functions, and those of its variants.
+        Returns the functions of the component, and of the same component with other parameters.
     found : sequence of Row
-        Properties that are checked only if the functions can be run.
+        Properties of the component that are checked only if these functions can be run.
     first : sequence of Row, optional
-        Properties that are checked without the functions.
+        Properties that are checked without a call of these functions.
     """
     return [*component_rows(component), *first, *_Functions(functions).rows(found)]
 
@@ -276,7 +286,7 @@ def _short(value: Any) -> str:
 
 
 def _known_parameters(function: CheckedFunction) -> None:
-    """Functions have only parameters that the component offers."""
+    """Functions of the component have only parameters whose values its `parameters` returns."""
     for name in parameter_names(function.function, function.form):
         if name not in function.offered:
             error = not_offered(function.title, name, function.offered)
@@ -290,7 +300,7 @@ def _time_budget(function: CheckedFunction) -> None:
         try:
             function.plain(*given)
         except Exception:
-            break  # the property "finite numbers" reports the exception
+            break  # an exception does not break the time budget: the property "finite numbers" reports it
     function.has_come_back()
 
 
@@ -319,7 +329,7 @@ def _writes_its_block(function: CheckedFunction) -> None:
 
 def _compiled_equals_plain(function: CheckedFunction) -> None:
     """Compiled functions return the same numbers as in plain Python."""
-    # compiling may take longer than a call
+    # end the time limit of the last call, as compiling may take longer than a call may
     function.has_come_back()
     compiled = function.compiled()
     for call, given in function.calls:
@@ -348,7 +358,7 @@ def _table(*looks: Callable[[CheckedFunction], None]) -> dict[str, Callable[[Che
 
 
 _STAGES = _table(_known_parameters, _time_budget, _finite_numbers, _writes_its_block)
-"""First checks of a function, in this order. All other properties are checked only if these hold."""
+"""Checks that each function must pass first, in this order. If one fails, no other property is checked."""
 _LATER = _table(_compiled_equals_plain, _determinism)
 """Further checks of functions that have passed the first checks."""
 

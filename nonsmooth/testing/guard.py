@@ -1,4 +1,7 @@
-"""Conformance checks of guards: the value is continuous while the state changes."""
+"""Conformance checks of guards: the value is continuous while the state changes.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,8 @@ from nonsmooth.types import Array
 
 _NUMBERS, _DRAWS = 24, 24
 _WHILE = 0.5
-"""Time before and after an input in which jumps are searched while the state changes [s]."""
+"""Time before and after each input in which the value of the guard is searched for jumps [s]; coordinates change by up
+to 0.5 in it."""
 
 
 def check_guard(guard: Guard, *, numbers: int = _NUMBERS) -> list[Property]:
@@ -56,7 +60,7 @@ def _value(guard: Guard, numbers: int) -> CheckedFunction:
 
 @claim(GIVEN)
 def _no_jumps(guard: Guard, case: Case) -> str:
-    """The value of the guard is continuous where the state moves."""
+    """The value of the guard is continuous while the state changes."""
     call = plain_caller(guard.value, "guard", guard.parameters())
     found = jump(lambda dt: [call(*_state(case, dt))], -_WHILE, _WHILE)
     return "" if found is None else f"{found[0]:.6g} s after the input it jumps by {found[1][0]:g}"

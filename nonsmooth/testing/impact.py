@@ -1,4 +1,7 @@
-"""Conformance checks of impact laws: processes, which the engine integrates, and maps from rates to impulses."""
+"""Conformance checks of impact laws: processes, which the engine integrates, and maps from rates to impulses.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -38,9 +41,10 @@ _STORED = number("stored", 1e-3, 1e3, 1.0, is_log=True)
 _GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
 _ANY_MU = number("friction", 0.0, 0.6)
 _OF_FUNCTION = 0.3
-"""Friction coefficient in the inputs of a map's function."""
+"""Friction coefficient of the inputs with which the function ``impulses`` of a map is tried: a usual value."""
 _SHARED, _PROCESS, _MAP = Claims(fewest=FEWEST), Claims(fewest=FEWEST), Claims()
-"""Claims about all impact laws, about processes and about maps."""
+"""Claims about all impact laws, about processes and about maps, respectively; ``fewest`` limits inputs in plain
+mode."""
 
 
 def check_impact_law(law: ImpactLaw, *, restitution: str = "restitution") -> list[Property]:
@@ -96,7 +100,7 @@ def _respond(law: ImpactLaw, p: ImpactProblem, mu: float) -> ImpactResponse:
 
 @_SHARED.claim(GIVEN, _MU)
 def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """After the impact no contact approaches."""
+    """After an impact, the bodies approach at no contact."""
     r = _respond(law, p, mu)
     least = float(np.min(r.after[:, 0]))
     return f"a gap closes at {-least:g} m/s afterwards" if least < -1e-7 * r.size else ""
@@ -104,7 +108,7 @@ def _no_approach_after(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
 
 @_SHARED.claim(GIVEN, _MU)
 def _cone(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """Normal impulses push, and tangential impulses lie in the cone of the friction coefficient."""
+    """No normal impulse pulls, and no tangential impulse exceeds the friction coefficient times the normal one."""
     r = _respond(law, p, mu)
     small = 1e-8 * r.size
     for normal, *across in r.impulse:
@@ -125,13 +129,13 @@ def _gain(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
 
 @_SHARED.claim(GIVEN)
 def _dissipation(law: ImpactLaw, p: ImpactProblem) -> str:
-    """Without friction no impact of approaching contacts gains energy."""
+    """An impact of approaching contacts without friction does not raise the energy."""
     return _gain(law, p, 0.0)
 
 
 @_SHARED.claim(GIVEN, _ROUGH)
 def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> str:
-    """With friction no impact of approaching contacts gains energy."""
+    """An impact of approaching contacts with friction does not raise the energy."""
     # also the first contact alone, with the velocity along x as drawn and reversed
     one = replace(p, normal=p.normal[:, :1], tangential=p.tangential[:, :1])
     back = replace(one, velocity=p.velocity * np.array([-1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
@@ -140,7 +144,7 @@ def _dissipation_with_friction(law: ImpactLaw, p: ImpactProblem, mu: float) -> s
 
 @_SHARED.claim(_ONE, _MU, _FACTOR)
 def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
-    """If all masses are c times as large, so are the impulses, and the velocities are the same."""
+    """If all masses are multiplied by c, impulses are multiplied by c and velocities do not change."""
     one, other = _respond(law, p, mu), _respond(law, replace(p, mass=c * p.mass), mu)
     if fault := _difference(one, other.velocity, f"with {c:g} times the mass"):
         return fault
@@ -149,7 +153,7 @@ def _scaling_of_masses(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) ->
 
 @_SHARED.claim(GIVEN, _MU, _FACTOR)
 def _scaling_of_velocities(law: ImpactLaw, p: ImpactProblem, mu: float, c: float) -> str:
-    """If all velocities before are c times as large, so are those after."""
+    """If all velocities before an impact are c times as large, so are all velocities after it."""
     if isinstance(law, ImpactProcess) and not _is_homogeneous(law):
         raise NotChecked(f"{type(law).__name__}: its force is no power or its efficiency depends on the rate")
     one, other = _respond(law, p, mu), _respond(law, replace(p, velocity=c * p.velocity), mu)
@@ -165,14 +169,14 @@ def _is_homogeneous(law: ImpactProcess) -> bool:
 
 @_SHARED.claim(GIVEN, _MU, _TURN)
 def _frame_invariance(law: ImpactLaw, p: ImpactProblem, mu: float, turn: float) -> str:
-    """Turning the tangents of the contacts changes no velocity."""
+    """If the tangents of the contacts are turned, the velocities after an impact do not change."""
     one, other = _respond(law, p, mu), _respond(law, p.turned(turn), mu)
     return _difference(one, other.velocity, f"in tangents turned by {turn:g} rad")
 
 
 @_SHARED.claim(GIVEN, _MU, _OTHER_MU)
 def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -> str:
-    """The order of the contacts does not matter."""
+    """The velocities after an impact do not depend on the order of the contacts."""
     if _is_alone(law):
         raise NotChecked(f"{type(law).__name__}: it is a law of one contact")
     swapped = replace(p, normal=p.normal[:, ::-1].copy(), tangential=p.tangential[:, ::-1].copy())
@@ -182,7 +186,7 @@ def _permutation(law: ImpactLaw, p: ImpactProblem, mu: float, other_mu: float) -
 
 @_SHARED.claim(GIVEN, name="limit mu -> 0")
 def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
-    """Without friction there is no tangential impulse, and with little friction little of it."""
+    """Tangential impulses are zero without friction, and at most mu times the normal impulse with a small mu."""
     for mu in (0.0, 1e-8):
         r = _respond(law, p, mu)
         across = float(np.max(np.abs(r.impulse[:, 1:])))
@@ -193,7 +197,7 @@ def _smooth(law: ImpactLaw, p: ImpactProblem) -> str:
 
 @_SHARED.claim(_MU, _HEADING)
 def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
-    """In an impact too slight to end the slip, friction equals the friction of sustained contact."""
+    """In a slight impact, which does not end the slip, the ratio of friction to normal impulse is that of sliding."""
     slip = np.array([math.cos(heading), math.sin(heading)])
     r = _respond(law, point((*slip, -1e-4)), mu)
     ratio = r.impulse[0, 1:] / r.impulse[0, 0]
@@ -204,28 +208,31 @@ def _force_and_impact_level(law: ImpactLaw, mu: float, heading: float) -> str:
 
 @_SHARED.claim()
 def _contact_time(law: ImpactLaw) -> str:
-    """The contact time is a finite number >= 0."""
+    """The contact time of the law is finite and not negative."""
     time = law.contact_time
     return "" if math.isfinite(time) and time >= 0.0 else f"it is {time} s, and not a finite number >= 0"
 
 
 @claim(_SPEED, _MU)
 def _plastic(law: ImpactLaw, speed: float, mu: float) -> str:
-    """Without restitution the bodies do not part."""
+    """Without restitution the bodies do not separate after an impact."""
     after = _respond(law, point((0.0, 0.0, -speed)), mu).after[0, 0]
     return f"it leaves at {after:g} m/s" if abs(after) > _NEAR * speed else ""
 
 
 @claim(_SPEED, _MU)
 def _elastic(law: ImpactLaw, speed: float, mu: float) -> str:
-    """With full restitution a slow impact keeps the energy."""
+    """With full restitution a slow impact does not change the energy."""
     slow = 1e-9 * speed
     after = float(_respond(law, point((0.0, 0.0, -slow)), mu).after[0, 0])
     return f"of {slow:g} m/s it leaves {after:g} m/s" if abs(after - slow) > 1e-4 * slow else ""
 
 
 def _difference(one: ImpactResponse, other: Array, words: str) -> str:
-    """Return the fault of velocities after two impacts that differ; "" if they agree."""
+    """Compare the velocities after an impact with ``other`` velocities; return a message, "" if they agree.
+
+    ``words`` tells in the message how the other velocities arise.
+    """
     if not _apart(one.velocity, other, one.size):
         return ""
     return f"the velocities after are {_list(one.velocity)}, and {_list(other)} {words}"
@@ -241,7 +248,7 @@ def _list(values: Any) -> str:
 
 @_PROCESS.claim(_INDENTATION)
 def _force(law: ImpactProcess, indentation: float) -> str:
-    """The force is zero without indentation and rises with it."""
+    """The force is zero without indentation and rises with the indentation."""
     force = plain_caller(law.force, "scalar", law.parameters())
     if force(0.0) != 0.0:
         return f"force(0) is {force(0.0):g}"
@@ -254,7 +261,7 @@ def _force(law: ImpactProcess, indentation: float) -> str:
 
 @_PROCESS.claim(_RATE)
 def _efficiency(law: ImpactProcess, drawn: float) -> str:
-    """The efficiency is 1 at negative rates, and between 0 and 1 at others."""
+    """The efficiency (part of the stored energy that is returned) is 1 at negative rates, and 0 to 1 at others."""
     efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
     for rate in (0.0, drawn, *_GRID):
         if rate > 0.0 and efficiency(-rate) != 1.0:
@@ -266,7 +273,7 @@ def _efficiency(law: ImpactProcess, drawn: float) -> str:
 
 @_PROCESS.claim(problem_of(2), _ANY_MU, name="certificate")
 def _certificate_of_energies(law: ImpactProcess, p: ImpactProblem, mu: float) -> str:
-    """Energies that the engine stores and gives back in an impact obey the law."""
+    """The law accepts the energies that its contacts store and return in an impact computed by the engine."""
     r = respond([law] * 2, [mu] * 2, p)
     size = float(np.max(r.stored, initial=0.0))
     for stored, returned in zip(r.stored.tolist(), r.returned.tolist(), strict=True):
@@ -277,19 +284,19 @@ def _certificate_of_energies(law: ImpactProcess, p: ImpactProblem, mu: float) ->
 
 @_PROCESS.claim(_STORED)
 def _no_gain_accepted(law: ImpactProcess, stored: float) -> str:
-    """An impact that gives back more energy than was stored does not obey the law."""
+    """The law refuses an impact that returns more energy than was stored."""
     if law.is_fulfilled(stored, 1.01 * stored, 1e-6 * stored):
         return f"is_fulfilled accepts {1.01 * stored:g} J back of {stored:g} J"
     return ""
 
 
 def _is_alone(law: ImpactLaw) -> bool:
-    """True for a law of a single contact."""
+    """True for a law that solves impacts of a single contact only."""
     return isinstance(law, ImpactMap) and law.one_contact
 
 
 def _map_functions(law: ImpactMap) -> list[CheckedFunction]:
-    """Return the function of a map as functions to check: with one contact and with two contacts.
+    """Return the function ``impulses`` of a map, to be checked with one contact and with two contacts.
 
     A law of a single contact is checked with one contact only.
     """
@@ -303,7 +310,10 @@ def _of_contacts(law: ImpactMap, n: int) -> CheckedFunction:
 
 
 def _given(p: ImpactProblem) -> tuple[int, Array, Array]:
-    """Return the arguments of a map: number of contacts, Delassus matrix by rows, rates before the impact."""
+    """Return the arguments of the function ``impulses`` for an impact.
+
+    They are the number of contacts, the Delassus matrix row by row, and gap rates with slip velocities before [m/s].
+    """
     return p.n, np.ascontiguousarray(p.delassus).ravel(), p.rates
 
 
@@ -314,14 +324,14 @@ def _impulses(law: ImpactMap, p: ImpactProblem, mu: float, old: float = 0.0) -> 
 
 @_MAP.claim(GIVEN, _ANY_MU)
 def _writes_its_block(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
-    """The function writes every impulse, whatever the block held before, and nothing beyond the block."""
+    """The function `impulses` writes every impulse, whatever its output array held before, and nothing beyond it."""
     clean, used = (_impulses(law, p, mu, old) for old in (0.0, OLD))
     return "" if np.allclose(clean, used, rtol=1e-9, atol=1e-12) else "numbers that stood there before are left"
 
 
 @_MAP.claim(GIVEN, _ANY_MU, name="certificate")
 def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str:
-    """The impulses of the law obey it; larger impulses, other friction, and no impulse on closing contacts do not."""
+    """The law accepts the impulses that it computes; it refuses larger impulses, other friction, and zero impulses."""
     obeying, delassus, before = _impulses(law, p, mu), p.delassus, p.rates
     tolerance = _NEAR * float(np.max(np.abs(before)))
     across = obeying * np.tile([0.0, 1.0, 1.0], p.n)
@@ -330,7 +340,7 @@ def _certificate_of_impulses(law: ImpactMap, p: ImpactProblem, mu: float) -> str
         "1.2 times its friction": obeying + 0.2 * across,
         "no impulses": 0.0 * obeying,
     }
-    # impulses with the same velocities after the impact are solutions, too
+    # impulses that lead to the same velocities after the impact also obey the law: do not try them as wrong ones
     others = {k: v for k, v in wrong.items() if np.max(np.abs(delassus @ (v - obeying))) > 1e3 * tolerance}
     friction = vectors_of([law] * p.n, [mu] * p.n)["friction"]
     for words, impulses in {"its impulses": obeying, **others}.items():

@@ -19,9 +19,11 @@ Case = dict[str, float]
 MOST_TRIALS = 300
 """Largest number of inputs that are tried to simplify a failing input."""
 _STEPS = 1000
-"""Steps between the simplest value of a number and a bound."""
+"""Number of values of a number that can be drawn between its simplest value and a bound; so few that messages show
+numbers of few digits."""
 _ORIGIN = 7_001_001_001
-"""Integer for step 0: larger than the constants of loaded modules, which hypothesis mixes into its draws."""
+"""Integer that hypothesis draws for the simplest value. Hypothesis also draws constants of loaded modules; they are
+smaller, and so do not occur among the drawn integers."""
 _PACKAGES = ("hypothesis", "cloudpickle")
 
 
@@ -50,7 +52,7 @@ class DrawnNumber:
 
     @property
     def n_steps(self) -> int:
-        """Number of steps: on both sides of the simplest value, or above it alone if that is the lower bound."""
+        """Number of values besides the simplest one: 2000 if that lies between the bounds, 1000 if it is a bound."""
         return 2 * _STEPS if self.low < self.simplest < self.high else _STEPS
 
     def at(self, step: int) -> float:
@@ -99,9 +101,10 @@ def draws(inputs: Sequence[Drawn], count: int) -> list[Case]:
 
 
 def simplified(inputs: Sequence[Drawn], case: Case, fails: Callable[[Case], bool], count: int) -> Case:
-    """Return the simplest failing input that hypothesis finds, starting from draws of which ``case`` fails.
+    """Return the simplest failing input that hypothesis finds; ``case`` if it finds none.
 
-    At most :data:`MOST_TRIALS` inputs are tried after the first that fails.
+    ``case`` is the failing input of the draws with which hypothesis starts. At most :data:`MOST_TRIALS` inputs are
+    tried after the first failure.
     """
     numbers, found, trials = _numbers(inputs), case, 0
 
@@ -140,7 +143,10 @@ def _case(numbers: Sequence[DrawnNumber], steps: Sequence[int]) -> Case:
 
 @functools.cache
 def _drawn(sizes: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
-    """Return ``count`` drawn tuples of steps. Properties whose numbers have as many steps share them."""
+    """Return ``count`` tuples of steps (:meth:`DrawnNumber.at`), one step for each number of an input.
+
+    Tuples are drawn once for equal ``sizes`` and ``count``, and shared by all properties with such inputs.
+    """
     if not sizes:
         return [()]
     found: list[tuple[int, ...]] = []
@@ -149,7 +155,11 @@ def _drawn(sizes: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
 
 
 def _run(sizes: tuple[int, ...], count: int, trial: Callable[[tuple[int, ...]], None], *, shrinks: bool) -> None:
-    """Call ``trial`` with steps that hypothesis draws: the same in each run, without a database or a time limit."""
+    """Call ``trial`` with at most ``count`` tuples of steps, which hypothesis draws from 0 to each entry of ``sizes``.
+
+    Hypothesis draws the same tuples in each run, without its database of examples and without a time limit. With
+    ``shrinks`` it reduces a tuple for which ``trial`` raises an exception.
+    """
     from hypothesis import HealthCheck, Phase, Verbosity, given, settings
     from hypothesis import strategies as st
 

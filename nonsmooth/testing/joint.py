@@ -1,4 +1,7 @@
-"""Conformance checks of joints: rows, their derivatives, and poses at which the joint is closed."""
+"""Conformance checks of joints: constraint rows, their derivatives, and poses at which the joint is closed.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -59,13 +62,13 @@ def _evaluator(joint: Joint) -> CheckedFunction:
 
 
 def _look(joint: Joint, at: Frames) -> Array:
-    """Return the rows that a joint writes for two frames, shape [n_rows, 14]."""
+    """Return the constraint rows that a joint writes for two frames, shape [n_rows, 14]."""
     size, call = JOINT_ROW * joint.n_rows, plain_caller(joint.evaluator, "pair", joint.parameters())
     return written(lambda out: call(*at, out), size)[:size].reshape(joint.n_rows, JOINT_ROW)
 
 
 def _sides(row: Array, at: Frames) -> Array:
-    """Return the coefficients of velocity and angular velocity of both frames in the rate of a row, shape [12]."""
+    """Return the coefficients of velocity and angular velocity of both frames in the rate of a constraint row, [12]."""
     a, b = at
     axis, moment = row[_PARTS["axis"]], row[_PARTS["moment"]]
     first = np.cross(row[_PARTS["first point"]] - a[:3], axis) + moment
@@ -80,21 +83,21 @@ def _rates(joint: Joint, at: Frames) -> Array:
 
 @claim()
 def _number_of_rows(joint: Joint) -> None:
-    """The joint takes one to six degrees of freedom."""
+    """The joint constrains one to six degrees of freedom."""
     if joint.n_rows not in range(1, _MOST_ROWS + 1):
         raise Broken(f"it must be a whole number from 1 to {_MOST_ROWS}", "n_rows", joint.n_rows)
 
 
 @_JOINT.claim(MOVEMENT)
 def _writes_its_block(joint: Joint, move: Movement) -> str:
-    """The joint writes every number that can be non-zero, and nothing beyond its rows."""
+    """The joint writes every number of its constraint rows that can be non-zero, and nothing beyond the rows."""
     call, here, there = plain_caller(joint.evaluator, "pair", joint.parameters()), move.at(), move.mirrored.at()
     size = JOINT_ROW * joint.n_rows
     return left_over(lambda out: call(*here, out), lambda out: call(*there, out), size, JOINT_ROW)
 
 
 def _unlike(name: str, given: Array, found: Array, known: float) -> str:
-    """Return the fault of a row whose number ``given`` differs from the differences ``found``; "" if all rows agree.
+    """Compare a number of each constraint row, ``given`` by the joint, with differences ``found``; "" if all agree.
 
     ``known`` is the bound of the error of the differences.
     """
@@ -106,13 +109,13 @@ def _unlike(name: str, given: Array, found: Array, known: float) -> str:
 
 @_JOINT.claim(MOVEMENT)
 def _rate(joint: Joint, move: Movement) -> str:
-    """Axis and moment give the derivative of the residual."""
+    """Axis and moment of each constraint row give the time derivative of its residual."""
     return _unlike("rate", _rates(joint, move.at()), *slope(lambda dt: _look(joint, move.at(dt))[:, RESIDUAL], STEP))
 
 
 @_JOINT.claim(MOVEMENT)
 def _bias(joint: Joint, move: Movement) -> str:
-    """The bias of a row is the derivative of its rate while u' = 0."""
+    """The bias of each constraint row is the time derivative of its rate while u' = 0."""
     # the frames' accelerations are those that their bodies have while u' = 0
     bias = _look(joint, move.at())[:, ROW_BIAS]
     return _unlike("bias", bias, *slope(lambda dt: _rates(joint, move.at(dt)), STEP))
@@ -120,7 +123,7 @@ def _bias(joint: Joint, move: Movement) -> str:
 
 @_JOINT.claim(MOVEMENT)
 def _frame_invariance(joint: Joint, move: Movement) -> str:
-    """If both bodies are moved together, residuals are the same and axes turn with the bodies."""
+    """If both bodies are moved together, the joint's residuals are the same and its axes turn with the bodies."""
     here, there = _look(joint, move.at()), _look(joint, moved(move.at()))
     # the points of a row without an axis have no effect
     acts = np.any(here[:, _PARTS["axis"]] != 0.0, axis=1)
@@ -137,9 +140,9 @@ def _frame_invariance(joint: Joint, move: Movement) -> str:
 
 
 def _closed(joint: Joint) -> list[Frames]:
-    """Return poses of the bodies at which the joint is closed.
+    """Return poses of two bodies at which a joint is closed, as frame blocks.
 
-    Newton's method starts from drawn poses and moves the second body until all residuals vanish.
+    Newton's method starts from random poses and moves the second body until all residuals of the joint vanish.
     """
     found = []
     for case in draws([MOVEMENT], _TRIES):
@@ -161,19 +164,19 @@ def _closed(joint: Joint) -> list[Frames]:
 
 @_JOINT.claim()
 def _can_be_closed(joint: Joint) -> str:
-    """There are poses of the bodies at which all residuals vanish."""
+    """There are poses of the bodies at which all residuals of the joint vanish."""
     return "" if _closed(joint) else f"Newton's method finds none from {_TRIES} places"
 
 
 @_JOINT.claim()
 def _ends(joint: Joint) -> None:
-    """The two points between which the joint is drawn are valid."""
+    """The two points that show the joint in pictures (`ends`) are finite."""
     require_ends(joint.ends)
 
 
 @_JOINT.claim()
 def _independent_rows(joint: Joint) -> None:
-    """Where the joint is closed, no row follows from the others."""
+    """At poses at which the joint is closed, its constraint rows are linearly independent."""
     ranks = []
     for at in _closed(joint):
         lines = np.array([_sides(row, at) for row in _look(joint, at)])

@@ -1,4 +1,7 @@
-"""Conformance checks of contact kinematics: gap, normal, witness points, and their derivatives in time."""
+"""Conformance checks of contact kinematics: gap, normal, witness points, and their derivatives in time.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -27,15 +30,16 @@ from nonsmooth.types import Array
 _DRAWS, _MOST_DRAWS = 40, 400
 _STEP = 5e-4
 _PLACE = (0.31, -0.23, 0.37)
-"""Place of the second body in the simplest input, in units of the largest distance of the bodies: on no axis of the
-first body."""
+"""Place of the second body in the simplest input, relative to the largest distance of the bodies (``reach``). The first
+body is at the origin, and the place is off its axes."""
 _DEEP = 0.1
 """Largest penetration of two bounded bodies that is checked, in units of the largest distance of the bodies."""
 _RATE, _BIAS = 1e-7, 1e-5
-"""Allowed deviations of the gap rate and of the second-order terms from differences, relative to their size."""
+"""Allowed deviation of the gap rate, and of the second-order terms of gap and slip (the derivatives of gap rate and
+slip velocity while u' = 0), from differences; relative to their size."""
 _UNIT = np.array([1.0, 0.0, 0.0, 0.0])
 _AT_PLACES, _MOVED = Claims(), Claims()
-"""Claims about the bodies at their places, and about bodies that are moved together."""
+"""Claims about bodies at drawn places, and claims about bodies that are moved together, respectively."""
 _NORMAL, _TANGENT = slice(blocks.NORMAL, blocks.TANGENT), slice(blocks.TANGENT, blocks.POINT_A)
 
 
@@ -90,7 +94,10 @@ def _rows(kinematics: ContactKinematics, shapes: tuple[Shape, Shape], reach: flo
 
 
 def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set[int]) -> None:
-    """Examine a claim that needs places at which the contact is smooth; if there is no such place, draw more."""
+    """Try a claim that needs inputs at which the contact is smooth, with 400 inputs if none of the first 40 is.
+
+    The trials make the set ``smooth`` non-empty at such an input. Raises Broken if there is none.
+    """
     smooth.clear()
     for count in (_DRAWS, _MOST_DRAWS):
         if not smooth:
@@ -135,18 +142,18 @@ def _evaluator(kinematics: ContactKinematics, reach: float) -> CheckedFunction:
 @final
 @dataclass(frozen=True)
 class _Placed:
-    """Two bodies in a rig at places and with velocities that were drawn.
+    """Two bodies at drawn places, with drawn velocities.
 
     Attributes
     ----------
     case : Case
-        The numbers.
+        The drawn numbers, by name.
     rig : ContactRig
-        The rig, which all inputs share.
+        The two bodies and their contact; all inputs use the same rig.
     reach : float
         Largest distance of the bodies [m].
     smooth : set of int
-        Receives a number if the contact is smooth at the place; all inputs share it.
+        Set that all inputs share: it is empty until an input is found at which the contact is smooth.
     """
 
     case: Case
@@ -155,7 +162,10 @@ class _Placed:
     smooth: set[int]
 
     def put(self, dt: float = 0.0) -> ContactRig:
-        """Give the bodies of the rig their poses after a time [s], and return the rig."""
+        """Move the bodies of the rig to where they are a time ``dt`` [s] after their drawn places; return the rig.
+
+        The velocities are constant.
+        """
         u = [three(self.case, f"{name}_{side}") for side in "ab" for name in ("velocity", "spin")]
         self.rig.put(_poses(self.case, dt), np.concatenate(u))
         return self.rig
@@ -167,7 +177,10 @@ class _Placed:
         return self
 
     def derivative(self, value: Callable[[ContactRig], Array]) -> Array | None:
-        """Return the derivative in time of a value while u' = 0; None if the feature changes or it is not smooth."""
+        """Return the derivative in time of ``value(rig)`` while u' = 0.
+
+        It is None if the contact changes its feature, or if the value is not smooth.
+        """
         feature = self.put().geometry[blocks.FEATURE]
         if self.rig.geometry[blocks.PAST_END] > 0.0:
             return None
@@ -185,9 +198,10 @@ class _Placed:
         return found
 
     def moved_together(self, turn: Array, part: slice, name: str) -> str:
-        """Return the fault of a vector of the geometry that does not turn with both bodies; "" if it turns.
+        """Return a message if a vector of the contact does not turn with both bodies; "" if it does.
 
-        Afterwards the bodies of the rig are still in the moved poses.
+        The bodies are turned by the rotation vector ``turn`` [rad] and shifted. ``part`` is the slice of the vector in
+        the geometry block, ``name`` its name. Afterwards the bodies of the rig are still in the moved poses.
         """
         self.rig.put(_poses(self.case), np.zeros(12))
         axes, before = rotation(turned(_UNIT, turn)), self.rig.geometry[part]
@@ -211,7 +225,7 @@ def _check_between(kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -
 
 @_AT_PLACES.claim(GIVEN, n_inputs=80)
 def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The kinematics writes every number that can be non-zero, and nothing beyond the block."""
+    """The kinematics writes every number of the geometry block that can be non-zero, and nothing beyond the block."""
     case, call = at.case, plain_caller(kinematics.evaluator, "pair", kinematics.parameters())
     turned_there = case | {"turn_a_x": case["turn_a_x"] + 1.0}
     here = tuple(map(_frame, _poses(case)))
@@ -224,7 +238,7 @@ def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_AT_PLACES.claim(GIVEN)
 def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
-    """Normal and first tangent are unit vectors at right angles."""
+    """The contact's normal and its first tangent are unit vectors at right angles."""
     block = at.put().geometry
     n, t = block[_NORMAL], block[_TANGENT]
     for words, value, wanted in (("|n|^2", n @ n, 1.0), ("|t1|^2", t @ t, 1.0), ("n . t1", n @ t, 0.0)):
@@ -246,14 +260,14 @@ def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_AT_PLACES.claim(GIVEN)
 def _feature(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The number of the feature is the index of a named feature."""
+    """The feature's number in the geometry block is an index of the names in `features`."""
     found, n = float(at.put().geometry[blocks.FEATURE]), len(kinematics.features)
     return "" if found in range(n) else f"it is {found:g}, of {n} features"
 
 
 @claim(GIVEN)
 def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The rate of the gap is its derivative in time."""
+    """The gap rate is the time derivative of the gap."""
     rate = float(at.put().rate[0])
     found = at.derivative(lambda rig: rig.geometry[:1])
     if found is None or abs(found[0] - rate) <= _RATE * (1.0 + at.reach):
@@ -263,13 +277,14 @@ def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @claim(GIVEN, name="second-order terms")
 def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The second-order terms of gap and slip are the derivatives of their rates while u' = 0."""
+    """The second-order terms of gap and slip are the time derivatives of gap rate and slip velocity while u' = 0."""
     rig = at.put()
     axes, rate, bias = rig.axes, rig.rate, rig.bias
     found = at.derivative(lambda r: np.append(r.rate[0], r.rate[1:] @ r.axes[1:]))
     if found is None:
         return ""
-    # differentiate the slip as a vector in space; the terms belong to tangents that turn with the first body
+    # differentiate the slip as a vector in space, then convert the derivative: the second-order terms are components
+    # along tangents that turn with the first body
     spin = float(three(at.case, "spin_a") @ axes[0])
     expected = np.append(found[0], axes[1:] @ found[1:] + spin * np.array([rate[2], -rate[1]]))
     worst = int(np.argmax(np.abs(bias - expected)))
@@ -281,8 +296,8 @@ def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_MOVED.claim(GIVEN)
 def _tangent_follows_the_first_body(kinematics: ContactKinematics, at: _Placed) -> str:
-    """If both bodies turn together, so does the first tangent."""
-    # a turn about the normal, so that a tangent fixed in space would show
+    """If both bodies turn together, the first tangent of the contact turns with them."""
+    # turn about the normal: a tangent that is wrongly fixed in space does not turn then
     return at.moved_together(0.3 * at.put().geometry[_NORMAL], _TANGENT, "first tangent")
 
 

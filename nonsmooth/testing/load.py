@@ -1,4 +1,7 @@
-"""Conformance checks of loads: continuity, dependence on time, and independence of a common motion of the bodies."""
+"""Conformance checks of loads: continuity, dependence on time, and independence of a common motion of the bodies.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +26,14 @@ _TIME = number("t", 0.0, 1.0)
 _LATER = 0.37
 """Time after which a load is evaluated again [s]."""
 _WHILE = 0.2
-"""Time before and after an input in which jumps are searched while the frames move [s]."""
+"""Time before and after each input in which force and moment are searched for jumps while the frames move [s]."""
 _PARTS = {
     "force": slice(FORCE, LOAD_POINT),
     "point": slice(LOAD_POINT, LOAD_MOMENT),
     "moment": slice(LOAD_MOMENT, LOAD),
 }
 _LOAD, _FREE = Claims(), Claims()
-"""Claims about every load, and about loads that are not tied to space."""
+"""Claims about every load, and claims about loads that depend only on the relative motion of their two bodies."""
 
 
 def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
@@ -71,7 +74,7 @@ def _writes_its_block(load: Load, t: float, move: Movement) -> str:
 
 @_LOAD.claim(_TIME, MOVEMENT)
 def _no_jumps(load: Load, t: float, move: Movement) -> str:
-    """Force and moment are continuous where the bodies move."""
+    """Force and moment are continuous while the bodies move."""
     found = jump(lambda dt: _about_origin(_look(load, t + dt, move.at(dt))), -_WHILE, _WHILE)
     return "" if found is None else f"{found[0]:.6g} s after the input force and moment jump by {found[1].tolist()}"
 
@@ -87,7 +90,7 @@ def _about_origin(block: Array) -> Array:
 
 @_LOAD.claim(_TIME, MOVEMENT, name="time")
 def _depends_on_time(load: Load, t: float, move: Movement) -> str:
-    """A load that says so does not depend on time."""
+    """A load whose `depends_on_time` is False has the same force and moment at another time."""
     later = t + _LATER
     if load.depends_on_time or np.array_equal(_look(load, t, move.at()), _look(load, later, move.at())):
         return ""
@@ -96,7 +99,7 @@ def _depends_on_time(load: Load, t: float, move: Movement) -> str:
 
 @_LOAD.claim()
 def _ends(load: Load) -> None:
-    """The two points between which the load is drawn are valid."""
+    """The two points that show the load in pictures (`ends`) are finite."""
     require_ends(load.ends)
 
 
@@ -110,7 +113,7 @@ def _unlike(given: Array, wanted: Array, words: str) -> str:
 
 @_FREE.claim(_TIME, MOVEMENT)
 def _frame_invariance(load: Load, t: float, move: Movement) -> str:
-    """If both bodies are moved together, force and moment turn with them."""
+    """If both bodies are moved together, force and moment turn with the bodies."""
     wanted = (_look(load, t, move.at()).reshape(3, 3) @ TURN.T).ravel()
     wanted[_PARTS["point"]] += SHIFT
     return _unlike(_look(load, t, moved(move.at())), wanted, "moved with the bodies")
@@ -118,6 +121,6 @@ def _frame_invariance(load: Load, t: float, move: Movement) -> str:
 
 @_FREE.claim(_TIME, MOVEMENT)
 def _relative_motion(load: Load, t: float, move: Movement) -> str:
-    """A motion that both bodies share changes neither force nor moment."""
+    """Force and moment do not change if the same rigid motion is added to the motion of both bodies."""
     there = shared(move.at(), np.array([0.7, -1.1, 0.4]), np.array([-0.5, 0.9, 1.3]))
     return _unlike(_look(load, t, there), _look(load, t, move.at()), "without the shared motion")

@@ -1,4 +1,7 @@
-"""Conformance checks of prescribed motions: derivatives, continuity and time scale."""
+"""Conformance checks of prescribed motions: derivatives, continuity and time scale.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -24,12 +27,12 @@ _SPAN = 3.0
 _STEP = 1e-3
 """Step of the differences, in units of the time scale."""
 _ELSEWHEN = 0.637
-"""Time before an input at which the block is written first, in units of the time scale."""
+"""Time between an input and another input, in units of the time scale. The motion writes its block at the other input
+first: a number that it leaves unwritten at the input then shows."""
 _PIECES, _BENT = 16, 0.15
-"""A piece is 1/16 of the time scale.
-
-Values may bend by 15 % of their size within it; a sine bends more if its period is a third of the time scale.
-"""
+"""Number of pieces of a time scale, and largest deviation of a value from a straight line within a piece, relative to
+the value's size. A sine whose period is a third of the time scale deviates more, so the time scale is too long for
+it."""
 _PARTS = {
     "position": slice(POSITION, ROTATION),
     "rotation": slice(ROTATION, VELOCITY),
@@ -94,7 +97,7 @@ def _unit(motion: Motion) -> float:
 
 @claim()
 def _positive_time_scale(motion: Motion) -> None:
-    """The time scale is positive."""
+    """The time scale of the motion is positive."""
     if not motion.time_scale > 0.0:
         raise Broken("it must be positive [s], or infinite", "time_scale", motion.time_scale)
 
@@ -108,7 +111,7 @@ def _writes_its_block(motion: Motion, t: float) -> str:
 
 @_MOTION.claim(GIVEN)
 def _rotation(motion: Motion, t: float) -> str:
-    """The axes are a rotation matrix."""
+    """The axes that the motion gives are a rotation matrix."""
     return rotation_fault(_look(motion, t)[_PARTS["rotation"]])
 
 
@@ -122,7 +125,7 @@ def _slope_fault(motion: Motion, t: float, part: str, found: Array, known: float
 
 @_MOTION.claim(GIVEN)
 def _velocity(motion: Motion, t: float) -> str:
-    """A load with ``depends_on_time`` False is the same at another time."""
+    """Velocity and angular velocity are the time derivatives of position and rotation."""
     rates, known = _slope(motion, t, "rotation")
     spin = spin_of(rates, _look(motion, t)[_PARTS["rotation"]])
     moves = _slope_fault(motion, t, "velocity", *_slope(motion, t, "position"))
@@ -131,7 +134,7 @@ def _velocity(motion: Motion, t: float) -> str:
 
 @_MOTION.claim(GIVEN)
 def _acceleration(motion: Motion, t: float) -> str:
-    """Acceleration and angular acceleration are the derivatives of the velocities."""
+    """Acceleration and angular acceleration are the time derivatives of velocity and angular velocity."""
     moves = _slope_fault(motion, t, "acceleration", *_slope(motion, t, "velocity"))
     return moves or _slope_fault(motion, t, "angular acceleration", *_slope(motion, t, "angular velocity"))
 
@@ -153,7 +156,7 @@ def _check_scale(motion: Motion, span: float) -> None:
         values = blocks[:, part]
         size = float(np.max(np.abs(values)))
         if name == "position":
-            continue  # its velocity is checked instead
+            continue  # a motion without a time scale may be uniform: its position changes, but its velocity is constant
         if not math.isfinite(scale):
             if np.max(np.abs(values - values[0])) > 1e-9 * size:
                 raise Broken(f"the {name} changes", "time_scale", scale)

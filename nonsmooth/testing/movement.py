@@ -16,9 +16,11 @@ Frames = tuple[Array, Array]
 """The frame blocks of the first and of the second body, shape [24] each."""
 _UNIT = (1.0, 0.0, 0.0, 0.0)
 _PLACE = (0.31, -0.23, 0.37)
-"""Place of the second frame in the simplest input [m]: on no axis of the first frame."""
+"""Place of the second frame in the simplest input of a check [m]; the first frame is at the origin. The place is
+off the first frame's axes."""
 _TURNS = {"a": (0.12, -0.05, 0.15), "b": (-0.1, 0.2, 0.08)}
-"""Turns of the frames in the simplest input [rad]: no axis of one frame is parallel to an axis of the other."""
+"""Turns of both frames in the simplest input of a check [rad]: no axis of one frame is parallel to an axis of the
+other."""
 _TURN = 0.35
 """Largest component of a turn [rad]: the frames then differ by less than a right angle, so that angles are unique."""
 STEP = 1e-3
@@ -35,7 +37,7 @@ def three(case: Case, name: str) -> Array:
 @final
 @dataclass(frozen=True)
 class Movement:
-    """Two frames that move as the numbers of an input prescribe."""
+    """Two frames with drawn places, velocities and accelerations, which are the numbers in ``case``."""
 
     case: Case
 
@@ -45,7 +47,7 @@ class Movement:
 
     @property
     def mirrored(self) -> Movement:
-        """Another movement, whose numbers all differ from those of this movement."""
+        """Another movement: each number x of this movement is replaced by 0.11 - 0.9 x, so that the numbers differ."""
         return Movement({name: -0.9 * value + 0.11 for name, value in self.case.items()})
 
     @property

@@ -1,4 +1,7 @@
-"""Conformance checks of normal laws, rigid and compliant."""
+"""Conformance checks of normal laws, rigid and compliant.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +57,8 @@ _SAME = 1e-6
 """Allowed difference of two integrations of an impact: of the indentation in units of the depth, and of the rate in
 units of the approach speed. It is ten times the error of the engine."""
 _LONGEST = 30.0
-"""Duration of a compared impact, in units of depth divided by approach speed."""
+"""Duration of an impact that is integrated by the engine and independently, in units of depth divided by approach
+speed. A linear spring rebounds after pi such units; with large damping an impact takes longer."""
 _COMPLIANT = Claims()
 
 
@@ -78,7 +82,7 @@ def _rows(law: RigidNormalLaw) -> list[Row]:
 
 @_RIGID.claim(_LOAD)
 def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
-    """Accelerations and forces that the engine finds for closed contacts, pressed or pulled, obey the law."""
+    """The law accepts acceleration and force that the engine finds for a closed contact under a load of either sign."""
     p = point((0.0, 0.0, 0.0))
     result = solve_contact(p.mass, p.normal, p.tangential, [0.0, 0.0, load], [ReferenceFriction(0.0)])
     g, force = float(result.contact_acceleration[0, 0]), float(result.normal_force[0])
@@ -88,7 +92,7 @@ def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
 
 
 def _accepted(law: RigidNormalLaw, acceleration: float, force: float, size: float) -> str:
-    """Return the fault of a law that accepts an acceleration and a force that it must refuse; "" if it refuses them."""
+    """Return a message if a law accepts an acceleration and a force that it must refuse; "" if it refuses them."""
     g, f = acceleration * size, force * size
     if not law.is_fulfilled(g, f, _TOLERANCE * size):
         return ""
@@ -97,25 +101,25 @@ def _accepted(law: RigidNormalLaw, acceleration: float, force: float, size: floa
 
 @_RIGID.claim(_SIZE)
 def _no_penetration(law: RigidNormalLaw, size: float) -> str:
-    """A closed contact whose bodies accelerate into one another does not obey the law."""
+    """The law refuses a closed contact whose bodies accelerate into one another."""
     return _accepted(law, -1.0, 0.0, size)
 
 
 @_RIGID.claim(_SIZE)
 def _no_tension(law: RigidNormalLaw, size: float) -> str:
-    """A normal force that pulls does not obey the law."""
+    """The law refuses a normal force that pulls."""
     return _accepted(law, 0.0, -1.0, size)
 
 
 @_RIGID.claim(_SIZE)
 def _complementarity(law: RigidNormalLaw, size: float) -> str:
-    """A force on a contact that opens does not obey the law."""
+    """The law refuses a normal force on a contact that opens."""
     return _accepted(law, 1.0, 1.0, size)
 
 
 @_RIGID.claim(_SIZE, _LOAD)
 def _scaling(law: RigidNormalLaw, size: float, load: float) -> str:
-    """Other units of acceleration and force do not change the verdict of the law."""
+    """The law accepts or refuses an acceleration and a force regardless of their units."""
     for g, f in ((max(load, 0.0), max(-load, 0.0)), (load, 1.0)):
         one, other = (bool(law.is_fulfilled(c * g, c * f, c * _TOLERANCE)) for c in (1.0, size))
         if one is not other:
@@ -130,7 +134,8 @@ def _compliant_rows(law: CompliantNormalLaw) -> list[Row]:
 
 
 def _force(law: CompliantNormalLaw) -> CheckedFunction:
-    # a step may end past the reach before the engine locates the reach
+    # include a gap past the reach, the gap at which the contact opens: a step of the engine may end there before the
+    # engine locates the opening
     places = (0.0, 1e-300, *np.geomspace(1e-12, 1e-1, 6).tolist(), -_PAST - max(law.reach, 0.0))
     if 0.0 < law.reach < math.inf:
         places += (-0.5 * law.reach, -law.reach)
@@ -170,14 +175,14 @@ def _reach(law: CompliantNormalLaw) -> str:
 
 @_COMPLIANT.claim(_SPEED)
 def _nothing_at_zero(law: CompliantNormalLaw, speed: float) -> str:
-    """Without indentation and at rest there is no force."""
+    """Without indentation and without a rate of indentation, the force is zero."""
     force = _plain(law)(0.0, 0.0, speed)
     return f"the force is {force:g} N" if abs(force) > _NOTHING else ""
 
 
 @_COMPLIANT.claim(_DEPTH, _FACTOR, _SPEED, n_inputs=24)
 def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -> str:
-    """At rest the force never falls as the indentation rises, and it reaches 1 N."""
+    """At rest the force never falls as the indentation rises, and at some indentation it reaches 1 N."""
     unit, force = _unit(law), _plain(law)
     if not math.isfinite(unit) and _pulling(law, speed):
         raise NotChecked("not checked, as it pulls where it is pressed")
@@ -191,7 +196,7 @@ def _rises(law: CompliantNormalLaw, depth: float, factor: float, speed: float) -
 
 
 def _pulling(law: CompliantNormalLaw, speed: float) -> str:
-    """Return the fault of a force that pulls at the largest indentation that is tried; "" if it does not pull."""
+    """Return a message if the force pulls at the largest indentation that is tried; "" if it does not pull."""
     force = _plain(law)(_FARTHEST, 0.0, speed)
     if force >= 0.0:
         return ""
@@ -200,7 +205,7 @@ def _pulling(law: CompliantNormalLaw, speed: float) -> str:
 
 @_COMPLIANT.claim(_DEPTH, _SHARE, _SPEED)
 def _pulls_within_its_reach(law: CompliantNormalLaw, depth: float, share: float, speed: float) -> str:
-    """At rest the force does not push across a gap, and does not pull without a gap."""
+    """At rest the force never pushes while there is a gap, and never pulls while there is an indentation."""
     if not math.isfinite(_unit(law)) and (found := _pulling(law, speed)):
         return found
     inside, gap = _depth(law, depth), share * law.reach
@@ -212,7 +217,10 @@ def _pulls_within_its_reach(law: CompliantNormalLaw, depth: float, share: float,
 
 
 def _wave(second: float, phase: float) -> Array:
-    """Return values between 0 and 1 along a closed cycle, a sum of two sines, shape [_POINTS + 1]."""
+    """Return values between 0 and 1 over one period of the sum of two sines, shape [_POINTS + 1].
+
+    The second sine has twice the frequency, the amplitude ``second`` and the phase ``phase`` [rad].
+    """
     angle = np.linspace(0.0, 2.0 * math.pi, _POINTS + 1)
     wave = np.sin(angle) + second * np.sin(2.0 * angle + phase)
     return np.asarray((wave - np.min(wave)) / np.ptp(wave))
@@ -220,7 +228,7 @@ def _wave(second: float, phase: float) -> Array:
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, _RATE_BACK, _WAVE)
 def _dissipation(law: CompliantNormalLaw, drawn: float, speed: float, rate_back: float, wave: Array) -> str:
-    """No energy is gained in closed cycles of the indentation, and none from the closing of the contact to its end."""
+    """The force adds no energy in a closed cycle of the indentation, and none while a contact closes and opens."""
     depth = _depth(law, drawn)
     span, quarter = depth + law.reach, np.linspace(0.0, 0.5 * math.pi, _POINTS + 1)
     inward, outward = depth * np.sin(quarter), -law.reach + span * np.cos(quarter)
@@ -250,7 +258,7 @@ def _energies(law: CompliantNormalLaw, x: Array, fastest: float, closing_rate: f
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, _RATE)
 def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: float) -> str:
-    """The force of the law obeys the law, and a force that differs by a hundredth does not."""
+    """The law accepts the normal force that it computes, and refuses a force that differs by a hundredth."""
     x, rate = _depth(law, depth), share * speed
     force = _plain(law)(x, rate, speed)
     off = 0.01 * abs(force) + _NOTHING
@@ -262,7 +270,7 @@ def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: flo
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, fewest=FEWEST)
 def _impact(law: CompliantNormalLaw, drawn: float, speed: float) -> str:
-    """A mass that strikes moves in the engine as in an independent integration of m x'' = -F."""
+    """In an impact, a mass moves in the engine as in an independent integration of m x'' = -F(x, x')."""
     depth, force = _depth(law, drawn), _plain(law)
     # the mass m follows from m v^2 = F depth, with the largest of these forces F
     load = max(abs(force(x, rate, speed)) for x in (1e-9 * depth, depth) for rate in (0.0, speed))

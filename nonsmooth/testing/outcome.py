@@ -15,7 +15,7 @@ from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import Component, rules
 
 _OTHERS = ("nonsmooth", "numpy", "scipy", "numba")
-"""Packages that are not named as the place of an exception: their caller, the component, is its cause."""
+"""Packages whose code is not named as the place of an exception: the component that called it is named as the cause."""
 
 
 class NotChecked(NonsmoothError, unittest.SkipTest):
@@ -23,7 +23,7 @@ class NotChecked(NonsmoothError, unittest.SkipTest):
 
 
 class Broken(Exception):
-    """A fault that a check raises inside the kit; :class:`Property` adds the names.
+    """A fault that a check finds; the :class:`PropertyFailed` made from it adds the names of component and property.
 
     Parameters
     ----------
@@ -94,14 +94,14 @@ def outcome_of(check: Callable[[], None]) -> Outcome:
 @final
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """A component, and the function that makes its rows.
+    """A component, and the function that returns its properties, each as a :class:`Row`.
 
     Attributes
     ----------
     component : object
         The component.
     rows : callable
-        Takes the component and the options, and returns the rows.
+        Takes the component and the options, and returns the properties.
     options : mapping
         Keyword arguments of ``rows``.
     """
@@ -111,12 +111,12 @@ class Subject:
     options: Mapping[str, Any]
 
     def __reduce__(self) -> Any:
-        """Pickle the component without its rows: another process makes them again."""
+        """Pickle the component without its properties: another process makes them again."""
         return Subject, (self.component, self.rows, self.options)
 
     @cached_property
     def all(self) -> Mapping[str, Row]:
-        """The rows by name."""
+        """The properties by name."""
         owner: type[Component] = type(self.component)
         rows = {row.name: row for row in self.rows(self.component, **self.options)}
         if unknown := sorted(set(owner.departures) - set(rows)):
@@ -138,7 +138,10 @@ def place_of(owner: type) -> str:
 
 
 def words_of(error: BaseException) -> str:
-    """Return the message of an exception, with file and line of the last call outside of Python and :data:`_OTHERS`."""
+    """Return the message of an exception, with file and line of the last call in the component's own code.
+
+    Calls in the standard library and in the packages of :data:`_OTHERS` are skipped.
+    """
     trace, place = error.__traceback__, ""
     while trace is not None:
         if not _is_others(trace):
@@ -153,7 +156,10 @@ def _is_others(trace: TracebackType) -> bool:
 
 
 def described(component: Any) -> tuple[str, Any]:
-    """Return the only given parameter as name and value, or "parameters" and a mapping of all given parameters."""
+    """Return the parameters of a component that have a value, as name and value for a message.
+
+    Several parameters are returned as "parameters" and a mapping, no parameters as "" and "".
+    """
     given = {name: getattr(component, name) for name in rules(type(component))}
     given = {name: value for name, value in given.items() if value is not None}
     if len(given) == 1:

@@ -14,7 +14,8 @@ from nonsmooth.testing.inputs import require_packages
 from nonsmooth.testing.outcome import NotChecked, Outcome, Row, Subject, outcome_of, place_of
 
 _DYNAMIC = "<dynamic-code>"
-"""File name that functions have after they were sent by cloudpickle."""
+"""File name of functions that cloudpickle has sent to the child process. In messages, the file of the component's class
+replaces it."""
 
 
 class PropertyFailed(NonsmoothError, AssertionError):
@@ -110,7 +111,10 @@ class Property:
         self._judge(ask(self.subject, self.name))
 
     def check(self) -> None:
-        """Check the property in this process, without a time limit, as a debugger needs it. Raises as a call does."""
+        """Check the property in this process and without a time limit, so that a debugger can follow the check.
+
+        Raises the exceptions of :meth:`__call__`.
+        """
         self._judge(outcome_of(self.subject.all[self.name].check))
 
     def _judge(self, found: Outcome) -> None:
@@ -122,7 +126,7 @@ class Property:
         )
         if found.kind == "not checked":
             raise NotChecked(reason)
-        if holds and self.departure and not PLAIN:  # plain mode tries fewer inputs
+        if holds and self.departure and not PLAIN:  # plain mode tries fewer inputs, so a failure may remain unnoticed
             held = f"it holds, although the class departs from it, as it says, because {self.departure}"
             raise PropertyFailed(thing, self.name, held, "departures", self.name, {})
         if holds:

@@ -54,7 +54,8 @@ _RATES = JACOBIAN + 36
 _FORCE = _RATES + 7
 _INVERSE_MASS = _FORCE + 6
 _ENERGY = _INVERSE_MASS + 36
-"""Positions of rates, force, inverse mass and energies in the block of a body with 7 coordinates and 6 velocities."""
+"""Offsets of rates, force, inverse mass matrix and energies in the block of a body with 7 coordinates and 6 velocities.
+The Jacobian, which precedes the rates, has 36 numbers."""
 _FINE = 1e-9
 """Tolerances of gap, velocity and time, in units of the puck's length and speed."""
 _STEP = 1e-10
@@ -119,7 +120,7 @@ def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: 
 @final
 @dataclass(frozen=True)
 class _Spot(Shape):
-    """A point at the origin, or with an infinite length a plane through it."""
+    """A point at the origin if the length is zero, a plane through the origin if the length is infinite."""
 
     length: float = 0.0
 
@@ -166,10 +167,10 @@ class _Slab(Body):
 @final
 @dataclass(frozen=True)
 class Puck(Body):
-    """A body whose mass centre touches the slab; its moments of inertia are equal, and its axes do not turn.
+    """A body whose mass centre touches the slab, with equal moments of inertia.
 
-    Velocity and angular velocity are in world axes. Fixed axes matter only for a law with an axis fixed to the puck,
-    which is checked without spin.
+    Velocity and angular velocity are in world axes. The orientation stays constant even if the puck spins. It matters
+    only for a law with an axis fixed to the puck, and such a law is checked without spin.
 
     Attributes
     ----------
@@ -209,14 +210,14 @@ class Puck(Body):
         return np.array([self.length] * 3 + [1.0] * 4), np.array([self.speed] * 3 + [spin] * 3)
 
     def state(self, **start: Any) -> tuple[Array, Array]:
-        """Return coordinates and velocities at rest at the origin."""
+        """Return coordinates and velocities at rest at the origin; all arguments are ignored."""
         return np.array([0.0, 0.0, 0.0, *_UNTURNED]), np.zeros(6)
 
 
 def run(
     puck: Puck, height: float, u: Sequence[float] | Array, laws: ContactLaws, t_end: float, **place: Any
 ) -> Solution:
-    """Run a puck that starts over the slab.
+    """Run a puck that starts at a height above the slab; return the solution.
 
     Parameters
     ----------

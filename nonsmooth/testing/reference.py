@@ -35,12 +35,10 @@ _EXACT, _STIFFLY = 1e-10, 1e-8
 """Relative tolerances of an explicit and of a stiff integration, below the deviations that the checks allow."""
 _MOST_CALLS = 50_000
 _STEP = 1e-6
-"""Step of the differences by which the rates of a motion are bounded, in units of the scales of its numbers."""
+"""Step of the differences that give the Jacobian of a motion, relative to the scales of its velocities and states."""
 _SAME, _STEPS = 1e-5, 1e-7
-"""Allowed difference of two motions: the first number times the change of velocity, plus the second times the speed.
-
-The second allows for the steps of the engine.
-"""
+"""Allowed difference of the velocities of two motions, relative to their change and relative to the speed; the sum of
+both is allowed. The part relative to the speed allows for errors of the engine's steps if velocities hardly change."""
 
 
 def _force(indentation: float) -> float:
@@ -104,7 +102,8 @@ class ImpactProblem:
     mass : array
         Mass matrix M, shape [n_u, n_u].
     normal, tangential : array
-        Directions W, shape [n_u, n], and N, shape [n_u, n, 2], of the contacts.
+        Generalised directions of the contacts: W of the normals, shape [n_u, n], and N of two tangents each, shape
+        [n_u, n, 2].
     velocity : array
         Velocity before the impact, shape [n_u].
     """
@@ -121,7 +120,7 @@ class ImpactProblem:
 
     @property
     def columns(self) -> Array:
-        """Directions of normal and tangents of each contact in turn, shape [n_u, 3 n]."""
+        """Generalised directions of normal and two tangents of each contact in turn, shape [n_u, 3 n]."""
         joined = np.concatenate([self.normal[:, :, None], self.tangential], axis=2)
         return np.asarray(joined.reshape(len(self.mass), 3 * self.n))
 
@@ -224,13 +223,16 @@ def respond(laws: Sequence[ImpactLaw], frictions: Sequence[float], p: ImpactProb
 
 
 def vectors_of(laws: Sequence[ImpactLaw], frictions: Sequence[float]) -> dict[str, Array]:
-    """Return the parameters that a map's function may take by name, each with one number per contact."""
+    """Return the parameters that the function ``impulses`` of an impact map may take, by name.
+
+    Each is an array with one number per contact.
+    """
     own = {name: np.array([float(law.numbers()[name]) for law in laws]) for name in laws[0].parameters()}
     return {"friction": np.array(frictions, dtype=float), **own}
 
 
 def map_impulses(laws: Sequence[ImpactLaw], frictions: Sequence[float], delassus: Array, rates: Array) -> Array:
-    """Return the impulses of laws that are maps [N s], shape [3 n]."""
+    """Return the impulses of impact maps, laws that compute them from the rates before an impact [N s], [3 n]."""
     law, out = laws[0], np.zeros(len(rates))
     assert isinstance(law, ImpactMap)
     call = compiled_caller(law.impulses, "map", vectors_of(laws, frictions), type(law).__name__)
@@ -244,7 +246,7 @@ def start_of(law: StatefulLaw) -> tuple[Array, Array]:
 
 
 def start_fault(law: StatefulLaw) -> str:
-    """Return the fault of the initial states and scales of a law; "" if they are valid."""
+    """Return a message if the initial states or scales of a law are invalid; "" if they are valid."""
     initial, scale = law.initial_state, law.state_scale
     if len(initial) != len(scale):
         return f"there are {len(initial)} initial states and {len(scale)} scales"
@@ -262,7 +264,7 @@ def require(fault: str) -> None:
 
 
 def writing_fault(call: Callable[..., Any], given: Sequence[Array], size: int) -> str:
-    """Return the fault of a function that changes its arguments or leaves a number unwritten; "" if it is sound."""
+    """Return a message if a function changes its arguments or leaves a number unwritten; "" otherwise."""
     copies = [one.copy() for one in given]
     one, other = (written(lambda out: call(*copies, out), size, old) for old in (0.5, -0.25))
     if any(not np.array_equal(a, b) for a, b in zip(given, copies, strict=True)):
@@ -291,9 +293,10 @@ def followed(
 
 
 def fastest(slope: Callable[[Array], Array], at: Array, scale: Array) -> float:
-    """Return a bound of the fastest rate of y' = slope(y) near a point [1/s].
+    """Return an upper bound of the rates at which solutions of y' = slope(y) change near a point [1/s].
 
-    It is the largest row sum of the absolute Jacobian of ``slope``, in units of ``scale``, by differences.
+    It is the largest row sum of the absolute Jacobian of ``slope``, computed by differences. Each number of y is
+    measured in units of its entry of ``scale``.
     """
     if len(at) == 0:
         return 0.0

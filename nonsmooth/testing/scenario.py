@@ -59,14 +59,14 @@ def _rows(scenario: Scenario, t_end: float | None) -> list[Row]:
 @final
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """A scenario, and short runs of it that several properties share."""
+    """A scenario, and runs of it to the time :attr:`end`, which several properties share."""
 
     scenario: Scenario
     given_end: float | None
 
     @cached_property
     def end(self) -> float:
-        """End of the short runs [s]."""
+        """End time of the short runs that the checks make [s]."""
         return self.given_end or min(self.scenario.t_end, _SAMPLES * self.scenario.sample_interval)
 
     def run(self, t_end: float, sample_interval: float, folder: Path | None = None) -> Solution:
@@ -79,12 +79,15 @@ class _Trial:
         return simulate(system, t_end, sample_interval=sample_interval, output=folder, progress=is_alive)
 
     def short_run(self, folder: Path | None = None) -> Solution:
-        """Run a new system to the end of the short runs."""
+        """Run a new system of the scenario from t = 0 to the time :attr:`end`."""
         return self.run(self.end, min(self.scenario.sample_interval, self.end), folder)
 
     @cached_property
     def again(self) -> tuple[Solution, Exception | None]:
-        """A second short run, and the error of saving it with its coordinates; None if saving succeeds."""
+        """A repetition of the run :attr:`found`, and the error of saving the coordinates of its bodies and its events.
+
+        The error is None if saving succeeds.
+        """
         with tempfile.TemporaryDirectory() as name:
             folder, trouble = Path(name), None
             again = self.short_run(folder)
@@ -98,7 +101,7 @@ class _Trial:
 
     @cached_property
     def found(self) -> Solution | Exception:
-        """The first short run, or the error that it raised."""
+        """The first run to the time :attr:`end`, or the error that it raised."""
         try:
             return self.short_run()
         except Exception as error:
@@ -163,7 +166,7 @@ def _builds_twice(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _runs(trial: _Trial) -> None:
-    """It runs for a short time."""
+    """The scenario runs for a short time."""
     if isinstance(trial.found, Exception):
         raise Broken(f"until {trial.end:g} s: {trial.found}") from trial.found
     if trial.found.status != "done" or not np.all(np.isfinite(trial.found.q_end)):
@@ -172,7 +175,7 @@ def _runs(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _energy(trial: _Trial) -> None:
-    """The energy account of the run closes."""
+    """At most 1e-6 of the energy of a short run is unaccounted for."""
     residual = trial.solution.energy.residual
     if not residual <= _RESIDUAL:
         raise Broken(f"{residual:g} of the energy is not explained", "residual", residual)
@@ -180,7 +183,7 @@ def _energy(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _repeatable(trial: _Trial) -> None:
-    """A second run is the same to the last bit."""
+    """A second run of the scenario has the same results to the last bit."""
     again, _ = trial.again
     for name in ("t", "q", "u", "q_end", "u_end"):
         one, other = getattr(trial.solution, name), getattr(again, name)
@@ -220,7 +223,7 @@ def _final_state(trial: _Trial) -> None:
 
 @_SCENARIO.claim()
 def _acceptance(trial: _Trial) -> None:
-    """A full run is not suspect and fulfils its criteria."""
+    """A run to the end time is not "suspect" (no check of the run fails) and fulfils the acceptance criteria."""
     scenario, _ = trial.scenario, trial.solution
     solution = trial.run(scenario.t_end, scenario.sample_interval)
     if solution.status == "suspect":

@@ -51,7 +51,7 @@ def _extent(shape: Shape) -> None:
 
 @_SHAPE.claim()
 def _ceiling(shape: Shape) -> None:
-    """No point of the solid is above the ceiling."""
+    """No point of the solid is above the height that the shape gives as its `ceiling`."""
     if math.isnan(shape.ceiling):
         raise Broken("it must be a height [m], or infinite", "ceiling", shape.ceiling)
     if shape.solid is not None:
@@ -62,9 +62,9 @@ def _ceiling(shape: Shape) -> None:
 
 @_SHAPE.claim()
 def _solid(shape: Shape) -> None:
-    """No point of the solid is farther along a direction than the support point.
+    """Each support point of the solid is the farthest point of the solid along its direction.
 
-    All points are within its bounds and its extent, and its inner point lies inside.
+    All support points are within the solid's bounds and the shape's extent, and the solid's inner point is inside.
     """
     solid = shape.solid
     if solid is None:
@@ -111,7 +111,7 @@ def _look(shape: Shape) -> None:
 
 
 def require_look(name: str, look: Look) -> None:
-    """Raise Broken if a look cannot be drawn."""
+    """Raise Broken if the vertices, triangles or lines that show a component in pictures are invalid."""
     if not isinstance(look, Look):
         raise Broken("it must be a nonsmooth.interfaces.look.Look", name, look)
     if np.ndim(look.vertices) != 2 or np.shape(look.vertices)[1] != 3 or not np.all(np.isfinite(look.vertices)):
@@ -127,6 +127,6 @@ def require_look(name: str, look: Look) -> None:
 
 
 def require_ends(ends: Vector) -> None:
-    """Raise Broken if the place of a load or a joint cannot be drawn."""
+    """Raise Broken unless the points that show a load or a joint in pictures are two finite points [m]."""
     if np.shape(ends) != (2, 3) or not np.all(np.isfinite(ends)):
         raise Broken("it must be two points, shape [2, 3] [m]", "ends", ends)

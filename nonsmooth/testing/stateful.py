@@ -35,15 +35,18 @@ _STAGES = Drawn(
     (*_SPEEDS, *_DURATIONS),
     lambda c: [(c["speed_1"], c["duration_1"]), (0.0, c["duration_2"]), (c["speed_2"], c["duration_3"])],
 )
-"""Drawn pairs of slip speed and duration for three stages: a speed, a rest, and another speed."""
+"""Drawn pairs of slip speed [m/s] and duration [s] for three stages: sliding, rest, sliding at another speed. They
+bring the inner states of a law to various values."""
 _PERIODS = 20.0
-"""Duration of the compared motions, in units of the shortest time constant of the states."""
+"""Duration of the motion that is compared with an independent integration, in units of the shortest time constant of
+the inner states."""
 _SLOWED = 0.3
-"""Part of the slip velocity that friction removes in a compared motion, unless the load would be too large."""
+"""Part of the slip velocity that friction removes in this motion, unless this needs more than the largest normal
+force."""
 _LARGEST_LOAD = 1e3
-"""Largest normal force in a compared motion [N]."""
+"""Largest normal force in this motion [N], for laws with little friction."""
 STATES = Claims()
-"""The claims about laws with inner states."""
+"""Claims about friction laws with inner states."""
 
 
 def rates_function(law: StatefulFrictionLaw) -> CheckedFunction:
@@ -67,7 +70,7 @@ def _mu(law: StatefulFrictionLaw, speed: float, state: Array) -> float:
 
 @claim()
 def initial_state(law: StatefulFrictionLaw) -> str:
-    """There are as many initial states as scales, all finite, the scales positive, and `state` is an argument."""
+    """The initial states are finite, each with a positive scale, and the coefficient takes the argument `state`."""
     names = parameter_names(law.coefficient, "scalar")
     if "state" not in names:
         return f"coefficient takes {', '.join(names) or 'nothing'} beside the speed"
@@ -76,14 +79,14 @@ def initial_state(law: StatefulFrictionLaw) -> str:
 
 @STATES.claim(SPEED)
 def _writes_its_block(law: StatefulFrictionLaw, speed: float) -> str:
-    """It writes the rate of every state and nothing else."""
+    """The function of the rates writes the rate of every state and nothing else."""
     call, (state, _) = plain_caller(law.rates, "rates", law.parameters()), start_of(law)
     return writing_fault(lambda state, out: call(speed, state, out), [state], len(state))
 
 
 @STATES.claim(_STAGES)
 def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float, float]]) -> str:
-    """Through two speeds and a rest the states stay finite and the coefficient does not become negative."""
+    """Through sliding, rest and sliding at another speed, the states stay finite and the coefficient at least 0."""
     state, scale = start_of(law)
     fast_speed = stages[0][0]
     for speed, duration in stages:
@@ -100,7 +103,7 @@ def _states_that_are_reached(law: StatefulFrictionLaw, stages: list[tuple[float,
 
 @STATES.claim(SPEED, HEADING, FORCE, _MOVED)
 def _certificate_with_states(law: StatefulFrictionLaw, speed: float, heading: float, load: float, moved: float) -> str:
-    """A force on the bound that the states give obeys the law, and a force off the bound does not."""
+    """The law accepts the force on the friction bound at given inner states, and refuses a force off this bound."""
     start, scale = start_of(law)
     state = start + 10.0**moved * scale
     slip, bound = along(speed, heading), _mu(law, speed, state) * load
@@ -124,7 +127,8 @@ def _sustained_motion(law: StatefulFrictionLaw, speed: float) -> str:
         fast = abs(float(y[-1]))
         return np.append(_rates(law, fast, y[:-1]), -load * _mu(law, fast, y[:-1]))
 
-    # friction may grow during the motion: reduce the load until the mass keeps 40 % of its speed
+    # friction may grow during the motion: reduce the load until the mass keeps at least 1 - 2 _SLOWED = 40 % of its
+    # speed
     while (wanted := float(followed(slope, start, scale, [duration])[-1, -1])) < (1.0 - 2.0 * _SLOWED) * speed:
         load *= _SLOWED
     puck, u = Puck(length=speed * duration, speed=speed), (speed, 0.0, 0.0, 0.0, 0.0, 0.0)

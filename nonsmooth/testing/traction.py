@@ -1,4 +1,7 @@
-"""Conformance checks of laws of traction: force and moment, inner states, and motion in the engine."""
+"""Conformance checks of laws of traction: force and moment, inner states, and motion in the engine.
+
+Each claim states a property in its docstring. It returns or raises a message if the property fails, else "" or None.
+"""
 
 from __future__ import annotations
 
@@ -35,11 +38,13 @@ _MOTION = Drawn(_NUMBERS, lambda case: _motion(case))
 _BENT = number("bent", -2.0, 2.0)
 _TURN = number("turn", -3.1, 3.1, 1.0)
 _LONG, _SHORT = 40.0, 0.5
-"""Times at which traction is steady and not yet steady, in units of the time that fills the states."""
+"""Times after the closing of a contact at which traction is steady, and not yet steady; in units of the time in which
+the motion brings the inner states to their usual sizes."""
 _SAMPLES = 20
 _TIMES, _TURNS = 5.0, 60.0
-"""Longest duration of a compared motion, in units of the time that fills the states, and of the shortest time constant
-of the motion. The shorter duration is taken."""
+"""Longest duration of a motion that is compared with an independent integration: in units of the time in which the
+motion brings the inner states to their usual sizes, and in units of the shortest time constant of the motion. The
+shorter of both durations is taken."""
 _TRACTION = Claims()
 
 
@@ -68,7 +73,10 @@ def _motion(case: Case) -> Array:
 
 
 def _turn_of(angle: float) -> Array:
-    """Return the matrix that turns force and moment, or slip, rolling and drilling, by an angle [rad], shape [5, 5]."""
+    """Return the matrix that turns tangential vectors by an angle about the normal [rad], shape [5, 5].
+
+    It acts on force and moment, or on slip, rolling and drilling; the components about the normal stay the same.
+    """
     c, s = math.cos(angle), math.sin(angle)
     both = np.eye(FORCE_AND_MOMENT)
     both[:2, :2] = both[2:4, 2:4] = [[c, -s], [s, c]]
@@ -96,20 +104,20 @@ def _look(law: TractionLaw, load: float, motion: Array, state: Array) -> tuple[A
 
 
 def _bent(law: TractionLaw, bent: float) -> Array:
-    """Return states that differ from the initial states, each by another part of its scale."""
+    """Return states that differ from the initial ones by ``bent`` times their scales, times a factor for each."""
     start, scale = start_of(law)
     return np.asarray(start + bent * np.cos(1.0 + np.arange(len(start))) * scale)
 
 
 @claim()
 def _initial_state(law: TractionLaw) -> str:
-    """There are as many initial states as scales, all finite, and the scales are positive."""
+    """The initial states are finite, each with a positive scale."""
     return start_fault(law)
 
 
 @_TRACTION.claim(_LOAD, _MOTION)
 def _writes_its_block(law: TractionLaw, load: float, motion: Array) -> str:
-    """It writes force, moment and the rate of every state, and nothing else."""
+    """The law's function writes force, moment and the rate of every state, and nothing else."""
     call, (state, _) = plain_caller(law.traction, "traction", law.parameters()), start_of(law)
     for one in (motion, np.zeros(FORCE_AND_MOMENT)):
         if found := writing_fault(functools.partial(call, load), [one, state], FORCE_AND_MOMENT + len(state)):
@@ -160,7 +168,7 @@ def _through(law: TractionLaw, load: float, motion: Array, times: list[float]) -
 
 @_TRACTION.claim(_LOAD, _MOTION)
 def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
-    """Traction gives no energy to a steady motion."""
+    """In a motion at constant velocity, traction adds no energy on average."""
     times = _filling(law, load, motion) * np.linspace(0.5 * _LONG, _LONG, _SAMPLES)
     wrenches = _through(law, load, motion, times.tolist())
     mean = float(np.mean([wrench @ motion for wrench in wrenches]))
@@ -170,7 +178,7 @@ def _dissipation(law: TractionLaw, load: float, motion: Array) -> str:
 
 @_TRACTION.claim(_LOAD, _MOTION, _TURN)
 def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float) -> str:
-    """Force and moment turn with the motion, from the closing of the contact on."""
+    """If the motion is turned about the normal, force and moment turn with it at all times after closing."""
     unit, turn = _filling(law, load, motion), _turn_of(angle)
     times = [_SHORT * unit, _TIMES * unit]
     ways = (_through(law, load, one, times) for one in (motion, turn @ motion))
@@ -182,7 +190,7 @@ def _frame_invariance(law: TractionLaw, load: float, motion: Array, angle: float
 
 @_TRACTION.claim(_LOAD, _MOTION, _BENT)
 def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> str:
-    """Force and moment of the law obey the law; if they differ by a hundredth, they do not."""
+    """The law accepts the force and moment that it computes, and refuses them if a component differs by a hundredth."""
     state = _bent(law, bent)
     wrench, _ = _look(law, load, motion, state)
     off = 0.01 * float(np.max(np.abs(wrench))) + 1e-9 * load
@@ -197,7 +205,7 @@ def _certificate(law: TractionLaw, load: float, motion: Array, bent: float) -> s
 
 @_TRACTION.claim(_LOAD, _MOTION, fewest=FEWEST)
 def _sustained_motion(law: TractionLaw, load: float, motion: Array) -> str:
-    """A body that slides, rolls and drills moves in the engine as in an independent integration."""
+    """A body that slides, rolls and drills moves in the engine as in an independent integration of its motion."""
     state, state_scale = start_of(law)
     start, size = np.concatenate([motion, state]), float(np.max(np.abs(motion)))
     scale = np.concatenate([np.full(FORCE_AND_MOMENT, size), state_scale])

@@ -17,14 +17,15 @@ if TYPE_CHECKING:
     import xarray
 
 _MARGIN = 8
-"""Least ratio of the shortest side of the grid to the largest distance: three quarters of the side have all neighbours.
-"""
+"""Least ratio of the shortest side of the grid to the largest distance between a start and its neighbour.  Starts
+nearer to an edge than this distance are left out; at a ratio of 8, three quarters of the side remain."""
 _FEWEST = 3
-"""Least number of distances in the fit: a standard error needs a third point."""
+"""Least number of distances in the fit of the uncertainty exponent: a standard error needs a third point."""
 _SMOOTH = 1.0
 """Uncertainty exponent of a smooth boundary, the largest possible value."""
 _SATURATED = 0.5
-"""Largest share of uncertain starts in the fit: above it, a distance is not small compared with the basins."""
+"""Largest share of starts with a neighbour on another attractor, for a distance between neighbours to enter the fit.
+Above it, this distance is not small compared with the basins."""
 
 
 def basin_stability(attractor: xarray.DataArray) -> dict[str, tuple[float, float]]:
@@ -64,7 +65,7 @@ def basin_fractions(attractor: xarray.DataArray, parameter: str, bins: int = 10)
     parameter : str
         A parameter that the study varies.
     bins : int
-        Number of equal intervals of the range, if the values were drawn.  The values of a grid are taken one by one.
+        Number of equal intervals of the range, for values drawn at random.  In a grid, each value is a part.
 
     Returns
     -------
@@ -133,9 +134,10 @@ class Boundary:
 def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
     """Return the uncertainty exponent of the boundaries between all attractors of a grid of starts.
 
-    Distances are 1, 2, 4 ... steps of the grid, up to an eighth of its shortest side.  Starts count if all of their
-    neighbours exist and reached their end.  The exponent is the slope of ln f over ln eps by least squares, for f up
-    to a half.
+    A start is uncertain at a distance eps if a neighbour at this distance, along an axis of the grid, leads to another
+    attractor.  Distances are 1, 2, 4 ... steps of the grid, up to an eighth of its shortest side.  Only starts with all
+    neighbours, which all reached their end, are used.  The exponent is the slope of ln f over ln eps by least squares,
+    where f is the share of uncertain starts, for f up to a half.
 
     Parameters
     ----------

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     import xarray
 
 NEAR = 10.0
-"""Tolerance between points of two runs, relative to that within a run: a run that still settles is farther from its
-attractor than it moves."""
+"""Tolerance between points of two runs, relative to the tolerance between points of one run.  A run that still settles
+moves less in a period than its distance from the attractor, so the tolerance between runs is larger."""
 
 
 def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | None = None) -> xarray.Dataset:

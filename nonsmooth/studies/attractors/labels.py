@@ -62,7 +62,7 @@ class Along:
         Largest Hausdorff distance between the points of an attractor at two successive values.  Coordinates count in
         units of their scales, features in units of their tolerances.
     bins : int
-        Number of equal intervals of the range, if the values were drawn.  The values of a grid are taken one by one.
+        Number of equal intervals of the range, for values drawn at random.  In a grid, each value is a part.
     """
 
     parameter: str
@@ -132,7 +132,10 @@ def joined(parts: Sequence[Sequence[Group]], tolerance: float) -> list[Group]:
 def labelled(
     study: xarray.Dataset, valued: NDArray[np.bool_], grouping: Grouping, along: Along | None
 ) -> xarray.Dataset:
-    """Return a dataset with the attractor of each run: its number, -1 without records, and the names of all numbers.
+    """Return a dataset with the attractor of each run.
+
+    The variable ``attractor`` holds a number for each run, -1 for a run without records.  Its attribute
+    ``flag_meanings`` holds the names of the attractors in the order of their numbers.
 
     Parameters
     ----------
@@ -202,7 +205,8 @@ class RunsByValue:
     Attributes
     ----------
     values : array
-        Value of the parameter in each part, shape [n_parts]; the middle of an interval if the values were drawn.
+        Value of the parameter in each part, shape [n_parts].  If the values were drawn at random, a part is an
+        interval, and its value the middle.
     of_runs : array
         Number of the part of each run, shape [n_runs].
     """
@@ -212,7 +216,9 @@ class RunsByValue:
 
 
 def runs_by_value(runs: xarray.DataArray, parameter: str, bins: int) -> RunsByValue:
-    """Split the runs by a parameter: by each value of a grid, or into ``bins`` equal intervals of the range of draws.
+    """Split the runs by a parameter.
+
+    On a grid, each value is a part.  Values drawn at random are split into ``bins`` equal intervals of their range.
 
     Raises
     ------

@@ -44,7 +44,7 @@ def linked(points: Array) -> Integers:
 
 
 def nearest(points: Array, others: Array) -> Array:
-    """Return the distance from each point to the nearest of the others, in the maximum norm, shape [n_points]."""
+    """Return the distance of each of ``points`` to the nearest of ``others`` in the maximum norm, shape [n_points]."""
     from scipy.spatial import cKDTree
 
     return np.asarray(cKDTree(others).query(points, p=np.inf)[0])
@@ -93,7 +93,7 @@ def _alike(sets: Array, spacing: Array) -> list[Integers]:
     while len(left):
         first, others = int(left[0]), left[1:]
         one, low, high = sets[first], sets[first].min(axis=0), sets[first].max(axis=0)
-        # quick test first: the mean of another sample of the same attractor is within the bounds of this sample
+        # quick test first: if two sets sample one attractor, the mean of one is most likely within the other's bounds
         likely = others[np.all((means[others] >= low) & (means[others] <= high), axis=1)]
         here = [i for i in likely if _within(sets[i], one, spacing[first]) and _within(one, sets[i], spacing[i])]
         groups.append(np.array([first, *here]))

@@ -117,7 +117,10 @@ def _value(value: object) -> str:
 
 
 def uncertainty(found: Boundary, ax: Axes | None = None) -> Axes:
-    """Draw the share of uncertain starts over their distance, and the fit, whose slope is the uncertainty exponent.
+    """Draw the share of uncertain starts over the distance between neighbouring starts, and the fit of its slope.
+
+    A start is uncertain if a neighbour at this distance leads to another attractor.  The slope is the uncertainty
+    exponent.
 
     Parameters
     ----------

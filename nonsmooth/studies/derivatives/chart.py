@@ -29,10 +29,11 @@ from nonsmooth.types import Array
 _PROBE = 1e-6
 """Step of the central differences of gaps and gap rates, in units of the scales of the bodies."""
 _DEPENDS = 1e-6
-"""Derivatives and independent parts of directions below this value, relative to the largest, are taken as zero."""
+"""Below this part of the largest derivative, a derivative of a closed contact is taken as zero.  Below this part of its
+length, the component of a direction that is independent of other directions is taken as zero."""
 _EARLIER = 0.1
-"""The first direction whose derivative reaches this part of the largest is eliminated, so that neighbouring states
-eliminate the same directions."""
+"""The first direction whose derivative is at least this part of the largest derivative is eliminated.  Neighbouring
+states then eliminate the same directions."""
 _MOST = 20
 """Largest number of steps of Newton's method."""
 
@@ -40,12 +41,12 @@ _MOST = 20
 @final
 @dataclass(frozen=True)
 class ClosedConstraints:
-    """Closed contacts of a state with a rigid normal law, which constrain its changes.
+    """The closed contacts with a rigid normal law at a state; they constrain how the state can change.
 
     Attributes
     ----------
     closed, stuck : array
-        Numbers of the closed contacts, and of those that stick, shapes [n_closed] and [n_stuck].
+        Numbers of the closed contacts, and of the closed contacts that stick, shapes [n_closed] and [n_stuck].
     """
 
     closed: NDArray[np.int64]
@@ -89,17 +90,17 @@ class Chart:
     basis : array
         Free directions, one in each column, shape [n_q + n_u, m].
     names : tuple of str
-        The coordinate, velocity or turn of a body that each direction changes.
+        The coordinate, velocity or rotation of a body ("ball.rx" about its own x axis) that each direction changes.
     quaternions : tuple of int
         Index in q of the first component of each quaternion.
     contacts : ClosedConstraints
         The closed contacts.
     following : array
-        The eliminated directions, shape [n_q + n_u, k].
+        Eliminated directions, along which closed contacts determine the state, shape [n_q + n_u, k].
     inverse : array
         Pseudo-inverse of the derivatives of gaps and rates along the eliminated directions, shape [k, n_residual].
     ignored : array
-        Directions along which states are taken as equal, such as those of a symmetry, shape [n_q + n_u, s].
+        Directions along which states are taken as equal, for example by a symmetry, shape [n_q + n_u, s].
     """
 
     basis: Array
@@ -133,7 +134,7 @@ class Chart:
         without : collection of str
             Names of constant coordinates and velocities, each with its body ("ball.z").
         ignored : array, optional
-            Directions along which states are taken as equal, such as those of a symmetry, shape [n_q + n_u, s].
+            Directions along which states are taken as equal, for example by a symmetry, shape [n_q + n_u, s].
 
         Raises
         ------
@@ -181,17 +182,20 @@ class Chart:
         return state
 
     def between(self, one: State, two: State) -> Array:
-        """Return the coefficients of the difference of two states along the free directions, shape [m]."""
+        """Return the difference of two states along the free directions, as coefficients of ``basis``, shape [m]."""
         columns = np.column_stack([self.basis, self.ignored])
         return self._along(columns, one, two)[: self.basis.shape[1]]
 
     def following_between(self, one: State, two: State) -> Array:
-        """Return the coefficients of the difference of two states along the eliminated directions, shape [k]."""
+        """Return the difference of two states along the eliminated directions, shape [k].
+
+        Closed contacts determine the state along these directions.  The numbers are coefficients of ``following``.
+        """
         columns = np.column_stack([self.following, self.basis, self.ignored])
         return self._along(columns, one, two)[: self.following.shape[1]]
 
     def _along(self, columns: Array, one: State, two: State) -> Array:
-        """Return the coefficients of columns in the difference of two states, by least squares."""
+        """Return the coefficients with which ``columns`` best give the difference of two states, by least squares."""
         q = two.q.copy()
         for start in self.quaternions:
             # an orientation has two quaternions, q and -q, and a full turn swaps them: take the nearer one
@@ -206,7 +210,11 @@ class Chart:
         return dataclasses.replace(state, q=x[: len(state.q)], u=x[len(state.q) :])
 
     def _slopes(self, model: Model, state: State) -> Array:
-        """Return the derivatives of gaps and rates along all directions, shape [n_residual, m]."""
+        """Return derivatives of the closed contacts' residual along each column of ``basis``, [n_residual, m].
+
+        The residual contains their gaps [m], gap rates [m/s] and slip velocities [m/s].  Derivatives are central
+        differences.
+        """
 
         def left(change: Array) -> Array:
             return self.contacts.residual(model, self._stepped(state, change))
@@ -216,7 +224,11 @@ class Chart:
 
 
 def _eliminated(rows: Array) -> list[int]:
-    """Return the numbers of the directions to eliminate, one for each independent row, by Gram-Schmidt with pivots."""
+    """Return the indices of the directions that closed contacts determine, one for each independent constraint.
+
+    ``rows`` are the derivatives of the constraints along all directions, shape [n_residual, m].  The method is
+    Gram-Schmidt with pivots.
+    """
     # rows are normalised, because gaps and rates have different units
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
     left, found = rows / np.where(sizes > 0.0, sizes, 1.0), list[int]()
@@ -234,7 +246,7 @@ def _eliminated(rows: Array) -> list[int]:
 
 
 def _independent(columns: Array, same: Array) -> list[int]:
-    """Return the rising numbers of columns that are independent of each other and of the columns of ``same``."""
+    """Return the sorted indices of columns that are independent of each other and of the columns of ``same``."""
     basis, kept = np.linalg.qr(same)[0], list[int]()
     while True:
         left = columns - basis @ (basis.T @ columns)

@@ -12,7 +12,8 @@ from nonsmooth.system.system import System
 from nonsmooth.types import Array
 
 TURNS = ("rx", "ry", "rz")
-"""Names of rotations of a body about its own axes, which replace the four components of its quaternion."""
+"""Names of rotations of a body about its own axes.  A user names them in ``within`` in place of the four components of
+the quaternion."""
 
 
 def values_of(state: State) -> Array:
@@ -40,7 +41,7 @@ def quaternions_of(system: System) -> dict[str, int]:
 
 
 def labels_within(system: System, within: Collection[str] | None) -> dict[str, set[str]]:
-    """Return the coordinates, velocities and turns that ``within`` names, for each body; all by default.
+    """Return the coordinates, velocities and rotations (:data:`TURNS`) named in ``within``, by body; all by default.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Derivatives of maps by differences of runs that pass the same events, with bounds of their errors."""
+"""Derivatives of maps by finite differences between runs with equal sequences of events, and their error bounds."""
 
 from __future__ import annotations
 
@@ -15,23 +15,27 @@ from nonsmooth.types import Array
 Stencil = tuple[tuple[int, float], ...]
 """Terms of a finite difference: offset in steps, and weight."""
 Sampled = Callable[[float], tuple[Array, Signature]]
-"""Function from a small change to the value of the map, shape [m], and the events of the run."""
+"""Function from a change of the argument to the value of the differentiated map, shape [m], and the events of the run
+that computes this value."""
 CENTRAL: Stencil = ((-2, 1.0 / 12.0), (-1, -2.0 / 3.0), (1, 2.0 / 3.0), (2, -1.0 / 12.0))
 """Central difference of fourth order."""
 FORWARD: Stencil = ((0, -25.0 / 12.0), (1, 4.0), (2, -3.0), (3, 4.0 / 3.0), (4, -0.25))
-"""One-sided difference of fourth order."""
+"""Forward difference of fourth order: all changes are positive or zero."""
 BACKWARD: Stencil = tuple((-i, -weight) for i, weight in FORWARD)
-"""One-sided difference of fourth order, to negative changes."""
+"""Backward difference of fourth order: all changes are negative or zero."""
 SECOND: Stencil = ((-1, -0.5), (1, 0.5))
 """Central difference of second order: two runs instead of four."""
 _LEAST = 2e-7
-"""Smallest step, relative to the first: at a step of 1e-9, rounding of 1e-14 leaves a derivative of 1 five digits."""
+"""Smallest step, relative to the largest step.  From a largest step of 5e-3 it is 1e-9.  Rounding of 1e-14 then leaves
+five correct digits of a derivative of 1."""
 _REFUSED = 0.25
-"""Factor that reduces a step whose runs pass other events: ten reductions span six decades."""
+"""Factor that reduces the step if the runs with this step have other events than the run without a change.  Ten such
+reductions span six decades."""
 _WORSE = 2.0
 """Factor by which the error must grow to stop the search: a smaller growth may be scatter (Ridders)."""
 _SCATTER = 3.0
-"""Safety factor of the error: rounding varies with the step, so two estimates may agree by chance."""
+"""Safety factor by which the estimated error of a derivative is multiplied.  The estimate is a difference of two
+values, which may agree by chance, because rounding varies with the step."""
 
 
 class OrderOfEvents(NonsmoothError):
@@ -78,7 +82,7 @@ def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil =
     step : float
         The change for an offset of 1.
     expected : Signature
-        Events without a change.
+        Events of the run without a change.
     stencil : Stencil
         Offsets and weights.
 
@@ -123,7 +127,7 @@ def steady(found_with: Callable[[float], Array], steps: Sequence[float]) -> tupl
         try:
             found = found_with(step)
         except (OrderOfEvents, InvalidInput) as error:
-            # InvalidInput, too, may mean that the change was too large: bodies overlap at the start
+            # a large step may give an invalid system, such as overlapping bodies at the start: try the next step
             trouble, last = error, None
             continue
         if last is not None:
@@ -154,7 +158,7 @@ def derivative(sampled: Sampled, first: float, expected: Signature, enough: floa
     first : float
         The largest step, in the unit of the changes.
     expected : Signature
-        Events without a change.
+        Events of the run without a change.
     enough : float
         Error at which the search ends early, relative to the largest number of the derivative.
 

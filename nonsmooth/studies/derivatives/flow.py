@@ -58,7 +58,7 @@ def completed(run: Solution) -> Solution:
 
 
 def events_of(run: Solution) -> tuple[Array, Signature]:
-    """Return the times [s], shape [n], and the signature of all events of a run except its start."""
+    """Return the times [s], shape [n], and the causes and contacts of all events of a run except its start."""
     events = run.events
     kept = events.cause != Cause.START
     signature = zip(events.cause[kept].tolist(), events.contact[kept].tolist(), strict=True)

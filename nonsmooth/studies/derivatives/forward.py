@@ -102,13 +102,17 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
 
 
 def _states(model: Model, times: Array) -> tuple[Array, Signature, Array]:
-    """Return the states at times, shape [n, n_q + n_u], all events up to the last time, and their times [s]."""
+    """Run a model through rising times [s], shape [n].
+
+    Returns the states at these times, shape [n, n_q + n_u], the causes and contacts of all events, and the times of the
+    events [s], shape [n_events].
+    """
     state, rows, passed, when = model.start, list[Array](), list[tuple[int, int]](), list[float]()
     for time in times.tolist():
         piece = flow(model, state, time)
         state = piece.state
         rows.append(values_of(state))
-        # a mark at each time: an event that moves past the time then changes the signature
+        # (-1, -1) marks each of the given times: an event that moves across one of them changes the sequence
         passed += [*piece.signature, (-1, -1)]
         when += piece.times
     return np.array(rows), tuple(passed), np.array(when)

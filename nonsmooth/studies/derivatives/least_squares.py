@@ -25,9 +25,10 @@ Observe = Callable[[State], Any]
 _STEP = 1e-5
 """Step of the differences of least squares, relative to the range of the parameter."""
 _ROUND_OFF = 1e-7
-"""Effects of parameters below this part of the largest are taken as round-off: error of runs, 1e-12, over the step."""
+"""A combination of parameters is taken as without effect if its effect on the observables is below this part of the
+largest effect: runs have errors of 1e-12, and differences divide them by a step of 1e-5."""
 _REFINED = 3
-"""Number of best starting points from which the search starts."""
+"""Number of starting points from which least squares is run: the points with the smallest sums of squares."""
 
 
 @final

@@ -20,13 +20,15 @@ from nonsmooth.studies.orbits.sections import Section
 from nonsmooth.types import Array
 
 _CLOSE = 1e-11
-"""Largest residual of an orbit on the branch, in units of scales."""
+"""Largest residual of an orbit on the branch, relative to the scales of the coordinates."""
 _CORRECTIONS = 12
 """Largest number of steps of Newton's method."""
 _FIRST = 1e-3
-"""Largest step of derivatives by the parameter, relative to the largest absolute value of the parameter."""
+"""Step with which the search for derivatives of the period map by the parameter begins, relative to the largest
+absolute value in the range of the parameter."""
 _ENOUGH = 1e-4
-"""Sufficient relative error of derivatives by the parameter: they only direct the steps of the continuation."""
+"""Relative error of these derivatives at which the search ends: the derivatives only direct the continuation's
+steps."""
 
 
 class OutOfRange(Exception):
@@ -43,9 +45,10 @@ class ContinuationPoint:
     orbit : Orbit
         The orbit.
     by : array
-        Derivative of the map by the parameter in units of its range, along the directions of the chart, shape [m].
+        Derivative of the state after a period by the parameter, with the parameter in units of its range, along the
+        directions of the orbit's chart (``orbit.map.chart``), shape [m].
     step : float
-        Step of this derivative, in the unit of the parameter.
+        Step of the finite difference that gives this derivative, in the unit of the parameter.
     tangent : array
         Unit tangent of the branch, shape [m + 1]: along the directions of the chart, then along the parameter in units
         of its range.
@@ -78,15 +81,17 @@ class Path:
         return self.high - self.low
 
     def value(self, point: ContinuationPoint) -> float:
-        """Return the parameter of a point."""
+        """Return the value of the parameter at a point of the branch."""
         return point.orbit.family[self.name]
 
     def at(
         self, state: State, value: float, along: float, before: ContinuationPoint | None, *, is_quick: bool = False
     ) -> ContinuationPoint:
-        """Return the point of a state: the map linearised about it, and a tangent in the direction of ``before``.
+        """Return the continuation point of a state at a value of the parameter.
 
-        Quick derivatives use the steps of ``before``, and their errors are unknown.  They serve Newton's method.
+        The period map is linearised about the state.  The tangent has the direction of the tangent of ``before``.  With
+        ``is_quick``, derivatives use the step sizes of ``before`` and get no error estimates, which is enough for a
+        step of Newton's method.
 
         Raises
         ------
@@ -114,7 +119,10 @@ class Path:
         return ContinuationPoint(Orbit(family, state, section, self.within, residual, found), by, step, tangent, along)
 
     def _by(self, changed: Sampled, expected: Signature, near: ContinuationPoint | None) -> tuple[Array, float]:
-        """Return the derivative of the map by the parameter in units of its range, and the step of the parameter."""
+        """Return the derivative of the period map by the parameter, and the step of its finite difference.
+
+        The derivative counts the parameter in units of its range.  The step is in the unit of the parameter.
+        """
         if near is not None:
             with contextlib.suppress(OrderOfEvents, InvalidInput):
                 return self.range * slope(changed, near.step, expected, SECOND), near.step

@@ -28,11 +28,14 @@ _MOST = 2000
 _GROWS = 1.3
 """Factor by which the step grows after a success."""
 _SAME = 1e-6
-"""Largest difference of two motions that begin a period apart, in units of scales: round-off of runs is below it."""
+"""Largest difference of two motions that begin a period apart, relative to the scales of the coordinates: errors of
+runs are smaller."""
 _PARTS = tuple(0.5**i for i in range(11))
-"""Fractions of the distance from the orbit to an end of the range: the first at which a motion can begin is tested."""
+"""Parts of the distance from the orbit's parameter to an end of the range.  The period is tested at the farthest of
+these values at which a motion can begin.  Ten halvings come within a thousandth of the distance to the orbit."""
 _KNOWN = 1e-9
-"""Relative error of a predicted change of events below which the branch ends at the change."""
+"""Relative error of the parameter predicted for a change of events.  Below it, the branch ends at the predicted value,
+and the step is not halved further."""
 
 
 @final
@@ -105,7 +108,8 @@ def continuation(
     span : tuple of float
         Range of the parameter, around its value at the orbit.
     period : callable, optional
-        ``period(value)`` returns the period of the drive at a value of the parameter [s]; that of the orbit by default.
+        ``period(value)`` returns the period of the drive at a value of the parameter [s]; by default the
+        period of the orbit.
     most : int
         Largest number of steps in each direction.
     display : Display, optional
@@ -147,15 +151,15 @@ _PERIOD = "continuation: period"
 
 
 def _check_period(path: Path, orbit: Orbit) -> None:
-    """Check at both ends of the range that a motion is the same if it begins a period later.
+    """Check, near both ends of the range, that the period of the orbit is still a period of the drive.
 
-    If the state of the orbit is impossible at an end, because bodies would overlap, values nearer to the orbit are
-    tested.
+    A motion that begins a period later must then be the same motion.  If no motion can begin at an end, because bodies
+    would overlap, values nearer to the parameter of the orbit are tested.
 
     Raises
     ------
     InvalidInput
-        If the motions differ: the drive has another period there.
+        If the motions differ: the drive has another period at this value of the parameter.
     """
     value = orbit.family[path.name]
     for end in (path.low, path.high):
@@ -171,7 +175,10 @@ def _check_period(path: Path, orbit: Orbit) -> None:
 
 
 def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
-    """Return the difference of motions that begin a period apart, in units of scales; None if one cannot run."""
+    """Return the largest difference of two motions from one state that begin a period apart; None if one cannot run.
+
+    The difference is relative to the scales of the coordinates.
+    """
     model, section, start = path.family.model(**{path.name: value}), path.section(value), orbit.state
     try:
         one = section.flow(model, start).state
@@ -182,7 +189,11 @@ def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
 
 
 def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCovered) -> Branch:
-    """Return the branch from a point on, with steps that grow after a success and are halved after a failure."""
+    """Follow the branch from a point in one direction, for at most ``most`` steps of arc length.
+
+    The step grows after a success and is halved after a failure.  ``covered`` displays the part of the range that is
+    done.
+    """
     found, distances, special, step = [point], [grazing_distance(point.orbit)], list[Special](), _FIRST
     ending, bound = f"{most} steps", np.inf
     while len(found) <= most:
@@ -211,7 +222,7 @@ def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCov
         distances.append(grazing_distance(following.orbit))
         covered.add(path.value(following))
         point, step = following, min(_GROWS * step, _LARGEST)
-        # half of the distance to the last failure is likely to succeed
+        # ``bound`` is the arc length at which a step failed last: half of the distance to it is likely to succeed
         if bound > point.along:
             step = min(step, max(0.5 * (bound - point.along), _SMALLEST))
     values, orbits = np.array([path.value(one) for one in found]), tuple(one.orbit for one in found)

@@ -66,13 +66,19 @@ class Diagram:
 
     @property
     def periods(self) -> NDArray[np.int64]:
-        """Number of periods after which the motion repeats, shape [n]; 0 if it does not, -1 if the run failed."""
+        """Number of periods after which the motion repeats, up to half of ``keep``, shape [n].
+
+        It is 0 for a motion that does not repeat within these periods, and -1 for a failed run.
+        """
         found = periods(self.points[:, :, np.newaxis], alike(self.points, self.scale))
         return np.where([bool(text) for text in self.failures], -1, found)
 
     @property
     def settling(self) -> NDArray[np.bool_]:
-        """True if the motion still settles in the last ``keep`` periods, shape [n]; then take a larger ``settle``."""
+        """True if the motion still approaches its attractor in the last ``keep`` periods, shape [n].
+
+        Then repeat the diagram with more periods of transient (``settle``).
+        """
         return settling(self.points[:, :, np.newaxis], alike(self.points, self.scale))
 
     @property
@@ -197,7 +203,7 @@ class PeriodicSampling:
         check_periods(self.study, settle=self.settle, keep=self.keep)
 
     def lasts(self, value: float) -> float:
-        """Return the period at a value of the parameter [s].
+        """Return the period of the samples at a value of the parameter [s].
 
         Raises
         ------
@@ -209,7 +215,7 @@ class PeriodicSampling:
         return period
 
     def diagram(self, family: Family, name: str, values: Array) -> Diagram:
-        """Return the diagram of a parameter before any run, without points.
+        """Return the diagram before the first run, without points but with labels, unit and scale of the coordinate.
 
         Raises
         ------
@@ -225,14 +231,14 @@ class PeriodicSampling:
         return Diagram(name, family.label(name), values, self.coordinate, unit(system, number), points, (), scale)
 
     def settled(self, model: Model, start: State, value: float) -> tuple[Array, State]:
-        """Return the samples at a value of the parameter, shape [keep], and the state at the end of the run.
+        """Run from a start through the transient; return the samples, shape [keep], and the last state of the run.
 
         Raises
         ------
         RunFailed
             If a run cannot continue.
         InvalidInput
-            If the drive has another period.
+            If the period of the drive at ``value`` differs from the period of the sampling.
         """
         period = self.lasts(value)
         begin = state_at_phase(model, start, period, self.at)
@@ -260,7 +266,10 @@ class Hysteresis:
 
     @property
     def apart(self) -> NDArray[np.bool_]:
-        """True if rising and falling values lead to different motions, of which at least one repeats; shape [n]."""
+        """True at each value of the parameter that has two motions, one as it rises and one as it falls; shape [n].
+
+        At least one of the two motions must repeat: two motions that do not repeat cannot be compared point by point.
+        """
         both = np.array([self.up.points, self.down.points])
         differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > alike(both, self.up.scale)
         periodic = np.array([self.up.periods, self.down.periods]) > 0
@@ -268,7 +277,7 @@ class Hysteresis:
         return np.asarray(others & np.isfinite(both).all(axis=(0, 2)))
 
     def draw(self, ax: Axes | None = None) -> Axes:
-        """Draw both diagrams, each with its own mark and colour, on axes or in a new figure."""
+        """Draw the diagrams for rising and for falling values in two colours and marks, on axes or in a new figure."""
         ax = self.up.draw(axes_of(ax), colour=BLUE, mark="^", label=f"{self.up.name} rises")
         self.down.draw(ax, colour=GREEN, mark="v", label=f"{self.down.name} falls")
         failed = self.up.failed + self.down.failed
@@ -337,7 +346,7 @@ def _carried(model: Model, period: float, last: Model, state: State, last_period
     """Return the state from which a model continues a motion of the model ``last``, at the same phase of the drive."""
     there = clearest_state(last, state, last_period)
     there = replace(there, time=there.time % last_period * (period / last_period))
-    # open contacts that overlap in the new model are closed: a faster plate reaches a body in low flight
+    # the new model may move bodies into each other, for example if a plate vibrates farther: close these open contacts
     reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == Mode.OPEN)
     there = replace(there, modes=np.where(reached, Mode.SLIDE, there.modes))
     return Chart.at(model, there).held_in(model, there)

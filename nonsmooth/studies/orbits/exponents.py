@@ -30,7 +30,7 @@ class Lyapunov:
     history : array
         Running estimates after each period [1/s], shape [n, m].
     left_out : int
-        Number of periods without a derivative, because a small change reorders events.  They do not count.
+        Number of periods without a derivative, because a small change reorders events.  The exponents leave them out.
     state : State
         Last state of the motion.
     """
@@ -55,14 +55,14 @@ def lyapunov(
     n_periods : int
         Number of these periods.
     settle : float
-        Time of the transient, which does not count [s].
+        Time of the transient [s], which is left out of the exponents.
     within : sequence of str, optional
         Names of coordinates and velocities of the perturbations (:func:`orbit`).
 
     Raises
     ------
     InvalidInput
-        If a number is not positive, other contacts are closed at the end of a later period, or no period has a
+        If a number is not positive, different contacts are closed at the ends of two periods, or no period has a
         derivative.
     """
     for name, value in (("period", period), ("n_periods", n_periods)):
@@ -83,7 +83,7 @@ def lyapunov(
             continue
         start = np.eye(len(found.way)) if directions is None else directions
         directions, stretched = np.linalg.qr(found.matrix @ start)
-        # a vanishing direction counts with the smallest positive number
+        # the logarithm needs a positive stretch: a stretch of zero is replaced by the smallest positive number
         lengths = np.log(np.maximum(np.abs(np.diag(stretched)), np.finfo(float).tiny))
         sums = lengths if sums is None else sums + lengths
         history.append(sums / ((len(history) + 1) * period))

@@ -19,15 +19,18 @@ SIMULTANEOUS = "simultaneous impacts"
 _KINDS = {"approach": "grazing", "gap": "grazing", "between_impacts": SIMULTANEOUS}
 """Kind of change at which each distance vanishes, by the field of :class:`GrazingDistance`."""
 _CANDIDATES = 200
-"""Number of parts of a run in each of which a least gap is searched for."""
+"""Number of equal parts of a run in which minima of gaps are searched for.  Each part gives at most one minimum of a
+contact's gap."""
 _CLOSED, _COLLIDES = 1, 2
 """Bits of the mode code of a contact: closed, and colliding."""
 _POINTS = 4
 """Largest number of orbits from which the zero of a distance is extrapolated."""
 _GROWS = 1.5
-"""Least ratio of the distances to grazing of two successive orbits in this extrapolation."""
+"""Least ratio of a distance to grazing to the next smaller one that is used with it to extrapolate to zero: nearly
+equal distances would amplify their errors."""
 _LITTLE = 1e-2
-"""Largest distance, relative to its scale, that is extrapolated to zero."""
+"""Largest distance to grazing, relative to its scale, from which the parameter of grazing is extrapolated: a few orbits
+predict it well only from nearby."""
 
 
 @final
@@ -58,7 +61,7 @@ def grazing_distance(orbit: Orbit) -> GrazingDistance:
     model, end, state = orbit.family.model(), orbit.map.end.state.time, orbit.state
     approach, gap, impacts = [np.inf], [np.inf], list[tuple[float, int]]()
     fastest = widest = 0.0
-    # a Poincare section ends runs: an orbit that passes it several times consists of several runs
+    # the guard of a Poincare section ends each run at a passage: an orbit of several passages needs several runs
     while end - state.time > 1e-9 * orbit.period:
         run = model.run(end, start=state, sample_interval=end - state.time)
         events, state = run.events, run.state
@@ -116,7 +119,8 @@ def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistanc
         which = _graded(left)
         if left[-1] > _LITTLE * scale or len(which) < 2:
             continue
-        # the distance is the abscissa: if it vanishes like a square root, its slope over the parameter is infinite
+        # interpolate the parameter over the distance: the distance may vanish like a square root of the parameter, so
+        # its slope over the parameter may be infinite
         there = np.column_stack([along, values])
         beyond, value = BarycentricInterpolator(left[which], there[which])(0.0).tolist()
         fewer = BarycentricInterpolator(left[which[:-1]], values[which[:-1]])(0.0) if len(which) > 2 else np.inf
@@ -128,7 +132,11 @@ def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistanc
 
 
 def _graded(left: Array) -> list[int]:
-    """Return the indices of the last distance, and of earlier distances that increase backwards by :data:`_GROWS`."""
+    """Return the indices of the distances from which a zero is extrapolated, the last orbit first.
+
+    ``left`` are the distances to grazing of successive orbits.  Going back, they must increase, and each chosen
+    distance is at least :data:`_GROWS` times the one before it.  At most :data:`_POINTS` are chosen.
+    """
     if not np.isfinite(left[-1]):
         return []
     which = [len(left) - 1]

@@ -1,4 +1,4 @@
-"""Itinerary diagrams: the sequence of events over the phase of a period, over a parameter or period by period."""
+"""Itinerary diagrams: events over the phase of a period, in a row for each value of a parameter or period of a run."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _FILLS = COLOURS[1:]
 _HATCHES = ("", "////", "....", "xxxx")
 _KINDS = len(_FILLS) * len(_HATCHES)
-"""Number of kinds of events that a picture distinguishes; all further kinds have the style of the last."""
+"""Number of kinds of events that a picture distinguishes; all rarer kinds have the colour and hatch of the last one."""
 
 
 @final
@@ -81,7 +81,10 @@ class ItineraryDiagram:
     failures: tuple[str, ...]
 
     def draw(self, ax: Axes | None = None) -> Axes:
-        """Draw each row in the colour of the last event, with strokes at events, on axes or in a new figure."""
+        """Draw a row for each value or period, on given axes or in a new figure.
+
+        The colour at each phase shows the last event before this phase.  Strokes show the events.
+        """
         from matplotlib.patches import Patch
 
         ax, edges, kinds = axes_of(ax, 4.2), _edges(self.values), list(self.words)
@@ -179,7 +182,10 @@ def itinerary_of_run(model: Model, run: Solution, period: float) -> ItineraryDia
 
 
 def _row(run: Solution, period: float, first: int, keep: int) -> Itinerary:
-    """Return the events of ``keep`` periods, and the last event before them, which gives the first colour."""
+    """Return the events of ``keep`` periods of a run from period ``first`` on, after the last event before them.
+
+    A diagram colours the beginning of its row by that earlier event.
+    """
     times, events = events_of(run)
     at = times / period - first
     begin, end = max(0, int(np.searchsorted(at, 0.0)) - 1), int(np.searchsorted(at, keep))

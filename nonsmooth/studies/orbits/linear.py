@@ -30,24 +30,27 @@ from nonsmooth.studies.orbits.sections import Section
 from nonsmooth.types import Array
 
 _STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
-"""Steps of one-sided derivatives at a non-differentiable point, in units of scales."""
+"""Steps of the one-sided derivatives at a non-differentiable point, relative to the scales of the coordinates.  The
+derivative that changes least from one step to the next is used."""
 _FIRST = 5e-3
-"""Largest step of derivatives, in units of scales: the series of a smooth motion converges within it."""
+"""Largest step of derivatives, relative to the scales of the coordinates: the error series of a smooth motion converges
+within it."""
 
 
 @final
 @dataclass(frozen=True)
 class NonDifferentiablePoint:
-    """A direction in which a map has no derivative: events have another order on either side.
+    """A direction in which a map has no derivative: events have another order if the state changes either way.
 
     Attributes
     ----------
     direction : str
-        The coordinate, velocity or turn.
+        The coordinate, velocity or rotation of a body that changes, such as "ball.rx".
     before, after : array
-        One-sided derivatives for decreasing and increasing coordinates, shape [m]; nan if events also change there.
+        One-sided derivatives for decreasing and increasing coordinates, shape [m].  They are nan if the order of events
+        still changes among the small changes on that side.
     signatures : tuple of Signature
-        The events on either side.
+        The events after a small decrease, and after a small increase.
     """
 
     direction: str
@@ -77,7 +80,7 @@ class Linear:
     error : array
         Bounds of the errors of the derivatives, shape [m, m]; infinite if they are unknown.
     step : float
-        The smallest step of the differences, in units of scales.
+        The smallest step of the differences, relative to the scales of the coordinates.
     """
 
     chart: Chart
@@ -138,10 +141,15 @@ def _chart_at(model: Model, state: State, section: Section, within: Sequence[str
 def _maps(
     model: Model, state: State, section: Section, within: Sequence[str] | None
 ) -> tuple[Chart, FlowSegment, list[Sampled]]:
-    """Return the directions at a state, the run to its image, and the image over a change along each direction."""
+    """Return the chart of a state, the run to its image, and a function for each direction of the chart.
+
+    The image is the state at the next return to the section.  Each function maps a change of the state along its
+    direction to the change of the image.
+    """
     chart, end = _chart_at(model, state, section, within), section.flow(model, state)
     there = _chart_at(model, end.state, section, within)
-    # away from an orbit, other contacts may be closed at the end: then use the directions at the start
+    # if the state is not on an orbit, the contacts that are closed at the image may differ from those at the state:
+    # then describe changes of the image by the chart of the state
     there = there if there.names == chart.names else chart
 
     def moved(way: Array) -> Sampled:
@@ -167,7 +175,7 @@ def _one_sided(name: str, sampled: Sampled) -> NonDifferentiablePoint:
         size = len(sampled(0.0)[0])
         _, signature = sampled(sign * _STEPS[-1])
         signatures.append(signature)
-        # the differences begin a step away: the events at the point itself belong to neither side
+        # the stencil leaves out the unchanged state: its events belong neither to a decrease nor to an increase
         inner = tuple((offset + int(sign), weight) for offset, weight in stencil)
         try:
             sides.append(steady(partial(slope, sampled, expected=signature, stencil=inner), _STEPS)[0])

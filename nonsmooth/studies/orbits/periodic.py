@@ -32,13 +32,15 @@ from nonsmooth.studies.orbits.symmetries import RelativeSection, Symmetry
 from nonsmooth.types import Array
 
 _CLOSE = 1e-12
-"""Largest residual of an orbit, in units of scales."""
+"""Largest residual of an orbit, relative to the scales of the coordinates."""
 _AGAIN = 1e-8
-"""Largest residual after a second period, in units of scales; multiplied by the norm of the map if that exceeds 1."""
+"""Largest residual after a second period, relative to the scales of the coordinates.  It is multiplied by the norm of
+the period map's derivative, if above 1, because the map amplifies the residual of the first period."""
 _MOST = 30
 """Largest number of steps of Newton's method."""
 _HELD = 1e-6
-"""Largest difference of eliminated coordinates after a period, in units of scales."""
+"""Largest change over a period of the coordinates that closed contacts determine, relative to their scales: errors of
+runs are smaller.  A motion with a larger change is no orbit."""
 _MODES = {Mode.OPEN: "open", Mode.STICK: "closed and sticks", Mode.SLIDE: "closed and slides"}
 _NAMED = 3
 """Largest number of contacts that a message names."""
@@ -66,7 +68,7 @@ class Orbit:
     within : tuple of str or None
         The coordinates and velocities that repeat.
     residual : float
-        Largest difference between end and start, in units of scales.
+        Largest difference between end and start, relative to the scales of the coordinates.
     map : Linear
         The map of one period, linearised about the orbit; its matrix is the monodromy matrix.
     """
@@ -85,28 +87,28 @@ class Orbit:
 
     @property
     def turns(self) -> dict[str, float]:
-        """Angle by which a period turns the motion [rad], for each symmetry by its name."""
+        """Angle by which the motion has turned after one period [rad], about the axis of each symmetry, by its name."""
         return self.section.turns(self.family.model(), self.state)
 
     @property
     def smooth(self) -> tuple[str, ...]:
-        """The directions along which the map has a derivative."""
+        """Names of the directions along which the period map has a derivative."""
         rough = {point.direction for point in self.non_differentiable}
         return tuple(name for name in self.map.chart.names if name not in rough)
 
     @property
     def non_differentiable(self) -> tuple[NonDifferentiablePoint, ...]:
-        """The directions without a derivative: a small change decides the order of simultaneous events."""
+        """Directions along which the period map has no derivative: a small change reorders simultaneous events."""
         return self.map.non_differentiable
 
     @property
     def monodromy(self) -> Array:
-        """The derivatives of the map along the smooth directions, in units of scales, shape [m, m]."""
+        """Derivatives of the period map along the directions of :attr:`smooth`, relative to their scales, [m, m]."""
         return self._smooth_part(self.map.matrix)
 
     @property
     def multipliers(self) -> NDArray[np.complex128]:
-        """Floquet multipliers, the largest first, of perturbations along the smooth directions."""
+        """Floquet multipliers of perturbations along the directions of :attr:`smooth`, the largest first, [m]."""
         return eigenvalues(self.monodromy, np.zeros_like(self.monodromy))[0]
 
     @property
@@ -116,7 +118,7 @@ class Orbit:
 
     @property
     def stable(self) -> bool:
-        """True if all directions are smooth and all multipliers plus their errors lie within the unit circle."""
+        """True if the period map has a derivative in every direction, and each multiplier plus its error is below 1."""
         return not self.non_differentiable and bool(np.all(np.abs(self.multipliers) + self.multiplier_errors < 1.0))
 
     @property
@@ -171,9 +173,9 @@ def orbit(
     """Find the periodic orbit near a start, and its Floquet multipliers.
 
     A driven system has a stroboscopic section: a time in the period, by default the one after ``settle`` at which the
-    least gap is largest.  If a contact is closed there, the coordinates and velocities that it constrains follow the
-    others.  A system without a drive needs a Poincare section; its period is found, and the multiplier 1 along the
-    motion is left out.
+    least gap is largest.  If a contact is closed there, it determines some coordinates and velocities, and the search
+    varies only the remaining ones.  A system without a drive needs a Poincare section; its period is found, and the
+    multiplier 1 along the motion is left out.
 
     Parameters
     ----------
@@ -191,7 +193,8 @@ def orbit(
         First state; by default as the system is placed.
     within : sequence of str, optional
         Names of coordinates and velocities that repeat ("z", or "ball.z" if bodies share a name); by default all.
-        Leave out coordinates that drift, and those out of a plane of motion.
+        Leave out coordinates that drift.  For a plane motion, leave out all coordinates and velocities across the
+        plane.
     symmetries : sequence of Symmetry, optional
         Rotations of the motion that a period may add: :class:`Turn` of everything about the vertical, :class:`Spin` of
         a symmetric body about its own axis.
@@ -202,7 +205,7 @@ def orbit(
     Raises
     ------
     InvalidInput
-        If a number is not valid, the drive has another period, or the motion does not pass the section.
+        If a number is not valid, the drive has a period other than ``period``, or the motion does not pass the section.
     UnknownName
         If the system has no coordinate or velocity of a given name.
     NoOrbit
@@ -237,7 +240,9 @@ def _modulo(section: Section, symmetries: Sequence[Symmetry]) -> Section:
 
 
 def close(family: Family, state: State, section: Section, within: tuple[str, ...] | None) -> Orbit:
-    """Return the orbit near a state of the section, by Newton's method.
+    """Find an orbit by Newton's method, from a state of the section near the orbit.
+
+    ``within`` are the names of the coordinates and velocities that repeat, None for all.
 
     Raises
     ------
@@ -270,7 +275,8 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         smooth = ~np.isnan(found.matrix[0]) if len(found.matrix) else np.zeros(0, dtype=bool)
         change = np.zeros(len(found.way))
         reduced = found.matrix[np.ix_(smooth, smooth)] - np.eye(int(np.sum(smooth)))
-        # lstsq returns the shortest change, which does not move along directions of symmetry
+        # lstsq returns the shortest change, so the state does not drift along a continuum of orbits: directions in
+        # which the period map and the identity differ by less than 1e-9, relative to the largest difference
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
         state, step = found.chart.moved(model, state, change), found.step
     raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; {_advice(found)}")
@@ -300,7 +306,9 @@ def _check_closed(model: Model, start: State, end: State) -> None:
 
 
 def _check_following(found: Linear, start: State) -> None:
-    """Check that the coordinates of ``within`` that closed contacts constrain also repeat.
+    """Check that the coordinates that closed contacts determine also repeat after a period.
+
+    Newton's method only makes the remaining coordinates of ``within`` repeat.
 
     Raises
     ------

@@ -25,12 +25,14 @@ FREQUENCY_REMEDY = (
     "If the parameter changes the frequency, give period=lambda value: ... [s]; on the command line --period 1/NAME."
 )
 _SAME = 1e-6
-"""Largest difference of two motions that begin a period apart, in units of scales: tolerances of runs cause less."""
+"""Largest difference of two motions that begin a period apart, relative to the scales of the coordinates: errors of
+runs are smaller."""
 _TRIES = 3
-"""Number of compared periods, of which one must agree: in one, rounding may decide the order of simultaneous impacts.
-"""
+"""Number of periods in which the motions may differ before the check fails.  One period in which they agree is enough,
+because in a single period rounding may decide the order of simultaneous impacts."""
 _MOST = 8
-"""Largest number of periods tested until one has a contact: the drive may act on a body through contacts only."""
+"""Largest number of periods that are compared.  Periods without contact prove nothing, because the drive may act on a
+body through contacts only."""
 
 
 def scan(
@@ -132,7 +134,7 @@ def check_period(model: Model, state: State, period: float, thing: str, remedy: 
         try:
             later = flow(model, replace(state, time=end.time), end.time + period).state
         except (InvalidInput, RunFailed):
-            # the bodies overlap, or the closed contacts are open there
+            # the motion cannot begin a period later, as bodies overlap or closed contacts open: an infinite difference
             off = np.inf
         else:
             off = float(np.max(np.abs(np.concatenate([later.q - end.q, later.u - end.u]) / scales), initial=0.0))

@@ -64,7 +64,7 @@ class Section(ABC):
         return
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
-        """Return the angle by which a period turns a state [rad], by symmetry; empty by default."""
+        """Return the angle by which a state has turned after one period [rad], by symmetry; empty by default."""
         return {}
 
 
@@ -82,7 +82,7 @@ class StroboscopicSection(Section):
     period: float
 
     def flow(self, model: Model, start: State) -> FlowSegment:
-        """Run for a period."""
+        """Run a model from a state for one period of the drive."""
         return flow(model, start, start.time + self.period)
 
     def with_period(self, period: float) -> StroboscopicSection:
@@ -145,7 +145,7 @@ class PoincareSection(Section):
         return Family(make, family.values, family.engine, family.units)
 
     def first(self, model: Model, start: State) -> State:
-        """Return the state at the first passage of a motion; ``start`` is a state of the system without the guard."""
+        """Return the state at the first passage of a motion; ``start`` belongs to the system before :meth:`guarded`."""
         return self._next(model, replace(start, guards_spent=np.append(start.guards_spent, 0))).state
 
     def flow(self, model: Model, start: State) -> FlowSegment:
@@ -159,7 +159,7 @@ class PoincareSection(Section):
         return FlowSegment(state, tuple(signature), tuple(times))
 
     def with_period(self, period: float) -> PoincareSection:
-        """Return this section: its passages determine the period."""
+        """Return this section unchanged: its period is the time between passages, which no drive prescribes."""
         return self
 
     def fixed(self, model: Model) -> tuple[str, ...]:
@@ -246,5 +246,5 @@ def state_at(model: Model, begin: State, time: float) -> State:
 
 
 def state_at_phase(model: Model, begin: State, period: float, at: float) -> State:
-    """Return the first state of a motion from ``begin`` on at the time ``at`` within a period [s]."""
+    """Run a motion from ``begin`` to the next time that is ``at`` after the start of a period [s]; return its state."""
     return state_at(model, begin, begin.time + (at - begin.time) % period)

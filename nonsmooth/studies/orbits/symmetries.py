@@ -30,8 +30,8 @@ _AXES = "xyz"
 _TEST_ANGLE = 1.0
 """Angle by which a state is turned to test a symmetry [rad]."""
 _SAME = 1e-6
-"""Largest difference of the motion from a turned start to the turned motion, in units of scales: round-off of runs is
-below it."""
+"""Largest difference between the motion from a turned start and the turned motion, relative to the scales of the
+coordinates: errors of runs are smaller."""
 _GUESSES, _MOST = 5, 20
 """Number of angles per turn that are tried first, and largest number of Newton's steps from the best of them."""
 _CLOSE = 1e-9
@@ -98,7 +98,7 @@ class Turn(Symmetry):
 @final
 @dataclass(frozen=True)
 class Spin(Symmetry):
-    """A body turns about its own axis of symmetry, of shape and inertia.
+    """A body turns about an axis about which its shape and its inertia are symmetric.
 
     Attributes
     ----------
@@ -161,12 +161,12 @@ class RelativeSection(Section):
     symmetries: tuple[Symmetry, ...]
 
     def flow(self, model: Model, start: State) -> FlowSegment:
-        """Run to the next end of a period, and turn it back.
+        """Run to the end of the period, and turn the end state back to where it is nearest to the start.
 
         Raises
         ------
         InvalidInput
-            If a contact is closed at the end: the state of a contact has directions in space.
+            If a contact is closed at the end: its slip direction would have to be turned back, too.
         """
         segment = self.section.flow(model, start)
         if np.any(segment.state.modes):
@@ -183,11 +183,16 @@ class RelativeSection(Section):
         return self.section.fixed(model)
 
     def ignored(self, model: Model, state: State) -> Array:
-        """Return the directions of the symmetries, shape [n_q + n_u, k]."""
+        """Return the directions along which the symmetries turn a state, shape [n_q + n_u, k].
+
+        States that differ only along these directions are taken as equal.
+        """
         return np.column_stack([one.direction(model.system, state) for one in self.symmetries])
 
     def check(self, model: Model, start: State) -> None:
-        """Check that turning before a period is the same as turning after it.
+        """Check each symmetry: a run from a turned start must end in the turned end state of the run from the start.
+
+        Both runs last one period.
 
         Raises
         ------
@@ -209,7 +214,7 @@ class RelativeSection(Section):
                 raise InvalidInput("orbit: symmetries", rule, str(one), "Leave it out.")
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
-        """Return the angle by which the next period turns a state [rad], within half a turn."""
+        """Return the angle by which a state has turned after the next period [rad], by symmetry, within half a turn."""
         angles = self._angles(model, start, self.section.flow(model, start).state)
         return dict(zip(map(str, self.symmetries), angles.tolist(), strict=True))
 
@@ -219,7 +224,7 @@ class RelativeSection(Section):
         return state
 
     def _angles(self, model: Model, start: State, end: State) -> Array:
-        """Return the angles [rad] by which to turn the end back so that it is nearest to the start, by Newton."""
+        """Return the angles by which the end state is turned back to be nearest to the start [rad], by Newton."""
         scales = np.concatenate([body.scales[1] for body in model.system.bodies])
         rows = [slice(at, at + 4) for at in quaternions_of(model.system).values()]
 
