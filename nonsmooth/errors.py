@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 _LONGEST = 400
-"""Largest number of characters of a value or a list in a message, because meshes have thousands."""
+"""Largest number of characters of a value or a list in a message: the value of a mesh has thousands of numbers."""
 
 
 STUCK = "see the page 'Stuck?' of the documentation"
@@ -139,7 +139,7 @@ _LETTERS = {
     "r": "radius",
     "rho": "density",
 }
-"""Name of a parameter, by the letter that publications use for it."""
+"""Letter in publications -> name of the parameter, which a message gives if the user has written the letter."""
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:
