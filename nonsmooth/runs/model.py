@@ -463,7 +463,7 @@ class Model:
             if found.status == RunStatus.DONE and (overlap := interpenetration(laid, recorded.rows)):
                 found = RunOutcome(RunStatus.FAILED, overlap)
             unread = UnreadEnd(final, found, ending.status, wall, recorded)
-            # an unread end holds two checkpoints; if they are large, the solution gets the end itself
+            # an UnreadEnd keeps two checkpoints of the memory; if they are large, read the end from it now
             is_large = 2 * self._blank.size > _LARGEST_UNREAD
             solution = Solution(laid.system, recorded, unread.read() if is_large else unread)
             has_failed = found.status == RunStatus.FAILED

@@ -94,8 +94,8 @@ class Records:
     def drain(self) -> None:
         """Copy the buffers of the engine and empty them.
 
-        Each call of the engine has one copy. If an interrupt prevented only the emptying, the copy of the engine's last
-        call exists already, and the buffers are only emptied.
+        The copy is stored under the number of the engine's last call. If an interrupt came after the copy, it exists
+        already, and the buffers are only emptied.
         """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
@@ -174,7 +174,7 @@ class Records:
             )
         # the floats of an event begin with its time
         first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
-        # if records are stored, the start event is among them
+        # the records of a resumed run have the start event already (`stored`); any other run must record it now
         if self.stored is None and engine.records_contacts and first > start:
             raise InvalidInput(
                 thing,
