@@ -163,7 +163,7 @@ class Line:
         return distance
 
     def _motion(self) -> tuple[Vector, Vector]:
-        """Coordinate rates dq/dt of a motion at 1 m/s without turning, and its direction, the one nearest to ``way``."""
+        """Coordinate rates dq/dt of a motion at 1 m/s without turning, and its direction, the nearest to ``way``."""
         probe = self._probe
         probe.frame(0)
         u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]

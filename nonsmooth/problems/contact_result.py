@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 
 class ContactMode(StrEnum):
-    """Mode of a contact at an instant of sustained contact. The members have the order of the engine's numbers 0, 1, 2."""
+    """Mode of a contact at an instant of sustained contact; the order is that of the engine's numbers 0, 1, 2."""
 
     OPEN = "open"
     """The gap is positive, or it is zero and begins to grow."""

@@ -90,8 +90,8 @@ def _contacts_within(events: Events, begin: float, end: float) -> tuple[Integers
     # the last event before the span shows the contacts at its beginning
     first = max(0, int(np.searchsorted(events.time, begin, side="right")) - 1)
     last = int(np.searchsorted(events.time, end, side="right"))
-    # event i has the entries events.first[i] to events.first[i + 1] of the list of contacts. Without events the range is
-    # empty
+    # event i has the entries events.first[i] to events.first[i + 1] of the list of contacts. The range is empty without
+    # events
     entries = slice(*events.first[[first, max(first, last)]].tolist()) if len(events) else slice(0)
     contacts = events.listed[entries]
     in_fallback = contacts[events.listed_memory[entries, _MODE_AFTER_FALLBACK] != Mode.OPEN]

@@ -184,7 +184,7 @@ def _caption(graph: TransitionGraph, many: bool) -> str:
 
 
 def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGraph) -> str:
-    # count an impact once: one transition leads into it, another out of it
+    # an impact is two transitions, into its mode (in `passing`) and out of it; count only the first of them
     changes = sum(n for (one, _, _), n in graph.counts.items() if one not in graph.passing)
     title = f"Modes of the run: {len(graph.shares)} visited, {changes} transition{'s' * (changes != 1)}"
     what = "modes"

@@ -175,7 +175,7 @@ class TwoLinkArm(Scenario):
 
 
 def _critical_friction(scenario: TwoLinkArm) -> Figure:
-    """Draw the least friction of the paradox over the first link's angle, and the start of the runs."""
+    """Draw the least friction of Painleve's paradox over the first link's angle; mark the start of the runs."""
     ratio = scenario.height / scenario.link_length
     low, high = math.acos(min(1.0, ratio)), math.acos(max(-1.0, ratio - 1.0))
     angles = np.linspace(low, high, 402)[1:-1]
