@@ -298,7 +298,7 @@ def with_defaults(owner: type, values: Mapping[str, Any]) -> Any:
     Parameters
     ----------
     owner : type
-        The dataclass. If ``values`` are its required fields, too, the subclass has no required field.
+        The dataclass. Its required fields must be in ``values`` for the subclass to be made without arguments.
     values : mapping
         New default values by the name of the field.
     """

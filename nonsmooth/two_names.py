@@ -54,7 +54,7 @@ class _Finder(MetaPathFinder):
 
 
 class _SameModule(Loader):
-    """Loader that gives a module's shorter name, ``bodies.ball``, the module of the name ``nonsmooth.bodies.ball``."""
+    """Loader that returns the module ``nonsmooth.bodies.ball`` for the name ``bodies.ball``."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         module = importlib.import_module(_PREFIX + spec.name)

@@ -125,7 +125,7 @@ class StateReplay:
     def codes(self, times: Floats) -> Integers:
         """Codes of all contacts after the last event of each time, shape [n, n_contacts].
 
-        A code is a sum of the bits of Eq. (29): closed 1, approaching 2, slipping 4.
+        A code is a sum of bits, Eq. (29) of the paper: closed 1, approaching 2, slipping 4.
         """
         return self._events.codes_after(self._event[self._row(times)])
 

@@ -68,7 +68,7 @@ class Line:
         ]
 
     def met(self) -> Vector:
-        """Coordinates of the body at its first meeting along the line.
+        """Coordinates of the body where it first touches another body along the line, or is ``height`` apart from it.
 
         A body that overlaps is moved back until it overlaps with nothing.
 

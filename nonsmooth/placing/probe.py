@@ -104,7 +104,10 @@ class Probe:
         return gaps
 
     def rates(self, u: Vector) -> Vector:
-        """Gap rate and slip velocity of the body's contacts [m/s], shape [n, 3]; NaN for contacts that are not near."""
+        """Gap rate and slip velocity of the body's contacts [m/s], shape [n, 3].
+
+        The values are NaN for contacts that are not on the neighbour list.
+        """
         self.u[:] = u
         call_entry("evaluate_at", self.model.memory)
         n = int(self.model.memory[owners.Island.n_contacts])

@@ -35,7 +35,7 @@ _ACCOUNTED = places("totals.driven_work", "totals.restitution_loss", "totals.fri
 _ALWAYS = 1 << BEFORE | 1 << DURING | 1 << AFTER
 """Factor that turns the code of a mode into that of a contact with this mode before, during and after an event."""
 _STICK_CODE, _SLIDE_CODE = 1, 5
-"""Codes of the modes of a closed contact, bits of Eq. (29)."""
+"""Sums of the bits (closed 1, slipping 4; Eq. (29) of the paper) of a sticking and of a sliding contact."""
 _FILLED = places(
     "output.n_events", "output.n_samples", "output.floats_used", "output.integers_used", "output.last_floats"
 ).tolist()

@@ -155,7 +155,8 @@ def _looks(body: Body) -> Iterator[tuple[int, Look]]:
 def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[FrameLook]) -> Iterator[Stroke]:
     """Line between the ends of a load or joint.
 
-    For a joint there is also a line from each end that is outside of its frame's shapes to the origin of the frame.
+    For a joint there is also a line from the end on a movable body to the origin of its frame, if the end is outside of
+    the shapes on the frame.
     """
     bodies = tie.first, tie.second
     frames = [first[id(body)] + offset for body, offset in zip(bodies, tie.frames, strict=True)]

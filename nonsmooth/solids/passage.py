@@ -1,7 +1,8 @@
-"""First meeting of two solids, one of which is moved along a line without rotation.
+"""Distance along a line that a solid moves without rotation until it meets another solid.
 
 The distance of two convex sets is a convex function of this translation.  Each step of the search moves the solid as
-far as the planes that prove the distance allow.  So the first meeting is approached from before it and never passed.
+far as the planes that prove the distance allow.  So the place of the first meeting is approached from before it and
+never passed.
 """
 
 from __future__ import annotations

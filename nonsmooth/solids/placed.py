@@ -115,14 +115,14 @@ def nested(one: Placed, two: Placed, tolerance: float) -> float:
 def near_pairs(
     one: Placed, two: Placed, margin: float = 0.0, way: Vector | None = None
 ) -> Iterator[tuple[Piece, Piece]]:
-    """Pairs of pieces of two solids whose boxes meet.
+    """Pairs of pieces of two solids whose boxes overlap or are at most ``margin`` apart.
 
     Parameters
     ----------
     one, two : Placed
         The solids.
     margin : float
-        Largest distance of two boxes that are treated as meeting [m].
+        Largest distance of the boxes of a pair [m].
     way : Vector, optional
         Translation of the first solid [m], shape [3]. The boxes of its pieces then contain the whole path.
     """

@@ -119,7 +119,7 @@ class End:
     verdict: Mapping[Measure, float] = field(default_factory=dict)
 
     def read(self) -> End:
-        """Return this object: an :class:`EndSource` is read for the end of a run, and an End already is the end."""
+        """Return this object, because an End is an :class:`EndSource` that has been read already."""
         return self
 
     @property

@@ -272,7 +272,7 @@ class Events:
     def spelled(codes: Integers) -> list[str]:
         """Mode word, such as "{01,00,01}", of each row of ``codes``, shape [n, n_contacts].
 
-        Its groups are the bits closed, approaching and slipping of Eq. (29), with the first contact rightmost in each.
+        Its groups are the bits closed, approaching and slipping (Eq. (29) of the paper), the first contact rightmost.
         """
         unique, inverse = np.unique(codes, axis=0, return_inverse=True)
         found = [word(list(row & 1), list(row >> 1 & 1), list(row >> 2 & 1)) for row in unique]

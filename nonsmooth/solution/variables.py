@@ -47,7 +47,7 @@ _MEMORY = (
     ("mode after the time-stepping fallback", "1"),
     *((f"feature {number}", "1") for number in range(CANDIDATE)),
 )
-"""Names and units of the columns of ``Events.listed_memory``, the numbers that a contact keeps for the further run."""
+"""Names and units of the columns of ``Events.listed_memory``, which a contact keeps for a continued run."""
 _MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
 _SHIFTS = {"mode_before": BEFORE, "mode_during": DURING, "mode_after": AFTER}
 _CAUSE: dict[str, Any] = {

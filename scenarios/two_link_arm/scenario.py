@@ -90,7 +90,7 @@ class TwoLinkArm(Scenario):
 
     @property
     def reduced_coefficient(self) -> float:
-        """A = G_nn - mu G_nt at the start [1/kg]; negative in the paradox."""
+        """A = G_nn - mu G_nt at the start [1/kg]; negative in Painleve's paradox."""
         return painleve.reduced_coefficient(self.angle, self.friction, *self.sizes)
 
     def build(self) -> System:
@@ -135,7 +135,7 @@ class TwoLinkArm(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the published numbers of the posture, whether it is a paradox, and the impulse that ends it."""
+        """Return the published numbers of the posture, whether it is Painleve's paradox, and the impulse that ends it."""
         found = []
         if self.sizes == (5.0 / 3.0, 1.0, 1.0):
             source = "Liu, Zhao, Chen (2007)"
