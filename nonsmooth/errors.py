@@ -56,7 +56,7 @@ class MissingArgument(InvalidInput):
         self.args = (f"{thing} must be given. {remedy}",)
 
     def within(self, place: str) -> MissingArgument:
-        """Same error with ``place``, where the argument is missing, in front of the name of the argument."""
+        """Copy of the error that names ``place``, the function or table in which the argument is missing."""
         return MissingArgument(f"{place}: {self.thing}", self.remedy)
 
 
@@ -107,12 +107,12 @@ class UnknownName(InvalidInput):
         self.args = (f"{unknown} {_shortened(repr(name))}. {self.remedy}",)
 
     def within(self, place: str) -> UnknownName:
-        """Same error with ``place``, where the name was given, in its message."""
+        """Copy of the error that names ``place``, the function or table in which the name was given."""
         return UnknownName(f"{place}: {self.thing}", str(self.value), self._known, self._other, self._remedy)
 
 
 class UnknownRun(InvalidInput):
-    """A word that is neither a folder of results nor a scenario, with the nearest scenario.
+    """A word for a run that names no folder of results and no scenario; the message has the most similar scenario.
 
     Parameters
     ----------

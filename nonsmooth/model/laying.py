@@ -74,7 +74,7 @@ def joints_in_order(system: System) -> list[Tie]:
 
 @dataclass(frozen=True)
 class BodyLayout:
-    """Where the memory has the numbers of a body.
+    """Places in the memory of the numbers of a body.
 
     Attributes
     ----------

@@ -67,7 +67,7 @@ class Kind:
         return start
 
     def output(self, declared: Any, size: int) -> None:
-        """Append room for ``size`` numbers that a law writes, with a mark behind; their place is field ``declared``."""
+        """Append ``size`` places for numbers that a law writes, and a mark; field ``declared`` gets their offset."""
         self.mark_written(declared, self.store(declared, output_block(size)), size)
 
     def mark_written(self, declared: Any, place: int, size: int) -> None:
@@ -125,7 +125,7 @@ def by_kind(contacts: Sequence[Contact]) -> Kinds:
 
 
 def lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Write where the inner states of each contact begin, and the scales of the inner states for the error of a step.
+    """Write the first place of each contact's inner states, and their scales for the error of a step.
 
     The inner states of friction laws come last in the state, in the order of the contacts.
     """

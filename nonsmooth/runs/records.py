@@ -75,9 +75,9 @@ class Records:
 
     @property
     def n_events(self) -> int:
-        """Number of events so far, with those of an earlier process, without those that a continued run repeats.
+        """Number of events so far, with events of an earlier process, without events that a continued run repeats.
 
-        While a continued run repeats events, the count is less by those that it has yet to repeat, and may be negative.
+        While a continued run repeats events, the count is less by the events yet to repeat, and may be negative.
         So the difference of two counts is the number of events between two contents of the memory.
         """
         _, integers = self.model.memory.cells
@@ -115,12 +115,12 @@ class Records:
     def add_start(self, state: State) -> None:
         """Add a start event to a continued run, with the modes of its state.
 
-        The engine records none there, because the run has started before.
+        The engine records no event there, because the run has started before.
         """
         # floats of an event: time, four energies, q, u before and after, the rest of the integrated state, totals of
         # energies, and then numbers of the closed contacts. Impulses are 0. FACING is the side, 1 or -1, from which
-        # anisotropic friction is opposed. A state holds neither it nor the mode after averaging of forces (AVERAGED):
-        # here they are 1 and open
+        # anisotropic friction is opposed, and AVERAGED the mode after the time-stepping fallback. A state has no values
+        # of them: here they are 1 and open
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
@@ -148,7 +148,7 @@ class Records:
         """
         self._check_events(engine)
         floats, _ = self.model.memory.cells
-        # the time of the next sample is after the end if none is left out
+        # time of the next sample [s]: it is after the end of the run if no sample is left out
         expected = floats.item(_NEXT)
         # a sample within round-off before the end may be left out, and so may one within the accuracy of times,
         # because a run that is shorter than that has no step

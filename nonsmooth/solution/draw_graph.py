@@ -66,7 +66,7 @@ def _relaxed(steps: Array, order: Array) -> Array:
 
 
 def _stress(points: Array, steps: Array) -> float:
-    """Sum of the squares of (distance - number) / number, where the number is that of transitions between two modes."""
+    """Sum of ((distance - n) / n)^2 over pairs of modes; n is the number of transitions between the two modes."""
     apart = np.linalg.norm(points[:, None] - points[None], axis=2)
     return float(np.sum(np.divide(apart - steps, steps, out=np.zeros_like(steps), where=steps > 0.0) ** 2))
 

@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, C
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 ReadRows: TypeAlias = Callable[[str, int, int | None], NDArray[Any]]
-"""``read(name, start, stop)`` gives the rows from ``start`` to ``stop`` of a column; the stop None is its end."""
+"""``read(name, start, stop)`` gives rows ``start`` to ``stop`` of a column, to its end if ``stop`` is None."""
 _BLOCK = 2**14
 """Number of events that are read at once, so that a long run does not fill the memory."""
 ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")

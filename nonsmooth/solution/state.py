@@ -36,7 +36,7 @@ class Continuation:
         Digest of the model that ran.
     difference : Difference
         Difference between the memory at a checkpoint and the memory before any run.  The checkpoint is a few steps
-        before the end, where the content does not depend on the end time.
+        before the end, at a time when the content does not depend on the end time.
     n_known_events : int
         Number of events after the checkpoint. The continued run repeats them, and they are recorded already.
     """

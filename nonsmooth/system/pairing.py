@@ -158,7 +158,7 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
 
 
 def installed_pair(first: Shape, second: Shape) -> Found | None:
-    """Installed kinematics of two shapes, and True if it takes the shapes in this order; None if none is installed."""
+    """Installed kinematics of two shapes, and True if it takes the shapes in this order; None without kinematics."""
     return nearest_pair(registry.load_all("kinematics", _named_after(first, second)).values(), first, second)
 
 
@@ -178,7 +178,7 @@ def _named_after(first: Shape, second: Shape) -> list[str]:
 
 
 _UPPER = re.compile(r"(?<!^)(?=[A-Z])")
-"""Place before an upper-case letter within the name of a class, where it is divided into words."""
+"""Place before an upper-case letter within the name of a class: the name is divided into words there."""
 
 
 def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:

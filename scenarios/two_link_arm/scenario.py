@@ -135,7 +135,7 @@ class TwoLinkArm(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the published numbers of the posture, whether it is Painleve's paradox, and the impulse that ends it."""
+        """Return the posture's published numbers, whether it is Painleve's paradox, and the impulse that ends it."""
         found = []
         if self.sizes == (5.0 / 3.0, 1.0, 1.0):
             source = "Liu, Zhao, Chen (2007)"
