@@ -88,7 +88,7 @@ class History(Mapping[str, NDArray[Any]]):
     def of(
         cls, time: Floats, arrays: tuple[LabelledArray, ...], labels: Mapping[str, tuple[str, ...]], **more: Any
     ) -> History:
-        """History of arrays whose first axis is time; their ``dimensions`` name the axes after it.
+        """History of arrays; their ``dimensions`` name all axes but the axis of time, which comes first.
 
         Labels of axes that no array has are dropped.
         """
