@@ -77,7 +77,10 @@ def follows_compliance(
 def lies_in_half_ellipses(
     law: AnisotropicFrictionLaw, slip: Pair, normal_force: float, tangential_force: Pair, tolerance: float
 ) -> bool:
-    """True if a force lies in the bound of an anisotropic law and, under slip, where the bound's normal opposes it.
+    """True if a friction force obeys an anisotropic law within the tolerance.
+
+    At rest the force must lie within the bound, which consists of half ellipses. Under slip it must be the point of the
+    bound at which the outward normal is opposite to the slip.
 
     The components of slip and force are along the axis of the law and across it. Parameters as for
     :func:`opposes_slip`.

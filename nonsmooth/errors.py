@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 _LONGEST = 400
-"""Largest number of characters of a value or a list in a message, because meshes have thousands."""
+"""Largest number of characters of a value or a list in a message: the value of a mesh has thousands of numbers."""
 
 
 STUCK = "see the page 'Stuck?' of the documentation"
@@ -56,7 +56,7 @@ class MissingArgument(InvalidInput):
         self.args = (f"{thing} must be given. {remedy}",)
 
     def within(self, place: str) -> MissingArgument:
-        """Same error with ``place``, where the argument is missing, in front of the name of the argument."""
+        """Copy of the error that names ``place``, the function or table in which the argument is missing."""
         return MissingArgument(f"{place}: {self.thing}", self.remedy)
 
 
@@ -107,12 +107,12 @@ class UnknownName(InvalidInput):
         self.args = (f"{unknown} {_shortened(repr(name))}. {self.remedy}",)
 
     def within(self, place: str) -> UnknownName:
-        """Same error with ``place``, where the name was given, in its message."""
+        """Copy of the error that names ``place``, the function or table in which the name was given."""
         return UnknownName(f"{place}: {self.thing}", str(self.value), self._known, self._other, self._remedy)
 
 
 class UnknownRun(InvalidInput):
-    """A word that is neither a folder of results nor a scenario, with the nearest scenario.
+    """A word for a run that names no folder of results and no scenario; the message has the most similar scenario.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ _LETTERS = {
     "r": "radius",
     "rho": "density",
 }
-"""Name of a parameter, by the letter that publications use for it."""
+"""Letter in publications -> name of the parameter, which a message gives if the user has written the letter."""
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:

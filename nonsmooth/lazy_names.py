@@ -47,7 +47,7 @@ def lazy_names(package: str, file: str) -> Names:
         return value
 
     def directory() -> list[str]:
-        """Public names and names such as ``__file__``: completion in an editor shows no helper of the package."""
+        """Public names and names such as ``__file__``, for completion in an editor, without helpers."""
         return sorted({*modules, *(name for name in vars(sys.modules[package]) if re.fullmatch(r"__\w+__", name))})
 
     return get, directory, sorted(modules)

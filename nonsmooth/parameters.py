@@ -89,7 +89,7 @@ _known: WeakKeyDictionary[type, Rules] = WeakKeyDictionary()
 
 def rules(owner: type) -> Rules:
     """Declared parameters of a component class by name."""
-    # stored, because every new object of the class needs them
+    # the rules of a class are stored, because each new object of the class is checked by them
     if owner not in _known:
         found = {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
         _known[owner] = MappingProxyType(found)
@@ -97,7 +97,10 @@ def rules(owner: type) -> Rules:
 
 
 def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
-    """Error of a function with an argument that is not a parameter: often a field not declared by `parameter`."""
+    """Error for a function with an argument that is no parameter, often a field that `parameter` does not declare.
+
+    ``asking`` names the function at the begin of the message, ``offered`` are the known parameters.
+    """
     declared = f'{name}: float = parameter(0.2, doc="what it is")'
     remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
     return UnknownName(f"{asking} asks for: parameter", name, offered, remedy=remedy)
@@ -231,7 +234,8 @@ class Component(metaclass=_Checked):
             if rule.unit != "":
                 check_number(thing, value, rule)
             if rule.integer:
-                object.__setattr__(self, name, int(value))  # a study or a file gives an integer as 3.0
+                # a study or a file gives an integer as 3.0, but _check() and the component get an int
+                object.__setattr__(self, name, int(value))
         self._check()
 
     def _check(self) -> None:
@@ -295,7 +299,7 @@ def with_defaults(owner: type, values: Mapping[str, Any]) -> Any:
     Parameters
     ----------
     owner : type
-        The dataclass. If ``values`` are its required fields, too, the subclass has no required field.
+        The dataclass. Its required fields must be in ``values`` for the subclass to be made without arguments.
     values : mapping
         New default values by the name of the field.
     """

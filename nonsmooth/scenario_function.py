@@ -93,6 +93,6 @@ def _class_of(function: Callable[..., System], members: Mapping[str, Any], field
     namespace["__wrapped__"] = staticmethod(function)
     made: Any = new_class(function.__name__, (Scenario,), exec_body=lambda content: content.update(namespace))
     made = dataclasses.dataclass(frozen=True)(made)
-    # otherwise help() shows the signature of the function, whose defaults are fields
+    # without this help() shows the signature of the function, in which a default is a dataclass field and no value
     made.__signature__ = inspect.Signature([*inspect.signature(made.__init__).parameters.values()][1:])
     return made

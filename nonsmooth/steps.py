@@ -50,8 +50,9 @@ def kernel(own: type[Singleton], signature: str = "void(ws)") -> Callable[[_Func
     Parameters
     ----------
     own : type of Singleton
-        As for :func:`step`.
+        Class that declares the numbers which the engine adds, as for :func:`step`.
     signature : str
-        As for :func:`step`, with ``v2`` and ``v3``, tuples of two and three floats, and records such as ``Contact``.
+        Types of the result and of the arguments, as for :func:`step`. Also allowed are ``v2`` and ``v3``, tuples of two
+        and three floats, and records such as ``Contact``.
     """
     return own_kernel(own, signature)

@@ -41,7 +41,7 @@ def join_names(name: str) -> None:
 
 
 class _Finder(MetaPathFinder):
-    """Finds ``bodies.ball`` if ``bodies`` is the module of ``nonsmooth.bodies``."""
+    """Import finder: it finds ``bodies.ball`` as ``nonsmooth.bodies.ball`` if ``bodies`` is our package."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -54,7 +54,7 @@ class _Finder(MetaPathFinder):
 
 
 class _SameModule(Loader):
-    """Gives a module of the shorter name that of the longer one."""
+    """Loader that returns the module ``nonsmooth.bodies.ball`` for the name ``bodies.ball``."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         module = importlib.import_module(_PREFIX + spec.name)

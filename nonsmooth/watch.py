@@ -17,9 +17,15 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry, forget_watch, watch_address
 
 _FIRST = 8192
-"""Work before the first interrupt check [evaluations of a contact]: some milliseconds, as threads wait at a check."""
+"""Work before the first interrupt check [evaluations of a contact], which takes some milliseconds.
+
+Shorter calls have no check, because threads wait for each other at a check.
+"""
 _SECONDS = 5e-3
-"""Time between two later checks [s]. Each check sets the next work budget, because work may become more costly."""
+"""Time between two interrupt checks, after the first one [s].
+
+Each check sets the work until the next check anew, because the work may take longer than before.
+"""
 _REPORTED_EVERY = 0.1
 """Time between two reports [s]."""
 
@@ -27,10 +33,10 @@ _REPORTED_EVERY = 0.1
 class Watch:
     """Context in which calls of the engine report progress, and Ctrl-C ends them without loss of results.
 
-    The engine calls the interrupt check in the thread that waits for it, so that signals are handled there. In a call
+    The engine calls the interrupt check in the thread that called the engine, where Python handles signals. In a call
     that takes longer than some milliseconds the first Ctrl-C is kept until the engine returns. A second one interrupts
-    the Python code that runs. A handler of the user for Ctrl-C stays in place. An exception of the handler or of the
-    report ends the call of the engine, and is raised after it.
+    the Python code that runs. A handler of the user for Ctrl-C stays in place. An exception of this handler, or of the
+    function that reports progress, ends the call of the engine, and is raised after it.
 
     Parameters
     ----------
@@ -54,7 +60,7 @@ class Watch:
     def __enter__(self) -> Watch:
         interpreted.forget()
         if inspect.getgeneratorstate(self._looks) == inspect.GEN_CLOSED:
-            # a second Ctrl-C has ended the generator
+            # a second Ctrl-C has ended the generator that checks for interrupts: make a new one
             self._begin_to_look()
         self._began = self._last = self._reported = time.perf_counter()
         self._patience, self._settled = float(_FIRST), False
@@ -77,9 +83,9 @@ class Watch:
         Raises
         ------
         KeyboardInterrupt
-            After Ctrl-C. The memory has the state before the unfinished part.
+            After Ctrl-C. The memory has the last state that the engine completed.
         BaseException
-            An exception that the report has raised.
+            An exception of the function that reports progress.
         """
         self._stop_if_asked()
         self._last = self._reported = time.perf_counter()
@@ -104,7 +110,7 @@ class Watch:
         weakref.finalize(self, forget_watch, self._address)
 
     def _handle(self) -> None:
-        """Set a handler for Ctrl-C if the user has set none. Only long calls do so, because it takes a while."""
+        """Set a handler for Ctrl-C if the user has set none. It takes time, so only long calls do it."""
         self._handles = (
             threading.current_thread() is threading.main_thread()
             and signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -132,15 +138,16 @@ class Watch:
         return 0.0 if self._asked else self._patience
 
     def fail(self, error: BaseException) -> None:
-        """Keep an exception that is raised when the engine has returned."""
+        """Store an exception of the interrupt check; it is raised after the engine has returned."""
         self._error = error
 
 
 def _looks(of: weakref.ref[Watch]) -> Generator[float, float, None]:
     """Interrupt check as a generator: it receives the time of the run at each check [s], and yields the work budget.
 
-    Python handles a signal that came during the call of the engine before the next instruction. In a generator this is
-    inside of ``try``. A function would raise the exception before its first line.
+    Python handles a signal that came during the call of the engine before the next instruction of the check. In a
+    generator this instruction is inside of ``try``. In a function it would be the first line, so that the exception
+    would be raised outside of ``try``.
     """
     answer = 0.0
     while True:

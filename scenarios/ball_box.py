@@ -29,7 +29,7 @@ _GRAVITY = 9.81
 _LAYER = 2.6
 """Distance of neighbouring layers of balls at the start, relative to the radius: more than 2, so that none overlap."""
 _PLAY = 0.45
-"""Largest random shift of a ball at the start, relative to its margin in its cell; 0.5 would touch the next cell."""
+"""Largest random shift of a ball at the start, relative to the free length in its cell: below 0.5, it stays inside."""
 _ROOT = math.sqrt(0.5)
 _TURNS = ((_ROOT, 0.0, _ROOT, 0.0), (_ROOT, 0.0, -_ROOT, 0.0), (_ROOT, -_ROOT, 0.0, 0.0), (_ROOT, _ROOT, 0.0, 0.0))
 """Unit quaternions that turn the normal of a plate to +x, -x, +y, -y."""

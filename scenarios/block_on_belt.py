@@ -110,7 +110,9 @@ class BlockOnBelt(Scenario):
         return {"q": [float(solution.q_end[0])], "u": [float(solution.u_end[0])]}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return elongations at which slip starts [m], extremes [m], period [s] and stick of the last cycle, loss [J].
+        """Return numbers of the motion: elongations at which slip starts, and extremes of the elongation [m].
+
+        Also the period [s], the part of the last cycle in stick, and the loss to friction [J].
 
         ``stick_share`` is the fraction of the last cycle in stick.  Both it and the period are None before the second
         cycle.

@@ -171,7 +171,7 @@ class Dominoes(Scenario):
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the row at four instants, and the speed of the wave."""
+        """Return figures: "row", the dominoes at four instants, and "wave", the speed of the wave along the row."""
         return {"row": _row(self, solution), "wave": _wave({"": (self, solution)})}
 
     @classmethod

@@ -1,4 +1,4 @@
-"""The dumbbell of the paper with polyhedra in place of balls, compared with the dumbbell with balls."""
+"""The dumbbell of :mod:`scenarios.dumbbell` with polyhedra in place of balls, compared with the dumbbell with balls."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class MeshDumbbell(Scenario):
 
     @property
     def exact(self) -> DumbbellScenario:
-        """The same scenario with balls."""
+        """The dumbbell with exact balls, in the same mode and to the same end time."""
         return DumbbellScenario(mode=self.mode, t_end=self.t_end)
 
     def build(self) -> System:
@@ -177,7 +177,7 @@ def _gaps(runs: Sequence[tuple[MeshDumbbell, Solution]], balls: Solution) -> Fig
         gaps = {label: (1e3 * t, 1e3 * gap[:, i]) for label, (t, gap) in curves.items()}
         charts.histories({f"gap of ball {i + 1} [mm]": gaps}, xlabel="", axes=[ax])
         ax.lines[0].set(color="0.7", linewidth=4.0)
-    # an empty first curve takes the colour of the balls
+    # the balls have no difference: an empty first curve takes their colour, so that each polyhedron keeps its colour
     charts.histories({"largest difference [mm]": {"": ([], []), **differences}}, xlabel="time [ms]", axes=[below])
     below.set_yscale("log")
     charts.legend(figure)

@@ -108,7 +108,7 @@ class NewtonsCradle(Scenario):
         return {"q": solution.q_end[::7].tolist(), "u": self.velocities(solution).tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return velocities / speed of the strikers, kinetic energy at the end / at the start, number of impacts."""
+        """Return velocities over the strikers' speed, kinetic energy at the end over that at the start, impacts."""
         account = solution.energy
         return {
             "relative_velocity": (self.velocities(solution) / self.speed).tolist(),

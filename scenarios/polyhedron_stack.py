@@ -100,7 +100,10 @@ class PolyhedronStack(Scenario):
 
     @property
     def stands(self) -> bool:
-        """True if the uppermost prism stops long before it tips, and no prism below slides or tips."""
+        """True if the uppermost prism does not slide far enough to tip, and no prism below slides or tips.
+
+        Far enough is half the inner radius of the prism below it.
+        """
         inner = self.radius * self.taper ** (len(_SIDES) - 2) * math.cos(math.pi / _SIDES[-2])
         return self.way < 0.5 * inner and self.friction * self.height < 0.6 * inner
 

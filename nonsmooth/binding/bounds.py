@@ -47,7 +47,7 @@ class _Enough(Exception):
 
 
 class _Bounded:
-    """Stand-in for a pointer to floats that checks the bounds of its block."""
+    """Replacement for a pointer to floats, which checks that each read and write is within the block of the pointer."""
 
     def __init__(self, values: Sequence[float], left: list[int], first: int = 0) -> None:
         self._values, self._left, self._first = values, left, first
@@ -67,7 +67,7 @@ class _Bounded:
         self._values[self._place(i)] = float(value)  # type: ignore[index]
 
     def moved(self, offset: int) -> _Bounded:
-        """Stand-in for the pointer moved by an offset [floats], with the bounds of the same block."""
+        """Pointer to the float ``offset`` floats further on; it has the bounds of the same block."""
         return _Bounded(self._values, self._left, self._first + offset)
 
 
@@ -80,14 +80,14 @@ def try_out(
     owner: str,
     given: Sequence[float | Sequence[float]] = FRAMES,
 ) -> None:
-    """Call a function as plain Python on blocks with bounds, once for equal parameters.
+    """Call a function as plain Python on blocks with bounds; skip the call if it was made with equal parameters.
 
     Parameters
     ----------
     function, form, values, owner
         As for :func:`nonsmooth.binding.compile.bind`.
     heap : sequence of float
-        Block of parameters from that function.
+        Block of the function's parameters, from :func:`nonsmooth.binding.compile.bind`.
     size : int
         Number of floats that the function may write.
     given : sequence

@@ -16,7 +16,10 @@ Vector = NDArray[np.float64]
 def body_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> Callable[[float, Vector, Vector, Vector], None]:
-    """Function ``call(t, q, u, out)`` that runs a function of the form "body" just as the engine runs it.
+    """Function ``call(t, q, u, out)`` that runs the evaluator of a body just as the engine runs it.
+
+    At time t [s], coordinates q and velocities u it writes the output block of the body to ``out``
+    (:class:`nonsmooth.interfaces.Body`).
 
     The vectors must be contiguous arrays of floats. Their lengths are not checked.
 
@@ -32,7 +35,10 @@ def body_caller(
 def pair_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> Callable[[Vector, Vector, Vector], None]:
-    """Function ``call(a, b, out)`` that runs a function of the form "pair" just as the engine runs it.
+    """Function ``call(a, b, out)`` that runs the evaluator of a contact pair just as the engine runs it.
+
+    From the frame blocks a and b of two bodies it writes the geometry block of the contact to ``out``
+    (:class:`nonsmooth.interfaces.ContactKinematics`).
 
     The vectors must be contiguous arrays of floats. Their lengths are not checked.
 
@@ -65,7 +71,10 @@ def candidate_caller(
 def _pair_caller(
     function: Callable[..., None], values: Mapping[str, Value], owner: str
 ) -> tuple[Callable[[Vector, Vector, Vector], None], Vector]:
-    """Function ``call(a, b, out)``, and the block of its parameters, which may be changed between calls."""
+    """Function ``call(a, b, out)`` of :func:`pair_caller`, and the block of the evaluator's parameters.
+
+    The block may be changed between calls.
+    """
     address, heap = bind(function, "pair", values, owner)
     numbers = np.array([*heap, 0.0])
     return caller("pair", address, numbers), numbers

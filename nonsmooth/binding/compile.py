@@ -48,7 +48,10 @@ The first Ctrl-C is stored until the engine can stop, and the call is repeated. 
 
 
 class _Entry(NamedTuple):
-    """Address of a function. If it runs in Python: the reason, and the shim with which a call is timed."""
+    """How the engine calls a function: the address, and for a function that runs in Python two more fields.
+
+    ``refusal`` is the reason why the function is not compiled. ``shim`` is the Python function at the address.
+    """
 
     address: int
     refusal: Refusal | None = None
@@ -64,18 +67,18 @@ def parameter_names(function: Callable[..., Any], form: str) -> tuple[str, ...]:
 def bind(
     function: Callable[..., Any], form: str, values: Mapping[str, Value], owner: str
 ) -> tuple[int, tuple[float, ...]]:
-    """Address of a law function, and its parameters, which are found in ``values`` by name.
+    """Address of a function, and the block of its parameters, whose values are found in ``values`` by name.
 
     A function that cannot be compiled runs in Python. A warning gives the reason, once.
 
     Parameters
     ----------
     function : callable
-        A plain function whose first arguments are the roles of the form.
+        A plain function. The form prescribes its first arguments; the arguments after them are its parameters.
     form : str
         One of :data:`nonsmooth.engine.native.forms.FORMS`.
     values : mapping of str to float, tuple of float or SharedNumbers
-        The parameters of the law's object and its surroundings. The function gets tuples and tables as blocks.
+        Values by parameter name, such as fields of a law or the gravity. The function gets tuples and tables as blocks.
     owner : str
         The law, for messages.
 
@@ -126,7 +129,10 @@ def refused(function: Callable[..., Any], form: str) -> Refusal | None:
 def bind_in_python(
     function: Callable[..., Any], form: str, owner: str, method: Callable[..., Any], why: Refusal
 ) -> tuple[int, tuple[float, ...]]:
-    """Result of :func:`bind` for a function without parameters that calls a method that cannot be compiled."""
+    """Address, and empty block of parameters, of a function that runs in Python as it calls a method in Python.
+
+    A warning names the ``method`` and the reason ``why`` it cannot be compiled.
+    """
     shim = _shim_in_python(function, form, ())
     address = interpreted.address(shim, form)
     _warn(method, owner, why, interpreted.cost(shim, form, ()))
@@ -134,7 +140,7 @@ def bind_in_python(
 
 
 def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float], name: str) -> int:
-    """Position of a tuple in the block of parameters of :func:`bind`."""
+    """Position, in the block ``heap`` of a function's parameters, of the first number of the tuple ``name``."""
     return int(heap[parameter_place(function, form, name)])
 
 
@@ -214,9 +220,10 @@ def _record(form: Form) -> str:
 def in_python(
     function: Callable[..., Any], form: str, values: Mapping[str, Value], move: Callable[..., Any]
 ) -> Callable[..., Any]:
-    """Shim of a function as plain Python, in which an exception of the function is raised.
+    """Python function with the arguments of the form that calls a function of a law or body without compilation.
 
-    ``move(block, offset)`` returns the block from an offset on. It replaces the moved pointers of the engine.
+    An exception of the function is raised, so a message can name it. In compiled code, the function moves pointers by
+    ``at``; here it calls ``move(block, offset)``, which returns the block from the float ``offset`` on.
     """
     vectors = _vectors(values, parameter_names(function, form))
     scope = {"law": interpreted.in_python(function, move), "at": move}
@@ -231,11 +238,14 @@ def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
 
 
 _RAISING = ("RAISE_VARARGS", "BUILD_LIST", "BUILD_MAP", "BUILD_SET")
-"""Bytecode instructions that may lead to an exception: ``raise``, and containers, as an index may be out of range."""
+"""Bytecode instructions of functions that may raise an exception: ``raise``, and the making of a list, dict or set.
+
+An index or a key of the container may be missing.
+"""
 
 
 def _may_raise(function: Callable[..., Any]) -> bool:
-    """True if a function, or a function that it refers to, may raise an exception."""
+    """True if a function may raise an exception, or a function that it names, directly or through other functions."""
     waiting, seen = [inspect.unwrap(function)], set()
     while waiting:
         one = waiting.pop()
@@ -259,7 +269,7 @@ def _is_table(value: Any) -> bool:
 
 
 def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
-    """Result for ``x`` of the function of the form "scalar" at an address, with parameters from :func:`bind`."""
+    """Value at ``x`` of the function of one number at an address, with its block of parameters from :func:`bind`."""
     return float(caller("scalar", address, np.array(parameters, dtype=float))(x))
 
 

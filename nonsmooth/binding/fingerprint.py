@@ -44,7 +44,8 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
     for one in reached:  # grows as functions name further ones
         if not inspect.isfunction(one) or one.__closure__ is not None:
             return ""
-        if one.__module__ not in sys.modules:  # the module was made by hand, not imported: it may change without notice
+        # no digest for a module that was not imported, such as one made by exec: its content may change at any time
+        if one.__module__ not in sys.modules:
             return ""
         constants = (one.__code__.co_consts, one.__defaults__, *sorted((one.__kwdefaults__ or {}).items()))
         if not _is_constant(constants):
@@ -65,7 +66,10 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
 
 
 def _place_in_engine(value: Any) -> str:
-    """Name of a function of the engine, whose sources name the folder of compiled code; "" for other values."""
+    """Qualified name of a function of the engine; "" for other values.
+
+    The name suffices for the digest, because the code of the engine is part of the name of the folder of compiled code.
+    """
     if found := next((name for name, one in vars(kernel).items() if one is value and callable(one)), ""):
         return f"{kernel.__name__}:{found}"
     module, name = (str(getattr(value, attribute, "<none>")) for attribute in ("__module__", "__qualname__"))
@@ -73,13 +77,17 @@ def _place_in_engine(value: Any) -> str:
 
 
 def _shape(code: CodeType) -> tuple[Any, ...]:
-    """Attributes of a code object that determine what it does, except its constants: arguments, bytecode and names."""
+    """Arguments, bytecode and names of a code object. They and its constants determine what the code does."""
     arguments = (code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags)
     return *arguments, code.co_code, code.co_exceptiontable, code.co_names, code.co_varnames
 
 
 def _place_in_modules(value: Any) -> str:
-    """Name of a member of :mod:`math` or :mod:`numpy`, whose versions the machine code names; "" for other values."""
+    """Qualified name of a member of :mod:`math` or :mod:`numpy`; "" for other values.
+
+    The name suffices for the digest, because the versions of Python and numpy are part of the name of the folder of
+    compiled code.
+    """
     found = (f"{module.__name__}.{name}" for module in _MODULES for name, one in vars(module).items() if one is value)
     return next(found, "")
 

@@ -21,7 +21,7 @@ from nonsmooth.engine.native.kernel import PLAIN, at, unshared
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
 _SECONDS = 5e-3
-"""Time after which no further call of a function is timed [s], so that the measurement delays no run."""
+"""Time after which :func:`cost` times no further call [s], so that it hardly delays the start of a run."""
 _CALLS = 100
 _alive: list[Any] = []
 _raised: dict[Callable[..., Any], str] = {}
@@ -58,7 +58,10 @@ def let_go() -> bool:
 
 
 def address(shim: Callable[..., Any], form: str) -> int:
-    """Address of a C function of a form that calls a Python shim; it is valid until the process ends."""
+    """Address of a C function that calls a Python function; it is valid until the process ends.
+
+    ``form`` is the name of the arguments and the result in :data:`nonsmooth.engine.native.forms.FORMS`.
+    """
     callback = FORMS[form].prototype(_Pointer)(shim)
     _alive.append(callback)
     return int(ctypes.cast(callback, ctypes.c_void_p).value or 0)
@@ -90,9 +93,10 @@ def _time(function: Callable[..., Any], arguments: tuple[Any, ...]) -> float:
 
 
 def in_python(function: Callable[..., Any], move: Callable[..., Any]) -> Callable[..., Any]:
-    """Copy of a function that Python can run: it calls ``move(heap, offset)`` in place of the engine's ``at``.
+    """Copy of a function that Python can run without compilation.
 
-    ``at`` moves a pointer, which only compiled functions can do.
+    In place of the engine's ``at(block, offset)`` the copy calls ``move(block, offset)``. The reason is that ``at``
+    moves a pointer, which only compiled functions can do.
     """
     return function if PLAIN else _moving(unshared(function), move)
 

@@ -29,7 +29,11 @@ class Finding(NamedTuple):
 
 
 def first_without_value(findings: Iterable[Finding | None]) -> str:
-    """Message of the first finding whose function fails again, else of the first finding; "" without findings."""
+    """Message on the first function that gave no finite value; "" if there is no such function.
+
+    A function that fails again if it is called with the same input has precedence. In ``findings``, None is a function
+    without failure.
+    """
     found = [finding for finding in findings if finding is not None]
     return next((finding.text for finding in found if finding.again), found[0].text if found else "")
 
@@ -37,12 +41,12 @@ def first_without_value(findings: Iterable[Finding | None]) -> str:
 def without_value(
     heap: NDArray[np.float64], part: LawFunction, state: Sequence[float] | NDArray[np.float64] = (), where: str = ""
 ) -> Finding | None:
-    """Message with the last input for which a function gave no finite value in the engine; None without such an input.
+    """Message on a function that gave no finite value in the engine, with the last such input; None without failure.
 
     Parameters
     ----------
     heap : array
-        The engine's floats, from the block of the function's parameters on.
+        The floats of the engine's memory, from the block of the function's parameters to their end.
     part : LawFunction
         The function.
     state : sequence of float

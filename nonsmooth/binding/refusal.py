@@ -63,7 +63,10 @@ def _reason(message: str) -> str:
 
 
 def _place(message: str, file: str, first: int) -> tuple[str, int]:
-    """File and line of the innermost call that the message names outside of numba; else ``file`` and ``first``."""
+    """File and line of the first place outside of numba in a compiler's message, which is the innermost call.
+
+    Without such a place in the message: ``file`` and ``first``.
+    """
     for found in _PLACES.finditer(message):
         named, line = found["file"] or found["path"], int(found["line"] or found["number"])
         if Path(named).name == Path(file).name:

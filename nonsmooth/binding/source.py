@@ -62,9 +62,9 @@ def _last_own(function: Callable[..., Any], frames: Iterable[traceback.FrameSumm
 
 
 def returned(function: Callable[..., Any], *arguments: Any, **more: Any) -> tuple[str, Any]:
-    """Call a function; return a text on its value or error with the line that caused it, and the value.
+    """Call a function; return a text, such as "returns 0.5 (line 3, `return x`)", and the value.
 
-    The value is None after an error.
+    If the function raises an error, the text is that of :func:`raised`, and the value is None.
     """
     code, lines = _code(function), [0]
 

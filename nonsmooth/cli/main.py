@@ -64,7 +64,8 @@ def main(words: Sequence[str] | None = None) -> int:
             return _execute(sys.argv[1:] if words is None else words)
         finally:
             if sys.stdout is not None:
-                sys.stdout.flush()  # argparse prints its help without a flush
+                # flush here, so that a closed pipe raises its error in this block: argparse does not flush its help
+                sys.stdout.flush()
     except BrokenPipeError:
         # the reader has closed the pipe because it needs no more lines, as `head` does
         discard_output()

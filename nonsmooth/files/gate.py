@@ -69,12 +69,18 @@ class Gate:
         return file.find(thing, group, base, word, self.folder)
 
     def helper(self, thing: str, word: str) -> Any:
-        """Class without an installed name, ``module:Class``; errors as :meth:`component`."""
+        """Class without an installed name, by ``word``, "module:Class".
+
+        ``thing`` is the place of the word in the file, for messages. The errors are those of :meth:`component`.
+        """
         self._check(thing, word)
         return named.find(thing, word)
 
     def function(self, thing: str, word: str) -> Any:
-        """Plain function ``module:function``; errors as :meth:`component`."""
+        """Plain Python function by ``word``, "module:function".
+
+        ``thing`` is the place of the word in the file, for messages. The errors are those of :meth:`component`.
+        """
         self._check(thing, word)
         found = named.function(thing, word)
         # the module may have imported the function from another module
@@ -92,4 +98,4 @@ class Gate:
 
 
 TRUSTED = Gate(trusted=True)
-"""Gate for words that the user has typed."""
+"""Gate for names that the user has typed: they may denote any class or function that can be imported."""

@@ -25,7 +25,7 @@ def name_of(thing: str, value: Any) -> str:
     """
     module, name = value.__module__, value.__qualname__
     word = f"{module}:{name}"
-    # a loaded module need not be importable: it may be a script, or a file that was run by its path
+    # a module that is loaded but is not on the path cannot be imported elsewhere: a script, or a file run by its path
     on_path = module != "__main__" and PathFinder.find_spec(module.partition(".")[0]) is not None
     if not (on_path and _NAME.fullmatch(word) and _found(module, name) is value):
         raise InvalidInput(thing, "must be importable by its name to be written to a file", word, _REMEDY)

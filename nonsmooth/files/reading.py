@@ -162,7 +162,7 @@ def engine_of(thing: str, table: Any, gate: Gate) -> Engine:
 
 
 _GROUPS = {"contacts": "laws", "materials": "laws", "engine": "engines"}
-"""Group of the installed names in a section of a file, by the section, if the two have different names."""
+"""Section of a file -> group of its installed names. All other sections have the name of their group."""
 _UNITS = {"t_end": "s", "sample_interval": "s", "gravity": "m/s^2"}
 _UNKNOWN = "SI"
 """Unit of a number that is not a parameter of a class, such as a number of a start."""
@@ -171,7 +171,7 @@ _UNKNOWN = "SI"
 def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
     """All numbers in tables by dotted key ("bodies.ball.radius"), each with its rule (unit and allowed range).
 
-    Elements of arrays count from 0; the gate decides which classes the names may mean.
+    Elements of arrays count from 0. ``gate`` decides which classes the tables may name.
     """
     return dict(_numbers(tables, (), None, gate))
 
@@ -179,20 +179,20 @@ def numbers(tables: TomlTable, gate: Gate) -> dict[str, tuple[float, Rule]]:
 def _numbers(
     place: Any, way: tuple[str, ...], rule: Rule | None, gate: Gate, group: str = ""
 ) -> Iterator[tuple[str, tuple[float, Rule]]]:
-    """Numbers in a table, list or value and everything below it, by dotted key, each with its unit and range.
+    """Numbers in a table, list or value and everything below it: dotted key, number, rule (unit and allowed range).
 
     Parameters
     ----------
     place : object
         The table, list or value.
     way : tuple of str
-        Keys that lead to it from the top of the file.
+        Keys from the top of the file to `place`.
     rule : Rule or None
-        Rule of the numbers in it, if it is the value of a parameter.
+        Rule of the numbers in `place` if it is the value of a parameter, else None.
     gate : Gate
-        Decides which classes the names may mean.
+        Decides which classes the tables may name.
     group : str
-        Group of the installed names of the components in it, "" without components.
+        Group of installed names ("laws") of the components in `place`; "" if `place` has no components.
     """
     if isinstance(place, dict):
         owner = _class(place, group, gate)
@@ -212,7 +212,7 @@ def _numbers(
 
 
 def _class(table: TomlTable, group: str, gate: Gate) -> Any:
-    """Class that the table of a component names, None if it is not the table of a component."""
+    """Class of the component that a table describes; None if the table does not describe a component."""
     word = table.get(TYPE)
     if group not in registry.GROUPS or not isinstance(word, str):
         return None

@@ -19,7 +19,7 @@ _SAMPLES = 2000
 @final
 @dataclass(frozen=True)
 class FileScenario(Scenario):
-    """Scenario of the system of a file, without further coordinates and figures."""
+    """Scenario whose system is read from a file. It has no figures and adds no coordinates to q and u."""
 
     title: ClassVar[str] = "A scenario file"
 
@@ -81,7 +81,7 @@ class FileScenario(Scenario):
         return FileScenario(self.setup.varied(changes))
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """No further coordinates, because the results have q and u."""
+        """No coordinates in addition to q and u of the results: an empty mapping."""
         return {}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
@@ -98,10 +98,10 @@ class FileScenario(Scenario):
         return ()
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """No figures."""
+        """No figures: an empty mapping."""
         return {}
 
     @classmethod
     def gallery(cls, progress: Any) -> Mapping[str, Any]:
-        """No published figures."""
+        """No published figures: an empty mapping, without use of ``progress``."""
         return {}

@@ -126,7 +126,8 @@ class _Laws:
                 return name
         table = table_of(law, thing)
         name = str(table[TYPE])
-        if len(table) > 1:  # a law without parameters is written as its installed name alone
+        # a law with parameters gets a table with a free name; a law without is written as its installed name alone
+        if len(table) > 1:
             name = _free(name, self.tables)
             self.tables[name] = table
         self._met.append((law, name))

@@ -65,7 +65,7 @@ def beyond_cones(
 
 
 def _value(coefficient: Callable[[float], float], speed: float) -> float:
-    """Coefficient [1] at a slip speed [m/s]; infinite if the law has no value there, as a logarithm at rest."""
+    """Coefficient [1] of a law at a slip speed [m/s]; infinite if it has no value there, such as log(speed) at rest."""
     try:
         return coefficient(speed)
     except (ArithmeticError, ValueError):

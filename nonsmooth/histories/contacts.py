@@ -106,7 +106,7 @@ class ClosedContacts:
 
     @classmethod
     def of(cls, request: HistoryRequest) -> ClosedContacts:
-        """Evaluate the closed contacts of all times of a request; the entries include contacts that are not chosen."""
+        """Evaluate all closed contacts at the times of a request, also contacts that the request does not name."""
         replay, row = request.replay, request.times
         read, at = _ClosedReader(replay.laid), replay.closed(row)
         found = len(row) * [read.none]
@@ -134,9 +134,11 @@ class ClosedContacts:
         return beyond_cones(contacts, self.contact, self.first, self.normal_force, self.friction_force, speed)
 
     def spread(self, values: NDArray[Any], *, if_open: float) -> NDArray[Any]:
-        """Array over times and chosen contacts, shape [n, n_contacts, ...], from values of the entries, shape [m, ...].
+        """Array over times and contacts of the request, shape [n, n_contacts, ...], from ``values``, shape [m, ...].
 
-        Its value is ``if_open`` while a contact is open.
+        ``values`` has an entry for each closed contact at each time, as the arrays of this class.
+
+        The value is ``if_open`` while a contact is open.
         """
         # a contact may be chosen twice: fill one column for it, and repeat this column at the end
         chosen, columns = np.unique(self.request.contacts, return_inverse=True)

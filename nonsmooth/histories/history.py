@@ -88,7 +88,7 @@ class History(Mapping[str, NDArray[Any]]):
     def of(
         cls, time: Floats, arrays: tuple[LabelledArray, ...], labels: Mapping[str, tuple[str, ...]], **more: Any
     ) -> History:
-        """History of arrays whose dimensions leave out the axis of time.
+        """History of arrays; their ``dimensions`` name all axes but the axis of time, which comes first.
 
         Labels of axes that no array has are dropped.
         """
@@ -177,7 +177,10 @@ def to_dataset(
 
 
 def spoken(time: Floats, over: str) -> str:
-    """Times as text: a single time, or the number of entries along the first axis with the least and greatest time."""
+    """Times as text: "t = 0.5 s" for a single time, else number, least and greatest, as "200 times, 0 to 1 s".
+
+    ``over`` is the noun for an entry, "time" or "impulse".
+    """
     if time.ndim == 0:
         return f"t = {time:.9g} s"
     return f"{len(time)} {over}s, {time.min():.9g} to {time.max():.9g} s" if len(time) > 0 else f"no {over}s"
@@ -192,7 +195,7 @@ def _joined(axes: tuple[str, ...]) -> str:
 
 
 def _range(values: NDArray[Any]) -> str:
-    """Least and greatest value of numbers; the values of words."""
+    """Least and greatest value of an array of numbers, or the different words of an array of text; as text."""
     if values.dtype.kind not in "if":
         return _listed(tuple(str(word) for word in dict.fromkeys(values.ravel().tolist())))
     known = values[np.isfinite(values)]

@@ -63,7 +63,7 @@ class Impulses:
         events, replay = request.solution.events, request.replay
         n, memory = len(events.listed), replay.laid.memory
         points, axes = np.full((n, 2, 3), np.nan), np.full((n, 3, 3), np.nan)
-        # all events of an instant have the same contact points
+        # evaluate the contact points once for each instant, because all events of an instant have the same points
         instants, begins = np.unique(events.time, return_index=True)
         ends = np.append(begins[1:], len(events))
 

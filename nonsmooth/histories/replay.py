@@ -36,11 +36,15 @@ _ACCOUNTED = (
     owners.Totals.closing_loss,
 )
 _MODES = np.array([Mode.OPEN, Mode.STICK, Mode.OPEN, Mode.OPEN, Mode.OPEN, Mode.SLIDE, Mode.OPEN, Mode.OPEN])
-"""Mode of a contact after an event; the index is the sum of its bits: closed 1, approaching 2, slipping 4, Eq. (29)."""
+"""Mode of a contact; the index is the sum of its bits closed 1, approaching 2, slipping 4 (Eq. (29) of the paper)."""
 _DIRECTION, _RATE, _FACING, _AVERAGED, _FEATURES = (
     place - SLIP_DIRECTION for place in (SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES)
 )
-"""First columns in ``Events.listed_memory`` of the slip direction, closing rate, faced direction, mode and features."""
+"""First columns in ``Events.listed_memory`` of five quantities.
+
+In this order: slip direction, rate of the last closing [m/s], slip direction that an oriented law faces, mode after the
+time-stepping fallback, features.
+"""
 _SAMPLE, _EVENT, _END = range(3)
 _REPLAYS: weakref.WeakKeyDictionary[Track, StateReplay] = weakref.WeakKeyDictionary()
 
@@ -91,7 +95,8 @@ class StateReplay:
         self._booked = np.concatenate([track.booked, events.booked])[order]
         self._event = np.cumsum(kinds[order] == _EVENT) - 1
         self._event_row = np.flatnonzero(kinds[order] == _EVENT)
-        # number of the event after which the contacts had the modes that the model has now; -2 if there is none
+        # number of the event after which the contacts had the modes that the model has now; -1 for the modes before
+        # event 0, -2 for modes that belong to no event
         self._put_event = -2
         self._alone = threading.Lock()
 
@@ -120,12 +125,15 @@ class StateReplay:
     def codes(self, times: Floats) -> Integers:
         """Codes of all contacts after the last event of each time, shape [n, n_contacts].
 
-        A code is a sum of the bits of Eq. (29): closed 1, approaching 2, slipping 4.
+        A code is a sum of bits, Eq. (29) of the paper: closed 1, approaching 2, slipping 4.
         """
         return self._events.codes_after(self._event[self._row(times)])
 
     def modes(self, times: Floats) -> Integers:
-        """Modes of all contacts after the last event of each time, 0 open, 1 stick, 2 slide; shape [n, n_contacts]."""
+        """Modes of all contacts, 0 open, 1 stick, 2 slide, after the last event at or before each time.
+
+        The shape is [n, n_contacts].
+        """
         return np.asarray(_MODES[self.codes(times)])
 
     def closed(self, times: Floats) -> Integers:
@@ -163,7 +171,7 @@ class StateReplay:
         """
         rows, here = self._row(times), -1
         if forces and self._system.contacts:
-            # also if no recorded contact is closed, because an engine without forces may record no contacts
+            # check this even if no closed contact is recorded: an engine without forces may record no contacts at all
             self._check_flow("with its forces")
         if len(times) == 0:
             return
@@ -173,7 +181,7 @@ class StateReplay:
             return
         self._check_flow("between its samples" if between else "with its forces")
         memory = self.laid.memory
-        # clear the flags of an earlier visit that was interrupted
+        # clear the flags that an interrupted earlier call of this method has left
         memory[owners.Request.is_interrupted], memory[owners.Run.failure] = 0, Status.RUNNING
         with self._alone, self.laid.watch as watch:
             for i in np.argsort(times, kind="stable").tolist():
@@ -195,7 +203,7 @@ class StateReplay:
         memory = self.laid.memory
         y = memory[owners.Island.y][: self.laid.n_y]
         with self._alone:
-            # the neighbour list is made anew for each time, so it is no longer the list after an event
+            # the neighbour list is made anew for each time, so the model's contacts belong to no event any more
             self._put_event = -2
             for i, row in enumerate(self._row(times).tolist()):
                 memory[owners.Island.time], y[:] = times[i], states[i]
@@ -205,7 +213,7 @@ class StateReplay:
 
     def _visit_stored(self, rows: Integers, look: Callable[[int], None]) -> None:
         with self._alone:
-            # the modes of an earlier visit do not belong to these states
+            # the states below get no modes, so the modes that the model still has belong to no event any more
             self._put_event = -2
             for i, row in enumerate(rows.tolist()):
                 self._put_state(row)

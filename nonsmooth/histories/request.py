@@ -138,7 +138,10 @@ def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | Non
 
 
 def _found(where: str, system: System, known: Mapping[str, Sequence[object]], part: object) -> list[tuple[str, int]]:
-    """Kinds and numbers that a part given by the user can mean, one at least; errors as of :func:`numbers_of`."""
+    """Pairs (kind, number) of the parts that the user may mean by ``part``, at least one.
+
+    The errors are those of :func:`numbers_of`.
+    """
     several = " or ".join(known)
     if isinstance(part, (int, np.integer)) and not isinstance(part, bool):
         if len(known) != 1:
@@ -164,7 +167,7 @@ def _found(where: str, system: System, known: Mapping[str, Sequence[object]], pa
 
 
 _PLURALS = {"contact": "contacts", "body": "bodies", "joint": "joints"}
-"""Kind of a part -> attribute of a system that lists its parts of the kind; its names have the same attribute."""
+"""Kind of a part -> name of the attribute that lists such parts in a system, and their names in ``system.names``."""
 
 
 def _parts(system: System, kind: str) -> Sequence[object]:

@@ -1,4 +1,4 @@
-"""Readings of a run apart from contacts: states, modes, motion of frames, energies, and forces of joints."""
+"""Quantities of a run at given times, without contact forces: states, modes, frames, energies, joint forces."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class States:
 @final
 @dataclass(frozen=True)
 class Modes:
-    """Modes of contacts after the last event of each time.
+    """Modes of contacts at given times: those after the last event at or before each time.
 
     Attributes
     ----------
@@ -79,7 +79,10 @@ class Modes:
 
     @property
     def mode_word(self) -> NDArray[Any]:
-        """Mode word of all contacts, such as "{01,00,01}", Eq. (29), after the last event of each time, shape [n]."""
+        """Mode word of all contacts, such as "{01,00,01}", after the last event at or before each time, shape [n].
+
+        Its groups are the bits closed, approaching and slipping, Eq. (29) of the paper.
+        """
         codes = self.request.replay.codes(self.request.times)
         return np.array(self.request.solution.events.spelled(codes), dtype=str)
 
@@ -114,7 +117,7 @@ class Frames:
         return cls(np.concatenate(parts, axis=1))
 
     def part(self, first: int) -> Floats:
-        """Columns ``first`` to ``first + 2`` of the motion of each frame, shape [n, n_frames, 3]."""
+        """Vector in columns ``first`` to ``first + 2`` of each frame, such as its position; shape [n, n_frames, 3]."""
         return self.motion[:, :, first : first + 3]
 
     @property
@@ -170,7 +173,7 @@ class Energies:
         memory, bodies, first = laid.memory, laid.system.bodies, laid.n_q + laid.n_u
         y, tails, totals = memory[owners.Island.y], memory[owners.BodyRecord.tail][: len(bodies)], owners.Totals
         table, rates = np.zeros((7, len(request.times))), np.zeros((len(request.times), laid.n_q))
-        # dq/dt is the first part behind the blocks of the frames of a body
+        # the tail of a body's block is the part after its frames, and begins with dq/dt
         places = np.concatenate(
             [np.zeros(0, np.int64), *(tail + np.arange(body.n_q) for tail, body in zip(tails, bodies, strict=True))]
         )
@@ -193,7 +196,10 @@ class Energies:
 
     @property
     def loss(self) -> Floats:
-        """Sum of the losses by restitution, friction and closing since the start of the account [J], shape [n]."""
+        """Sum of the losses by restitution, friction and closing steps since the start of the account [J], shape [n].
+
+        A closing step ends an accumulation of impacts.
+        """
         return self.restitution_loss + self.friction_loss + self.closing_loss
 
     @property
@@ -251,9 +257,9 @@ class _JointReader:
     along: Floats
 
     def __call__(self) -> tuple[Floats, Floats, Floats]:
-        """Point [m], force [N] and moment [N m], shape [3] each."""
+        """Point [m]; force [N] and moment about the point [N m] on the second body; in world axes, shape [3] each."""
         axes, moments, points = (self.rows[:, at : at + 3] for at in (AXIS, MOMENT, POINT_B))
-        # a row that holds an angle has a zero axis and no point
+        # rows that hold an angle have a zero axis and no point, so the point is that of the first other row
         holding = np.flatnonzero(np.any(axes != 0.0, axis=1))
         point = points[holding[0]] if len(holding) > 0 else self.origin
         return point, self.along @ axes, self.along @ (moments + np.cross(points - point, axes))

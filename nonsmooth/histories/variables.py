@@ -51,9 +51,9 @@ class Variable:
     description : str
         The quantity in words.
     reading : callable
-        Method ``of`` of a class of readings, which evaluates the run at the times of a request.
+        Function of a request that evaluates the run at its times and returns an object, such as ``States.of``.
     values : callable
-        Function of the reading.  Its array has the axis of time first, shape [n, ...], and then ``axes``.
+        Function that takes the variable from that object.  The array has the axis of time first, and then ``axes``.
     over : str
         First axis, "time", or "impulse" for variables of the impulses of events.
     """
@@ -74,7 +74,7 @@ class Variable:
 
 
 def _row(name: str, unit: str, axes: tuple[str, ...], description: str, reading: Any, over: str = "time") -> Variable:
-    """Row of a variable that a reading has as an attribute of the same name."""
+    """Row of a variable that is an attribute, of the same name, of the class ``reading``."""
     return Variable(name, unit, axes, description, reading.of, attrgetter(name), over)
 
 
@@ -92,7 +92,7 @@ def _closed(name: str, unit: str, axes: tuple[str, ...], description: str, if_op
 
 _CONTACT, _JOINT, _FRAME, _XYZ, _SIDES = ("contact",), ("joint",), ("frame",), ("axis",), ("side",)
 _ROWS = (
-    # states
+    # rows of states and modes
     _row("q", "", ("coordinate",), "coordinates, see coordinate_units", States),
     _row("u", "", ("velocity",), "velocities, see velocity_units", States),
     _row(
@@ -106,7 +106,7 @@ _ROWS = (
     _row("rotation", "1", (*_FRAME, *_XYZ, "column"), "axes of the frame as columns", Frames),
     _row("velocity", "m/s", _FRAME + _XYZ, "velocity of the origin", Frames),
     _row("angular_velocity", "rad/s", _FRAME + _XYZ, "angular velocity, in world axes", Frames),
-    # the system
+    # rows of the whole system: energies, works and losses
     _row("kinetic_energy", "J", (), "kinetic energy of the free bodies", Energies),
     _row("potential_energy", "J", (), "potential energy of the free bodies", Energies),
     _row("driven_work", "J", (), "work of driven bodies since the start", Energies),
@@ -128,11 +128,11 @@ _ROWS = (
     _closed("contact_normal", "1", _XYZ, "unit normal from the first to the second body", np.nan),
     _closed("slip_velocity", "m/s", _XYZ, "tangential velocity of the second body relative to the first", np.nan),
     _closed("beyond_cone", "1", (), "true if the force is outside of the friction cone", 0.0),
-    # joints
+    # rows of joints, about the forces on the second body
     _row("joint_point", "m", _JOINT + _XYZ, "point of the joint on the second body", Joints),
     _row("joint_force", "N", _JOINT + _XYZ, "force on the second body", Joints),
     _row("joint_moment", "N m", _JOINT + _XYZ, "moment on the second body about the point", Joints),
-    # impulses of events, one entry for each contact that an event lists
+    # rows of impulses in events, one entry for each contact that an event lists
     _row("impulse_event", "1", (), "number of the event", Impulses, "impulse"),
     _row("impulse_contact", "1", (), "number of the contact", Impulses, "impulse"),
     _row("normal_impulse", "N s", (), "normal impulse", Impulses, "impulse"),

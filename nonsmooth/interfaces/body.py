@@ -96,11 +96,11 @@ class Body(Component, ABC):
     @property
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
-        """The function of point 1 of the contract."""
+        """Plain function ``evaluate(t, q, u, out, ...)`` that writes the body's output block: point 1 above."""
 
     @property
     def flight(self) -> Callable[..., None] | None:
-        """The function of point 4 of the contract; None, the default, without a closed form."""
+        """Plain function ``fly(t, q, u, out, ...)`` of free motion in closed form: point 4 above; None by default."""
         return None
 
     @property

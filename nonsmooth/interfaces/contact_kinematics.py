@@ -25,14 +25,14 @@ class CandidateSearch:
     ----------
     function : callable
         A plain function ``find(a, b, out, ...)`` of the frame blocks of the bodies.  On entry, ``out[0]`` is a distance
-        [m].  The function writes there the number of pairs of features that may be within this distance.  Behind it, it
-        writes three numbers of each pair, the first of which is not 0, for at most one pair more than there are
-        contacts.
+        [m].  The function writes to ``out[0]`` the number of pairs of features that may be within this distance.  From
+        ``out[1]`` on it writes three numbers for each pair, at most one pair more than there are contacts.  The first
+        number of a pair is not 0.
     values : mapping
         Parameters of the function by name.
     counts : mapping
-        Numbers of possible values of the second and of the third number, integers from 0, by the first number.  They
-        serve to check pairs that are read from a file.
+        First number of a pair -> how many values its second and its third number may have, which are integers from 0.
+        Pairs that are read from a file are checked with them.
     """
 
     function: Callable[..., None]
@@ -62,7 +62,7 @@ class ContactKinematics(Component, ABC):
     @property
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
-        """The function of point 2."""
+        """Plain function ``evaluate(a, b, out, ...)`` that writes the geometry block of the contact: point 2 above."""
 
     @property
     def candidates(self) -> CandidateSearch | None:

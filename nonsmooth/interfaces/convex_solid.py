@@ -34,7 +34,7 @@ class ConvexSolid(SolidRegion):
 
     @property
     def hollow(self) -> bool:
-        """It is all of one piece."""
+        """False, because one piece fills the solid."""
         return False
 
     @functools.cached_property
@@ -61,5 +61,5 @@ class ConvexSolid(SolidRegion):
         return self._whole.place[None, :]
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """Tell nothing that the piece does not tell."""
+        """Return False, because the piece shows which points are inside."""
         return False

@@ -96,17 +96,17 @@ class Engine(Component, ABC):
 
     @property
     def own(self) -> type[Singleton] | None:
-        """Class of declarations of the numbers that the engine adds; None, the default, if it adds no numbers."""
+        """Class that declares the numbers which the engine adds to the memory; None, the default, if it adds none."""
         return None
 
     @property
     def uses_flow(self) -> bool:
-        """Whether the motion between its events is that of the built-in flow, whose tolerances it sets."""
+        """True if the engine moves the system between events by the built-in flow, and sets its tolerances."""
         return False
 
     @property
     def records_contacts(self) -> bool:
-        """Whether its events store impulses, and the modes after the event."""
+        """True if the events of a run with this engine store impulses, and the modes after each event."""
         return False
 
     @property
@@ -181,12 +181,12 @@ class Engine(Component, ABC):
         most_steps : int
             Largest number of steps.
         pauses_before_end : bool
-            Whether to pause before a step whose length depends on the end time.
+            Whether to pause before a step that may lead past the end time.
 
         Returns
         -------
         int
             ``DONE`` at the end time, to which ``ws.island.time`` is set, ``PAUSED`` to be called again, ``STOPPED`` if
-            a guard ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the code of one of its
-            causes.
+            a guard ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the ``code`` of one
+            of :attr:`causes`.
         """

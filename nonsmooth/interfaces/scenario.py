@@ -75,7 +75,7 @@ class Scenario(Component, ABC):
         return self.t_end / self.samples
 
     def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters with the values that the run uses; by default the given values."""
+        """Return the value that the run uses of each parameter, by name. By default it is the value of the field."""
         return {name: getattr(self, name) for name in rules(type(self))}
 
     @property

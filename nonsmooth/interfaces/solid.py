@@ -38,19 +38,19 @@ class SolidRegion(ABC):
 
     The contract:
 
-    1. The pieces lie within the solid and cover its boundary; they fill it unless it is ``hollow``.
-    2. The surface that contacts see is nowhere farther than ``set_back`` from the boundary.
+    1. The pieces lie within the solid and cover its boundary. They fill the solid unless ``hollow`` is True.
+    2. The surface from which contacts compute gaps is nowhere farther than ``set_back`` [m] from the boundary.
     """
 
     @property
     @abstractmethod
     def set_back(self) -> float:
-        """Largest distance between the surface that contacts see and the boundary [m]."""
+        """Largest distance between the boundary and the surface from which contacts compute gaps [m]."""
 
     @property
     @abstractmethod
     def hollow(self) -> bool:
-        """Whether the pieces cover the boundary only and leave out the inside."""
+        """True if the pieces cover the boundary only, and leave out the inside of the solid."""
 
     @property
     @abstractmethod
@@ -72,4 +72,7 @@ class SolidRegion(ABC):
 
     @abstractmethod
     def holds(self, point: Vector, margin: float) -> bool:
-        """Return True if a hollow solid encloses a point deeper than a margin under its boundary [m]."""
+        """Return True if a point is inside of a solid that is ``hollow``, more than ``margin`` [m] below its boundary.
+
+        For a solid that its pieces fill, return False: the pieces show which points are inside.
+        """

@@ -19,9 +19,9 @@ from nonsmooth.interfaces.engine import FIRST_CODE
 
 
 def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[str, int]:
-    """Counts that the engine decides for at most ``n_slots`` active contacts, checked. They are lengths of its arrays.
+    """Lengths that the engine chooses for its arrays, by name, for at most ``n_slots`` active contacts; checked.
 
-    It may only decide the counts named in ``free``, which the system does not decide.
+    ``free`` has the names of the lengths that the engine may choose. The system fixes all other lengths.
 
     Raises
     ------

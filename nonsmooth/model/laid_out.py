@@ -163,11 +163,11 @@ def energies(bodies: tuple[Body, ...], rates: np.ndarray, numbers: np.ndarray) -
 
 
 def copied(memory: Memory) -> Memory:
-    """Memory with the same content, for another thread. Buffers of output are empty, and the tables are shared.
+    """Memory with the same content, for another thread. Buffers of output are empty, tables of functions are shared.
 
-    A function finds its table by a distance in floats, a number among its parameters. Pointers of the compiled engine
-    have no bounds, so the distance may lead into the memory that owns the tables, which must be kept alive. In plain
-    mode (``PLAIN``) there are arrays with bounds instead, and the tables are copied.
+    A function finds its table by a distance [floats] from the start of its parameters. A pointer of compiled code has
+    no bounds, so the distance may lead into the memory that owns the tables, which the copy keeps alive as ``owner``.
+    Without compiled code (``PLAIN``) there are arrays with bounds instead of pointers, and the tables are copied.
     """
     # the memory to be copied may itself share the tables of another one
     owner = memory if memory.owner is None else memory.owner
@@ -183,10 +183,10 @@ def copied(memory: Memory) -> Memory:
     # copy all arrays and blocks, except the late arrays, which are buffers and work space, and the tables
     for new, old in zip(made.early, memory.early, strict=True):
         new[:] = old
-    # copy the tables in plain mode; otherwise this range is empty
+    # copy the tables if nothing is compiled (PLAIN); otherwise this range is empty
     floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
     distance = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
-    # write the distance from the start of the parameters of a function to its table
+    # write into each function's parameters the distance [floats] from the start of the parameters to their table
     for place, start, table in memory.references:
         floats[place] = table - start + distance
     return made

@@ -59,7 +59,7 @@ def articulations(system: System) -> list[ArticulationLayout]:
             end = max(end, last[number])
             number += 1
         members = bodies[first : end + 1]
-        # a joint belongs to the articulation of its movable bodies; its driven body may be outside of their range
+        # a joint belongs to the articulation of its movable bodies; a driven body of the joint may be no member
         movable = [body for body in members if body.n_u > 0]
         joints = tuple(t for t in system.joints if any(body is t.first or body is t.second for body in movable))
         found.append(ArticulationLayout(first, members, joints))
@@ -74,7 +74,7 @@ def joints_in_order(system: System) -> list[Tie]:
 
 @dataclass(frozen=True)
 class BodyLayout:
-    """Where the memory has the numbers of a body.
+    """Places in the memory of the numbers of a body.
 
     Attributes
     ----------

@@ -67,7 +67,7 @@ class Kind:
         return start
 
     def output(self, declared: Any, size: int) -> None:
-        """Append room for ``size`` numbers that a law writes, with a mark behind; their place is field ``declared``."""
+        """Append ``size`` places for numbers that a law writes, and a mark; field ``declared`` gets their offset."""
         self.mark_written(declared, self.store(declared, output_block(size)), size)
 
     def mark_written(self, declared: Any, place: int, size: int) -> None:
@@ -125,7 +125,7 @@ def by_kind(contacts: Sequence[Contact]) -> Kinds:
 
 
 def lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Write where the inner states of each contact begin, and the scales of the inner states for the error of a step.
+    """Write the first place of each contact's inner states, and their scales for the error of a step.
 
     The inner states of friction laws come last in the state, in the order of the contacts.
     """
@@ -325,7 +325,7 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
 
 
 _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Fields of a contact with places in its block for numbers of its geometry, which other laws do not change."""
+"""Fields of a contact with the places of its geometry's numbers in its block. New laws do not change these numbers."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
@@ -344,7 +344,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers}
     for numbers in kinds:
-        # contacts of one kind have equal laws and geometry; one example for each former kind among these contacts
+        # the contacts `numbers` have equal laws and geometry now; take one of them for each kind that they had before
         examples = {former_kind[number]: number for number in numbers}.values()
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):
@@ -389,7 +389,7 @@ def _check_same(one: System, other: System) -> None:
 
 
 def _refuse(after: Contact, before: Contact) -> None:
-    """Raise InvalidInput for a contact whose new laws need a block of another size or order than its former laws."""
+    """Raise InvalidInput for a contact whose new laws need a block of another length, or other places in it."""
     laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
     raise InvalidInput(
         f"with_laws_of: the laws of the {after}",

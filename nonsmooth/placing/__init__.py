@@ -1,1 +1,1 @@
-"""Named starts: a body is moved along a line until it touches another one."""
+"""Placing of a body at the start of a run: it is moved along a line until it touches another body."""

@@ -16,9 +16,12 @@ _STEPS = 5000
 _FARTHEST = 1e6
 _ROUND_OFF = 1e-9
 _NEAR = 1e-7
-"""Largest gap where two solids meet, relative to the size of a contact: distances of round solids are inexact."""
+"""Largest gap of a contact at the place where its solids touch, relative to its size.
+
+It is not 0, because distances of round solids are inexact. Features with a larger gap do not face each other.
+"""
 _GRAZING = 1e4
-"""Largest distance along the line searched for the exact meeting, relative to the inexactness of the gap.
+"""Largest correction of the place where the bodies touch, along the line, relative to the error of the gap.
 
 The search ends there because in grazing motion the gap hardly changes along the line.
 """
@@ -27,8 +30,9 @@ The search ends there because in grazing motion the gap hardly changes along the
 class Line:
     """The line along which a body can move without being turned.
 
-    If all shapes of a contact have solids, their :class:`Passage` gives the meeting.  For other contacts the gaps give
-    it: a gap changes no faster than the body moves, so a step as long as the least gap cannot pass a meeting.
+    If all shapes of a contact have solids, a :class:`Passage` finds the place at which the solids touch.  For other
+    contacts the gap is followed: it changes no faster than the body moves, so a step as long as the least gap cannot
+    pass the place at which it vanishes.
 
     Parameters
     ----------
@@ -37,7 +41,7 @@ class Line:
     way : Vector
         Unit vector along which the body is to move, shape [3]; the body moves in the nearest direction that it can.
     height : float
-        Gap at the meeting [m].
+        Gap that is left between the body and the body that it meets [m].
 
     Raises
     ------
@@ -64,7 +68,7 @@ class Line:
         ]
 
     def met(self) -> Vector:
-        """Coordinates of the body at its first meeting along the line.
+        """Coordinates of the body where it first touches another body along the line, or is ``height`` apart from it.
 
         A body that overlaps is moved back until it overlaps with nothing.
 
@@ -99,7 +103,10 @@ class Line:
         return self._probe.gaps() - self._height
 
     def _least_gap(self, distance: float) -> float:
-        """Least gap minus the height [m], of the contacts with a shape without solid; inf without such contacts."""
+        """Least gap less ``height`` [m] of the contacts with a shape without solid, after a move by ``distance`` [m].
+
+        It is inf if all shapes have solids. ``height`` is the gap to be reached.
+        """
         return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
 
     def _at_distance(self, distance: float) -> list[Passage]:
@@ -133,9 +140,9 @@ class Line:
         return np.inf
 
     def _exact(self, distance: float) -> float:
-        """Distance along the line at which the least gap of all contacts equals the height [m].
+        """Distance along the line at which the least gap of all contacts is the gap to be reached, ``height`` [m].
 
-        It is searched near ``distance``, the meeting of the solids, and is ``distance`` if the search fails.
+        It is searched near ``distance``, at which the solids have this gap. If the search fails, it is ``distance``.
         """
         from scipy.optimize import brentq
 
@@ -144,7 +151,7 @@ class Line:
 
         gap, slack = over(distance), 2.0 * _ROUND_OFF * self._size + self._slack
         if gap == 0.0 or abs(gap) > _NEAR * self._size + self._slack:
-            # gaps of features that do not face each other have no meaning
+            # the features do not face each other, so their gap has no meaning: the distance of the solids is the result
             return distance
         step = np.copysign(max(abs(gap), 1e-16 * self._size), gap)
         while abs(step) < _GRAZING * slack:
@@ -156,7 +163,7 @@ class Line:
         return distance
 
     def _motion(self) -> tuple[Vector, Vector]:
-        """Coordinate rates dq/dt at 1 m/s along the possible direction nearest to ``way``, and this direction."""
+        """Coordinate rates dq/dt of a motion at 1 m/s without turning, and its direction, the nearest to ``way``."""
         probe = self._probe
         probe.frame(0)
         u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]

@@ -28,7 +28,7 @@ class Probe:
     Attributes
     ----------
     model : LaidOut
-        Layout of the system with the contacts of this body only.
+        The laid-out system, whose contacts are only those of this body.
     body : Body
         The body.
     number : int
@@ -104,7 +104,10 @@ class Probe:
         return gaps
 
     def rates(self, u: Vector) -> Vector:
-        """Gap rate and slip velocity of the body's contacts [m/s], shape [n, 3]; NaN if not on the neighbour list."""
+        """Gap rate and slip velocity of the body's contacts [m/s], shape [n, 3].
+
+        The values are NaN for contacts that are not on the neighbour list.
+        """
         self.u[:] = u
         call_entry("evaluate_at", self.model.memory)
         n = int(self.model.memory[owners.Island.n_contacts])

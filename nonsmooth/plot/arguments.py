@@ -78,7 +78,7 @@ def times_of(where: str, solution: Solution, times: ArrayLike | None, *, before:
 
 
 def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most: int = MOST) -> list[int]:
-    """Numbers of the contacts to draw: the given ones, or the ``most`` contacts with most events in the system's order.
+    """Numbers of the contacts to draw; by default the ``most`` contacts with the most events, in the system's order.
 
     Raises
     ------
@@ -127,7 +127,10 @@ def over_time(ax: Axes, solution: Solution) -> None:
 
 
 def beside(ax: Axes, title: str = "", handles: Sequence[Artist] | None = None) -> None:
-    """Put the legend to the right of the axes, or within them if the figure has no layout that makes room for it."""
+    """Put a legend to the right of the axes; within them if the figure has no layout engine, which makes room outside.
+
+    ``handles`` are the artists that the legend lists; by default all artists with a label.
+    """
     outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
     place: dict[str, Any] = outside if ax.figure.get_layout_engine() is not None else {"loc": "best"}
     ax.legend(handles=handles, fontsize=8, title=title or None, title_fontsize=8, **place)

@@ -136,7 +136,7 @@ def forces(
     where = "nonsmooth.plot.forces"
     which = part_of(where, part, ("normal", "friction"))
     numbers = contacts_of(where, solution, contacts)
-    # before the event that ends a mode, forces that are not unique may be out of their bounds
+    # take forces after each event: before an event that ends a mode, forces that are not unique may exceed their bounds
     row = times_of(where, solution, times, before=False)
     name = ("normal_force", "friction_force")[which]
     history, ax = solution.history("mode", name, times=row, of=numbers), axes_of(ax)

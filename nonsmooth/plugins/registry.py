@@ -103,7 +103,7 @@ def _working_folder() -> tuple[Path, ...]:
 
 
 _BEGAN_IN = _working_folder()
-"""Working folder when the program began, from which ``python -m`` imports even after a change of folder."""
+"""Working folder when the program began. ``python -m`` imports from it, even if the program changes its folder."""
 
 
 @functools.cache
@@ -120,7 +120,8 @@ def packages() -> frozenset[str]:
 def _is_namespace(package: str) -> bool:
     try:
         spec = importlib.util.find_spec(package)
-    except ValueError:  # the module has no specification, because a program made it by hand
+    # a module that a program created without an import has no specification: treat it as a namespace package
+    except ValueError:
         return True
     return spec is None or spec.origin is None
 

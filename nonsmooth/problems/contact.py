@@ -72,8 +72,8 @@ def solve_contact(
     UnknownName
         If no solver has the name ``solver``.
     RunFailed
-        If the solver finds no forces that fulfil the laws, as in Painlevé's paradox, or, for mu_s > mu, between
-        the two bounds.
+        If the solver finds no forces that fulfil the laws. This may occur in Painlevé's paradox and, for mu_s > mu, if
+        friction would have to be between its bounds mu lambda_N and mu_s lambda_N.
     """
     check_kind("solve_contact: solver", solver, str, 'For example "auto".')
     number = solver_of(solver)

@@ -20,10 +20,10 @@ Floats = NDArray[np.float64]
 
 
 class ContactMode(StrEnum):
-    """Mode of a contact at an instant of sustained contact, in the order of the engine's numbers."""
+    """Mode of a contact at an instant of sustained contact; the order is that of the engine's numbers 0, 1, 2."""
 
     OPEN = "open"
-    """The bodies are apart, or separate."""
+    """The gap is positive, or it is zero and begins to grow."""
     STICK = "stick"
     """The contact is closed, and friction holds it."""
     SLIDE = "slide"
@@ -51,8 +51,9 @@ class ContactResult:
     modes : tuple of ContactMode
         Mode of every contact, length n. Each is a str, too: "open", "stick" or "slide".
 
-    If several sets of forces give the same motion, the result is the set of least norm.  Contacts that would pull in
-    it are left open.  If this set breaks Coulomb's bound, the result is a set near it that keeps the bound.
+    If several sets of forces give the same motion, the result is the set of least norm.  A contact whose force in this
+    set would pull the bodies together is left open.  If the set breaks Coulomb's bound, the result is a set near it
+    that keeps the bound.
     """
 
     normal_force: Floats

@@ -61,8 +61,8 @@ def columns_of(normal: Floats, tangential: Floats) -> Floats:
 def memory_of(n: int, functions: Mapping[str, Sequence[tuple[Any, Callable[..., Any]]]], **counts: int) -> Memory:
     """Memory of ``n`` active contacts with the functions of their laws.
 
-    ``functions`` has a law and its function for each contact, by the name of the field of a contact ("friction").
-    ``counts`` are the lengths of further arrays.
+    ``functions`` maps the name of a law's field in a contact, such as "friction", to a list. The list has a pair for
+    each contact: the law and its function. ``counts`` are the lengths of further arrays.
     """
     bound = {
         name: [bind(function, "scalar", law.parameters(), type(law).__name__) for law, function in pairs]
@@ -81,7 +81,10 @@ def memory_of(n: int, functions: Mapping[str, Sequence[tuple[Any, Callable[..., 
 
 
 def law_without_value(memory: Memory, laws: Sequence[tuple[Any, ...]]) -> str:
-    """Sentence on the first function of the laws of each contact that gave no finite value, or ""."""
+    """Sentence on the first law function that gave no finite value; "" without such a function.
+
+    ``laws`` has the laws of each contact.
+    """
     return first_without_value(
         without_value(memory.floats[int(memory[part.parameters][i]) :], part, (), f"contact {i}")
         for i, of_contact in enumerate(laws)

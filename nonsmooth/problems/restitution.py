@@ -92,5 +92,5 @@ class _Smooth(FrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """True if there is no tangential force."""
+        """True if the tangential force is zero within the tolerance [N], because there is no friction."""
         return math.hypot(*tangential_force) <= tolerance

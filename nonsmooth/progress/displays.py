@@ -154,7 +154,7 @@ class Quiet(Display):
 
 
 _LONG = 3.0
-"""Wall time after which a run that nobody watches otherwise shows its progress [s]."""
+"""Wall time after which a run shows its progress [s] if the user has set no display; a shorter run prints nothing."""
 
 
 def of_long_run() -> Display | None:

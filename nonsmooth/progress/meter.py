@@ -47,7 +47,7 @@ class ProgressMeter:
         """
         now = self._clock()
         if part < self._part:
-            # earlier work such as compiling is not part of the rate
+            # another computation begins: the time to go must not depend on an earlier one, such as compiling
             self._next = max(self._next, now + self._display.patience)
             self._began, self._first = now, part
         self._part = part

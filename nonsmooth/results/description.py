@@ -94,7 +94,8 @@ def attributes_of(output: Output, engine: Engine, request: RunRequest) -> dict[s
 def _table(engine: Engine) -> TomlTable:
     """Table of an engine: its installed name and options.
 
-    If a file cannot name the engine, the table has its class in Python, and its options as text.
+    An engine that cannot be written to a file, such as a class of a script, gets other entries: "module:Class" in
+    place of the installed name, and the options as text.
     """
     try:
         return table_of(engine, "engine")

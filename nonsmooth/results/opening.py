@@ -62,7 +62,7 @@ class Unavailable(Engine):
 
 
 _NONE: dict[str, Any] = {"limits": {}}
-"""Values of the counters of an unfinished run that are not plain numbers; all other counters are 0."""
+"""Counters of an unfinished run that are mappings: there is no count of what limited the steps. All numbers are 0."""
 
 
 def open_solution(

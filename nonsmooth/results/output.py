@@ -70,7 +70,7 @@ class OtherVersions(NonsmoothWarning):
 
 @functools.cache
 def versions() -> Mapping[str, str]:
-    """Versions of the software, and the machine, on which the last bits of a run depend."""
+    """Versions of the software, and the kind of machine. With others, the last bits of a run may differ."""
     found = {
         "nonsmooth": version("nonsmooth"),
         "python": platform.python_version(),

@@ -39,7 +39,10 @@ def check_free(output: Output) -> None:
 
 
 def check_replaceable(output: Output) -> None:
-    """Raise InvalidInput as :func:`check_free`, or if a run has ended there and ``output.overwrite`` is False."""
+    """Raise InvalidInput if the output folder has a run that must not be replaced.
+
+    Such a run is under way, or can be resumed, or has ended while ``output.overwrite`` is False.
+    """
     check_free(output)
     if not output.overwrite and _status(output.solution) is not None:
         rule, remedy = "must be a folder that is empty or new", "Another run has ended there meanwhile: name another."
@@ -61,7 +64,7 @@ def check_ours(path: Path) -> None:
         raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
     with writing(path):
         names = sorted(one.name for one in path.iterdir()) if path.exists() else []
-    # a folder of arrays that is not yet marked contains at most the folder of the lock
+    # a folder of arrays that a run has just made has no mark yet; it is empty or contains only the folder of the lock
     if names not in ([], [WRITER]) and not is_marked(path):
         raise InvalidInput(
             str(path),
@@ -72,7 +75,9 @@ def check_ours(path: Path) -> None:
 
 
 def empty(path: Path, states: Iterable[str]) -> None:
-    """Empty a folder of arrays, except for the lock and the mark; ``states`` are the state files next to the lock.
+    """Empty a folder of arrays, except for the lock and for the mark that a run made the folder.
+
+    ``states`` are the paths of state files next to the lock, which are removed, too.
 
     The metadata are removed first, because without them no reader takes the rest for a solution.
 

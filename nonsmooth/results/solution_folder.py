@@ -59,7 +59,7 @@ _LAST = f"{WRITER}/state-end.npz"
 _OWN = "scenario_coordinates"
 """Attribute with the names of the arrays that the scenario adds."""
 _LENGTHS = {"time": "time", "event": "event_time", "listing": "listed_contact"}
-"""Name of the array whose length is the length of a growing dimension, by the dimension."""
+"""Growing dimension -> name of the array that has its length."""
 
 
 @contextlib.contextmanager
@@ -95,7 +95,7 @@ class SolutionFolder:
     def __init__(self, arrays: ArrayFolder, lock: BaseFileLock | None = None) -> None:
         self._arrays, self._lock = arrays, lock
         self._safe = False
-        # number of coordinates, number of velocities, and the committed length of each dimension that grows
+        # numbers of coordinates and velocities; then the committed lengths of growing dimensions (samples, events)
         self._n_q, self._n_u = (arrays.layout(name).shape[0] for name in ("coordinate", "velocity"))
         self._lengths = {dimension: arrays.layout(name).shape[0] for dimension, name in _LENGTHS.items()}
 
@@ -103,7 +103,7 @@ class SolutionFolder:
     def created(
         cls, output: Output, system: System, engine: Engine, request: RunRequest, n_states: int
     ) -> SolutionFolder:
-        """Make the folder of a run that begins; its content is committed, and so readable, by the first :meth:`begin`.
+        """Make the folder of a run that begins. Other processes can read it after the first :meth:`begin`.
 
         Raises
         ------
@@ -186,7 +186,7 @@ class SolutionFolder:
 
     @property
     def attributes(self) -> dict[str, Any]:
-        """Attributes of the run."""
+        """Attributes of the run in the metadata of its folder, by name, such as "status" and "message"."""
         return self._arrays.attributes
 
     @property
@@ -200,7 +200,7 @@ class SolutionFolder:
         return str(self.attributes.get("status"))
 
     def said(self, name: str, kind: type = dict) -> Any:
-        """Value of an attribute of the folder that is stored as JSON text; it must be of the type ``kind``.
+        """Value of the attribute ``name``, which is stored as JSON text; it must be of the type ``kind``.
 
         Raises
         ------
@@ -405,7 +405,7 @@ class SolutionFolder:
             self._lock.release()
 
     def _write(self, events: Events, rows: Floats) -> dict[str, int]:
-        """Write events and samples after the committed ones; return the new length of each dimension that grows."""
+        """Write events and samples after the committed ones; return {growing dimension: new length}."""
         lengths = dict(self._lengths)
         for one in _variables(events, rows, self._n_q, self._n_u):
             dimension = one.dimensions[0]

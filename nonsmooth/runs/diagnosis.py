@@ -56,8 +56,11 @@ _FAILED_CHECKS = {
     ),
 }
 """Message for each failed check, by the status of the engine: contact or body, value found and value allowed."""
-_CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report one of nonsmooth."
-"""Remedy for a contact or body whose evaluator returns numbers that contradict each other."""
+_CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report an error of nonsmooth."
+"""Remedy for a contact or body whose evaluator returns numbers that contradict each other.
+
+A user's component is to be checked; a fault in a component of nonsmooth is to be reported.
+"""
 _SHIFT = "Shift or turn a body a little, or give it rounded edges."
 """Remedy for a pair of features whose gap jumps in a special pose, such as edges in line."""
 _COMPLIANT = "Give it a compliant normal law such as LinearCompliant, or leave out a contact that holds the same body."
@@ -114,7 +117,8 @@ def _failed_check(model: LaidOut, status: Status) -> str:
         things |= {"contact": contact, "first": first, "second": second}
     text = _FAILED_CHECKS[status].format(**things)
     if status == Status.GAP_UNEXPLAINED:
-        # other closed contacts of its bodies can force a closed contact open; otherwise the gap jumps in its kinematics
+        # a closed contact has a gap if other closed contacts require another pose of its bodies. In any other case the
+        # gap that the evaluator of its kinematics returns has a jump
         if memory[owners.ContactRecord.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
             return f"{text}It is closed, and {others} hold its bodies in another position. {_COMPLIANT}"
         return f"{text}It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"

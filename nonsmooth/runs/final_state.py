@@ -36,14 +36,14 @@ from nonsmooth.system.system import System
 
 
 class FixedPlaces(NamedTuple):
-    """Places, in a checkpoint of a model, of the numbers that the state of a run needs. All runs of a model share them.
+    """Positions, in the checkpoints of a model, of the numbers from which a final state is made; equal for all runs.
 
     Attributes
     ----------
     tails : array
-        Place of the coordinate rates dq/dt of each body among the blocks; force, inverse mass and energies follow.
+        Position, in the blocks of a checkpoint, of dq/dt of each body; force, inverse mass and energies follow there.
     features : array
-        Offset of the features of each declared contact in the blocks, negative for a contact without features.
+        Position of the features of each declared contact in the blocks, negative for a contact without features.
     changing : tuple of array
         Which numbers a run may change (:attr:`nonsmooth.engine.memory.memory.Memory.changing`).
     """
@@ -64,7 +64,7 @@ class FixedPlaces(NamedTuple):
 
 
 class FinalState(NamedTuple):
-    """The memory of a model after a run, with the data that are needed to read it.
+    """Content of a model's memory after a run, with the data that are needed to make a state from it.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class FinalState(NamedTuple):
     engine : Engine
         The engine that integrated it.
     key : callable
-        Computes the digest of the model.
+        Function that returns the digest of the model.
     start_energy : tuple
         Kinetic and potential energy at the start of the energy account [J].
     blank : Checkpoint
@@ -85,7 +85,7 @@ class FinalState(NamedTuple):
     n_known_events : int
         Number of events after ``resumable``.
     places : FixedPlaces
-        Places in the memory.
+        Positions, in the checkpoints, of the numbers that a state needs.
     """
 
     system: System

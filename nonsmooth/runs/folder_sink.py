@@ -18,7 +18,7 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 
 _STEPS_PER_CALL = 2000
-"""Steps of the engine per call if nothing is written. They take far longer than the call itself."""
+"""Steps of the engine per call if nothing is written: enough for the time of the call itself to be negligible."""
 
 
 class OutputSink:

@@ -202,7 +202,7 @@ class EngineLoop:
                 # an engine with full buffers takes no step
                 self._monitor.observe(status)
                 records.drain()
-            # these steps take about as long as the checkpoint; a continued run repeats them
+            # most_steps steps take about as long as a checkpoint; a run that continues from the checkpoint repeats them
             most_steps = max(_CHECKPOINT_CALL, self._checkpoint.size // _COPIED)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
         # the monitor reads the buffers, so they are drained after it

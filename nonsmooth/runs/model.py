@@ -323,12 +323,12 @@ class Model:
 
     @functools.cached_property
     def _pairs_without_contact(self) -> Undeclared:
-        """The pairs of bodies that may meet and have neither contact nor exclusion, for warnings if they overlap."""
+        """Pairs of bodies that may overlap, without contact and not excluded: a run warns of their overlap."""
         return Undeclared.of(self._laid.system)
 
     @functools.cached_property
     def _places(self) -> FixedPlaces:
-        """Where a checkpoint of this model has the numbers of a state."""
+        """Positions of the numbers of a state in a checkpoint of this model."""
         return FixedPlaces.of(self._laid.memory)
 
     @contextlib.contextmanager
@@ -408,15 +408,15 @@ class Model:
         energy = self._put_start(state)
         write_request(laid.memory, request)
         write_first_sample(laid.memory, request)
-        # with many contacts a checkpoint takes milliseconds, so that of the default start is taken once; only a folder
-        # needs the time of the first sample in it
+        # with many contacts a checkpoint takes milliseconds, so the checkpoint of the default start is taken once; only
+        # a folder needs the time of the first sample in it
         is_known = state is self._start and output is None
         start = self._start_checkpoint if is_known else Checkpoint.of(laid.memory)
         sink = OutputSink()
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._engine, request, laid.n_states)
             sink = FolderSink(folder, self._records, self._states_from(energy), wall=0.0)
-        # where the bodies are before the run
+        # places of the bodies before the run
         before = laid.places() if self._pairs_without_contact.any else []
         loop = EngineLoop(self._engine, laid, self._records, start, sink, callbacks)
         solution = self._complete(loop, energy, wall=0.0)
@@ -426,9 +426,9 @@ class Model:
         return solution
 
     def _put_start(self, state: State) -> tuple[float, float]:
-        """Put the memory where a run starts. Kinetic and potential energy [J] at the start of its energy account.
+        """Put a state into the memory. Return kinetic and potential energy [J] at the start of the energy account.
 
-        The energy account of a run that continues another one begins at the start of the other one. The engine records
+        The energy account of a run that continues another one begins at the start of that run. The engine records
         no start event in such a run, so it is added here.
         """
         laid = self._laid
@@ -463,7 +463,7 @@ class Model:
             if found.status == RunStatus.DONE and (overlap := interpenetration(laid, recorded.rows)):
                 found = RunOutcome(RunStatus.FAILED, overlap)
             unread = UnreadEnd(final, found, ending.status, wall, recorded)
-            # an unread end holds two checkpoints; if they are large, the solution gets the end itself
+            # an UnreadEnd keeps two checkpoints of the memory; if they are large, read the end from it now
             is_large = 2 * self._blank.size > _LARGEST_UNREAD
             solution = Solution(laid.system, recorded, unread.read() if is_large else unread)
             has_failed = found.status == RunStatus.FAILED

@@ -22,12 +22,15 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, Integers
 
 _NEGLIGIBLE = 0.1
-"""Part of the whole change of the imbalance of energy that the reported span of time may omit at each of its ends.
+"""Change of the energy imbalance that is left out at either end of the reported span, relative to its whole change.
 
 Without this omission the span could be long, although most of the change occurs in a short time.
 """
 _MODE_AFTER_FALLBACK = 4
-"""Column of ``Events.listed_memory`` with the mode after the time-stepping fallback; without fallback it is open."""
+"""Column of ``Events.listed_memory`` with the mode of a contact after the time-stepping fallback.
+
+For a contact without fallback this mode is open.
+"""
 _N_NAMED = 4
 """Largest number of bodies that the message names."""
 
@@ -71,7 +74,8 @@ def _span(imbalance: Floats) -> tuple[int, int]:
     first, last = sorted((int(np.argmin(imbalance)), int(np.argmax(imbalance))))
     if first == last:
         return first, last
-    # the span begins at the last index near its first value, and ends at the first index near its last value
+    # shorten the span: begin at the last index whose value is near the first value, and end at the first index whose
+    # value is near the last value
     within, negligible = imbalance[first : last + 1], _NEGLIGIBLE * float(np.ptp(imbalance))
     last = first + int(np.argmax(np.abs(within - within[-1]) <= negligible))
     first += int(np.flatnonzero(np.abs(within - within[0]) <= negligible)[-1])
@@ -79,15 +83,15 @@ def _span(imbalance: Floats) -> tuple[int, int]:
 
 
 def _contacts_within(events: Events, begin: float, end: float) -> tuple[Integers, bool]:
-    """Numbers of the contacts of the events from ``begin`` to ``end`` [s], and True if these are in the fallback.
+    """Numbers of the contacts of the events from ``begin`` to ``end`` [s]; True if these contacts are in the fallback.
 
-    If some contacts are in the time-stepping fallback, which solves for mean forces, the result has only these.
+    If some of the contacts are in the time-stepping fallback, which solves for mean forces, only these are returned.
     """
     # the last event before the span shows the contacts at its beginning
     first = max(0, int(np.searchsorted(events.time, begin, side="right")) - 1)
     last = int(np.searchsorted(events.time, end, side="right"))
-    # events.first has the first entry of each event in the list of contacts, then the end of the list; without events
-    # the range is empty
+    # event i has the entries events.first[i] to events.first[i + 1] of the list of contacts. The range is empty without
+    # events
     entries = slice(*events.first[[first, max(first, last)]].tolist()) if len(events) else slice(0)
     contacts = events.listed[entries]
     in_fallback = contacts[events.listed_memory[entries, _MODE_AFTER_FALLBACK] != Mode.OPEN]
@@ -120,7 +124,7 @@ def outcome(model: LaidOut, ending: LoopEnd, engine: Engine) -> RunOutcome:
     The first that holds is the reason: lost results, a function that wrote past its block, a cause that the engine
     declares, a failure, the end time or a condition.
     """
-    # a function that wrote past its block may have changed any number, also the status
+    # check first if a function wrote past its block of the memory: it may have changed any number, also the status
     overrun, status = block_overrun(model), ending.status
     at = f"At t = {model.memory[owners.Island.time]:.9g} s"
     if ending.output_error:
@@ -139,14 +143,17 @@ def outcome(model: LaidOut, ending: LoopEnd, engine: Engine) -> RunOutcome:
 
 
 _MOVED = 0.01
-"""Displacement from which on a sample is compared for overlap, relative to the smallest body: a smaller motion hides no
-deeper overlap."""
+"""Least motion since the last checked sample after which a sample is checked, relative to the smallest body.
+
+The check is for overlap of bodies: a smaller motion hides no deeper overlap.
+"""
 
 
 def interpenetration(model: LaidOut, rows: Floats) -> str:
     """Sentences about the first sample at which bodies of contacts overlap more than is allowed, or "".
 
-    Each sample that moved is written to the memory in turn. At the end the memory has its former content again.
+    Each sample that :func:`_moved_samples` chooses is written to the memory in turn. At the end the memory has its
+    former content again.
 
     Parameters
     ----------

@@ -35,7 +35,7 @@ _ACCOUNTED = places("totals.driven_work", "totals.restitution_loss", "totals.fri
 _ALWAYS = 1 << BEFORE | 1 << DURING | 1 << AFTER
 """Factor that turns the code of a mode into that of a contact with this mode before, during and after an event."""
 _STICK_CODE, _SLIDE_CODE = 1, 5
-"""Codes of the modes of a closed contact, bits of Eq. (29)."""
+"""Sums of the bits (closed 1, slipping 4; Eq. (29) of the paper) of a sticking and of a sliding contact."""
 _FILLED = places(
     "output.n_events", "output.n_samples", "output.floats_used", "output.integers_used", "output.last_floats"
 ).tolist()
@@ -75,9 +75,9 @@ class Records:
 
     @property
     def n_events(self) -> int:
-        """Number of events so far, with those of an earlier process, without those that a continued run repeats.
+        """Number of events so far, with events of an earlier process, without events that a continued run repeats.
 
-        While a continued run repeats events, the count is less by those that it has yet to repeat, and may be negative.
+        While a continued run repeats events, the count is less by the events yet to repeat, and may be negative.
         So the difference of two counts is the number of events between two contents of the memory.
         """
         _, integers = self.model.memory.cells
@@ -94,8 +94,8 @@ class Records:
     def drain(self) -> None:
         """Copy the buffers of the engine and empty them.
 
-        Each call of the engine has one copy. If an interrupt prevented only the emptying, the copy of the engine's last
-        call exists already, and the buffers are only emptied.
+        The copy is stored under the number of the engine's last call. If an interrupt came after the copy, it exists
+        already, and the buffers are only emptied.
         """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
@@ -115,12 +115,12 @@ class Records:
     def add_start(self, state: State) -> None:
         """Add a start event to a continued run, with the modes of its state.
 
-        The engine records none there, because the run has started before.
+        The engine records no event there, because the run has started before.
         """
         # floats of an event: time, four energies, q, u before and after, the rest of the integrated state, totals of
         # energies, and then numbers of the closed contacts. Impulses are 0. FACING is the side, 1 or -1, from which
-        # anisotropic friction is opposed. A state holds neither it nor the mode after averaging of forces (AVERAGED):
-        # here they are 1 and open
+        # anisotropic friction is opposed, and AVERAGED the mode after the time-stepping fallback. A state has no values
+        # of them: here they are 1 and open
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
@@ -148,7 +148,7 @@ class Records:
         """
         self._check_events(engine)
         floats, _ = self.model.memory.cells
-        # the time of the next sample is after the end if none is left out
+        # time of the next sample [s]: it is after the end of the run if no sample is left out
         expected = floats.item(_NEXT)
         # a sample within round-off before the end may be left out, and so may one within the accuracy of times,
         # because a run that is shorter than that has no step
@@ -174,7 +174,7 @@ class Records:
             )
         # the floats of an event begin with its time
         first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
-        # if records are stored, the start event is among them
+        # the records of a resumed run have the start event already (`stored`); any other run must record it now
         if self.stored is None and engine.records_contacts and first > start:
             raise InvalidInput(
                 thing,

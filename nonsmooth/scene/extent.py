@@ -12,18 +12,22 @@ from nonsmooth.histories.arrays import Floats
 from nonsmooth.scene.scene import FrameLook, Scene
 
 _ROUND = 1.0
-"""Margin of a sheet around the moving bodies, relative to their size, so that the bodies are seen to stand on it."""
-_STILL = 1e-9
-"""Largest change of the relative pose of two sheets that do not move relative to each other: round-off.
+"""Margin of a sheet around the moving bodies, relative to their size: with it, the bodies are seen to be on the sheet.
 
-A rotation is a change of matrix elements, and a translation is relative to the diagonal of the box of the run.
+A sheet is the drawn part of an unbounded plane.
+"""
+_STILL = 1e-9
+"""Largest change of the relative pose of two sheets that are at rest relative to each other: round-off.
+
+The change of a rotation is that of its matrix elements [1]. The change of a translation is relative to the diagonal of
+the box of all visible parts.
 """
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """Box of all visible parts over a run; an unbounded sheet adds only its point nearest to the other parts.
+    """Box of all visible parts over a run. Of an unbounded plane (sheet) it has only the point nearest to its middle.
 
     Attributes
     ----------
@@ -51,7 +55,7 @@ class Extent:
         for part in solids:
             vertices, here = part.look.vertices, origin[:, part.frame]
             own = float(np.max(np.linalg.norm(vertices, axis=1), initial=0.0))
-            # bounded by the sphere about the origin of the frame and by the box of the vertices, rotated
+            # the vertices are in a sphere about the frame's origin, and in their own box, which turns with the frame
             edges = vertices.min(axis=0, initial=0.0), vertices.max(axis=0, initial=0.0)
             centre = here + axes[:, part.frame] @ (0.5 * (edges[0] + edges[1]))
             half = np.abs(axes[:, part.frame]) @ (0.5 * (edges[1] - edges[0]))
@@ -113,7 +117,7 @@ def outlines(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> list
 
 
 def _holds(part: FrameLook, origin: Floats, axes: Floats, moving: list[int]) -> bool:
-    """True if the origins of the frames stay in front of a sheet."""
+    """True if the origins of the frames ``moving`` are in front of a sheet, the drawn part of a plane, at all times."""
     normal = axes[:, part.frame, :, 2]
     height = np.einsum("nfi,ni->nf", origin[:, moving] - origin[:, part.frame, None], normal)
     return bool(np.all(height >= part.look.vertices[0, 2]))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _FEWEST = 600
-"""Fewest times at which a run is drawn, if necessary between samples, so that ballistic motion is seen as a curve."""
+"""Fewest times at which a run is drawn: times between samples are added, so that ballistic motion is a curve."""
 _SPECK = 1e-2
 """Largest size of a shape or gap that cannot be seen, relative to the extent of the shapes on its frame."""
 
@@ -153,7 +153,11 @@ def _looks(body: Body) -> Iterator[tuple[int, Look]]:
 
 
 def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[FrameLook]) -> Iterator[Stroke]:
-    """Line between the ends of a load or joint; for a joint also lines from frames whose shapes do not reach it."""
+    """Line between the ends of a load or joint.
+
+    For a joint there is also a line from the end on a movable body to the origin of its frame, if the end is outside of
+    the shapes on the frame.
+    """
     bodies = tie.first, tie.second
     frames = [first[id(body)] + offset for body, offset in zip(bodies, tie.frames, strict=True)]
     yield Stroke(kind, tie.name, (frames[0], frames[1]), tie.component.ends)
@@ -164,7 +168,7 @@ def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[FrameLook]
 
 
 def _spans(looks: Sequence[Look], point: Floats) -> bool:
-    """True if the box of the shapes on a frame and of its origin contains a point of the frame."""
+    """True if a box contains a point of a frame: the box about the frame's origin and all shapes on the frame."""
     seen = np.concatenate([np.zeros((1, 3)), *(look.vertices for look in looks if not look.sheet)])
     low, high = seen.min(axis=0), seen.max(axis=0)
     room = _SPECK * np.max(high - low)
@@ -186,5 +190,8 @@ def knots(solution: Solution, most: int) -> Floats:
 
 
 def sides(system: System) -> Floats:
-    """Sign of the drawn force of each contact, shape [n]: -1 if only its first body is movable, else 1."""
+    """Sign of the drawn force of each contact, shape [n]: 1 for the force on the second body, -1 for that on the first.
+
+    The force on the first body is drawn if only the first body is movable.
+    """
     return np.array([-1.0 if c.second.n_u == 0 < c.first.n_u else 1.0 for c in system.contacts])

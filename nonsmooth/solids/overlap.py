@@ -20,13 +20,19 @@ from nonsmooth.interfaces.solid import Piece, Vector
 from nonsmooth.solids.separation import Point, as_point, combined, cross, dot, minus
 
 _EXACT, _CLOSE = 0.1, 1e-3
-"""Largest relative error of the depth: in :func:`depth`, which needs only a bound, and in :func:`penetration`."""
+"""Largest relative errors of the computed depth, in :func:`depth` and in :func:`penetration`, respectively.
+
+The error in :func:`depth` is larger, because its result is only a lower bound.
+"""
 _ROUND_OFF = 1e-14
 _MOST = 400
 """Most steps of a search for the depth. The bound is valid after any number of steps, but less close."""
 
 _Face = tuple[float, Point, int, int, int]
-"""A face: distance of its plane from the origin, outward normal, corners counter-clockwise seen from outside."""
+"""Face of a polytope: distance of its plane from the origin [m], outward normal, and the numbers of its three corners.
+
+Seen from outside, the corners are counter-clockwise.
+"""
 
 
 @final
@@ -110,14 +116,18 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
     if lower == 0.0:
         return None
     upper, normal = min(best)
-    # `corner` are the corners of the face nearest to the origin, and `lower` is the distance of this face. The points
-    # of the two sets are those whose difference is the face's point nearest to the origin
+    # `corner` are the corners of the face nearest to the origin, and `lower` is the distance of this face. Each corner
+    # is the difference of a point of the first set and a point of the second set. The weighted mean of the corners that
+    # is the face's point nearest to the origin gives, with the same weights, one point of each set
     first, second = combined(lower * np.array(unit), corner, (points[point] for point in corner))
     return Penetration(min(lower, upper), upper, np.array(normal), first, second)
 
 
 def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[Point]:
-    """Four differences that span a volume, the first three counter-clockwise from outside; empty without overlap."""
+    """Four differences of points of the two sets that span a volume; empty if the sets do not overlap.
+
+    Seen from outside of the tetrahedron, the first three are counter-clockwise.
+    """
     points: list[Vector] = []
     while len(points) < 4:
         best, most = np.zeros(3), 0.0
@@ -130,7 +140,7 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
             if not points or off > most:
                 best, most = found, off
         if points and most <= _ROUND_OFF * float(np.linalg.norm(best)):
-            # all differences are in one plane, so the sets overlap in no volume
+            # all differences of points of the two sets are in one plane, so the sets have no volume in common
             return []
         points.append(best)
     a, b, c, d = points
@@ -140,7 +150,10 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
 
 
 def _across(points: list[Vector]) -> Iterable[Vector]:
-    """Unit vectors, with both signs, across the line or plane through two or three points, else along the axes."""
+    """Unit vectors, with both signs, at right angles to the plane of three points or the line of two.
+
+    For fewer than two points they are those of the axes.
+    """
     if len(points) == 3:
         normal = np.cross(points[1] - points[0], points[2] - points[0])
         ways = [normal / np.linalg.norm(normal)]
@@ -177,7 +190,10 @@ def _expanded(
 
 
 def _pushed_out(points: list[Point], faces: list[_Face], least: float) -> list[_Face]:
-    """Faces of the convex hull of a polytope and of the last of ``points``, a point outside of the polytope."""
+    """Faces of the convex hull of a polytope, whose faces are ``faces``, and of the last of ``points``, outside of it.
+
+    Faces that the point is in front of by more than ``least`` [m] are replaced.
+    """
     top = points[-1]
     kept: list[_Face] = []
     rims: set[tuple[int, int]] = set()

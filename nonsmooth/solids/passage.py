@@ -1,7 +1,8 @@
-"""First meeting of two solids, one of which is moved along a line without rotation.
+"""Distance along a line that a solid moves without rotation until it meets another solid.
 
 The distance of two convex sets is a convex function of this translation.  Each step of the search moves the solid as
-far as the planes that prove the distance allow.  So the first meeting is approached from before it and never passed.
+far as the planes that prove the distance allow.  So the place of the first meeting is approached from before it and
+never passed.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from nonsmooth.solids.placed import Placed, near_pairs, nested
 from nonsmooth.solids.separation import separation
 
 _EXACT = 1e-13
-"""Gap at which the search for a meeting ends, relative to the extent of both solids together plus the height."""
+"""Error of the gap at which the search along the line ends, relative to the extent of both solids plus ``height``."""
 _MOST = 1000
 
 
@@ -51,23 +52,29 @@ class Passage:
 
     @functools.cached_property
     def tolerance(self) -> float:
-        """Largest amount by which the gap may be below the height for solids that are still clear [m]."""
+        """Largest amount by which the gap may be less than ``height`` while the solids have not met [m]."""
         sizes = [float(np.linalg.norm(high - low)) for low, high in (self.one.bounds, self.two.bounds)]
         # the second number is for a point, which has no size
         return max(1e-9 * min(sizes), 1e-15 * max(sizes))
 
     @property
     def clear(self) -> bool:
-        """Whether the gap of the solids is at least the height, within the tolerance."""
+        """True if the solids have not met: their gap is at least ``height``, within the tolerance."""
         return not self._near and nested(self.one, self.two, self.tolerance) == 0.0
 
     def ahead(self) -> float:
-        """Distance that the first solid moves to the meeting [m], infinite without a meeting. It must be clear now."""
+        """Distance that the first solid moves until the gap is ``height`` [m]; inf if it never is.
+
+        :attr:`clear` must be True before the motion.
+        """
         pairs = near_pairs(self.one, self.two, self.height, (self._size + self.height) * self.way)
         return self._first(list(pairs), 0.0)
 
     def back(self) -> float:
-        """Lower bound of the distance that the first solid must move back to be clear [m]. It must not be clear now."""
+        """Lower bound of the distance that the first solid must move back until :attr:`clear` is True [m].
+
+        :attr:`clear` must be False before the motion.
+        """
         if near := self._near:
             return -self._first(near, self._far)
         met = (
@@ -77,19 +84,22 @@ class Passage:
 
     @property
     def _far(self) -> float:
-        """Place along the way, negative, at which all of the second solid is ahead of the first one [m]."""
+        """Displacement along ``way``, negative, at which the second solid is wholly in front of the first one [m]."""
         return -2.0 * (self._size + self.height)
 
     @functools.cached_property
     def _near(self) -> list[tuple[Piece, Piece]]:
-        """Pairs of pieces whose gap is smaller than the height by more than the tolerance."""
+        """Pairs of pieces of the two solids whose gap is less than ``height`` by more than the tolerance."""
         pairs, least, still = near_pairs(self.one, self.two, self.height), self.tolerance, np.zeros(3)
         if self.height == 0.0:
             return [(a, b) for a, b in pairs if depth(a, b, least) > 0.0]
         return [(a, b) for a, b in pairs if separation(a, b, still, self.height, 0.1 * least)[0] < -least]
 
     def _first(self, pairs: list[tuple[Piece, Piece]], start: float) -> float:
-        """Place along the way of the first meeting of any pair of pieces [m]; at ``start`` all pairs must be apart."""
+        """Least displacement along ``way`` at which the gap of a pair of pieces is ``height`` [m]; inf if it never is.
+
+        At the displacement ``start`` the gaps of all pairs must be larger.
+        """
         least, best = _EXACT * (self._size + self.height), math.inf
         bounds = [
             (float(self.way @ (two.support(-self.way) - one.support(self.way))) - self.height, i)

@@ -33,7 +33,7 @@ class Placed:
     rotation: Vector
 
     def moved(self, way: Vector) -> Placed:
-        """The same solid, moved by the translation ``way`` [m], shape [3]."""
+        """Copy of the placed solid after a translation ``way`` [m], shape [3]."""
         return replace(self, position=self.position + way)
 
     @functools.cached_property
@@ -51,7 +51,7 @@ class Placed:
         return self.position + self.solid.inner @ self.rotation.T
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """True if a hollow solid encloses a point deeper than a margin under its boundary [m]."""
+        """True if the solid is hollow and a point is inside of it, more than ``margin`` [m] below its boundary."""
         return self.solid.holds(self.rotation.T @ (point - self.position), margin)
 
     def pieces(self, low: Vector, high: Vector) -> list[Piece]:
@@ -70,7 +70,7 @@ class Placed:
 
 
 def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float:
-    """Lower bound of the overlap of two solids [m]; 0 if a tolerance covers it.
+    """Lower bound of the least translation that separates two solids [m]; 0 if it is within the tolerance.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Lower bound of the depth of one solid inside the other, which is hollow [m]; 0 if a tolerance covers it.
+    """Lower bound of the depth of one solid inside the other, which is hollow [m]; 0 if it is within the tolerance.
 
     The pieces of the two must not overlap by more than the tolerance.
     """
@@ -101,8 +101,8 @@ def nested(one: Placed, two: Placed, tolerance: float) -> float:
     deepest, pairs = 0.0, list(near_pairs(one, two, tolerance))
     for outer, inner, near in ((one, two, [b for _, b in pairs]), (two, one, [a for a, _ in pairs])):
         if outer.solid.hollow:
-            # a solid whose boundary does not cross the other one is wholly inside or outside: inner points decide.
-            # boundaries that coincide in part and then go inside have near pieces there, whose points are checked
+            # if the boundaries do not cross, a solid is wholly inside or wholly outside: its inner points decide. If
+            # the boundaries coincide in part, a solid may go inside next to it, so points of pieces there decide, too
             places = np.unique(np.array([*inner.inner, *(piece.place for piece in near)]), axis=0)
             low, high = outer.bounds
             for place in places[np.all((places > low) & (places < high), axis=1)]:
@@ -115,14 +115,14 @@ def nested(one: Placed, two: Placed, tolerance: float) -> float:
 def near_pairs(
     one: Placed, two: Placed, margin: float = 0.0, way: Vector | None = None
 ) -> Iterator[tuple[Piece, Piece]]:
-    """Pairs of pieces of two solids whose boxes meet.
+    """Pairs of pieces of two solids whose boxes overlap or are at most ``margin`` apart.
 
     Parameters
     ----------
     one, two : Placed
         The solids.
     margin : float
-        Largest distance of two boxes that are treated as meeting [m].
+        Largest distance of the boxes of a pair [m].
     way : Vector, optional
         Translation of the first solid [m], shape [3]. The boxes of its pieces then contain the whole path.
     """

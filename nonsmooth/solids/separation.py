@@ -45,7 +45,7 @@ class Nearest:
 
 
 def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float) -> tuple[float, Vector]:
-    """Lower bound of the distance of two convex sets less a margin [m], and a normal of planes that prove it.
+    """Lower bound of the distance of two convex sets, minus ``margin`` [m], and a unit normal of planes that prove it.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float
     Returns
     -------
     bound, normal
-        Along the unit normal, shape [3], all of the second set is beyond all of the first by the bound plus the margin.
+        The distance of the sets along the unit vector ``normal``, shape [3], is at least ``bound + margin``.
         If the sets overlap or nearly touch, the bound is at most -margin, and the normal has no meaning.
     """
     found = _search(one, two, way, margin, enough, 1e-3)
@@ -69,14 +69,14 @@ def separation(one: Piece, two: Piece, way: Vector, margin: float, enough: float
 
 
 def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
-    """Nearest points of two convex sets.
+    """Nearest points of two convex sets, and a lower bound of their distance.
 
     Parameters
     ----------
     one, two : Piece
         The sets, in the same axes.
     enough : float
-        Allowed error of the bound [m].
+        Allowed error of the lower bound of the distance [m].
     """
     found = _search(one, two, np.zeros(3), 0.0, enough, 0.0)
     if not found.corners:

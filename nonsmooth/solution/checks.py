@@ -47,21 +47,22 @@ def friction_gain(solution: Solution) -> float:
     """Energy that sustained friction added over a run [J]: the sum of all decreases of the integrated friction loss.
 
     The loss is compared from each sample or event to the next.  The time-stepping fallback can add energy: its friction
-    is constant over a span, while the slip may turn.  Laws that store energy in a contact, such as bristles, return it.
-    Impacts are left out, because some impact laws add energy by their definition.  Events are read block by block,
-    because the events of a long run would not fit into memory.
+    is constant over a span, while the slip may turn.  Energy that a law has stored in a contact, such as that of
+    bristles, counts as added when the law returns it.  Impacts are left out, because some impact laws add energy by
+    their definition.  Events are read block by block, because the events of a long run would not fit into memory.
     """
     track = solution.track
     gain, last, n_samples, booked, time = 0.0, np.zeros(0), 0, 0.0, track.time[:-1]
     for block in solution.events.blocks():
         place = track.y.shape[1] - block.integrated.shape[1] + FRICTION_LOSS
-        # index behind the samples before the last event of the block; a sample at the same time comes after the event
+        # number of samples before the last event of this block of events; a sample at its time comes after the event
         stop = int(np.searchsorted(time, block.time[-1])) if len(block) else 0
         order = np.argsort(np.concatenate([block.time, time[n_samples:stop]]), kind="stable")
         loss = np.concatenate([block.integrated[:, FRICTION_LOSS], track.y[n_samples:stop, place]])[order]
         gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
         booked = float(block.booked[-1, _FRICTION]) if len(block) else 0.0
-    # the final state has the sum of the integrated friction loss and the loss accounted at events: subtract the latter
+    # the final state has the friction loss as one sum, in `booked`; less the loss accounted at events, it is the
+    # integrated loss
     end = track.y[-1, place] + track.booked[-1, _FRICTION] - booked
     return gain + _decrease(last, np.append(track.y[n_samples:-1, place], end))
 
@@ -77,6 +78,6 @@ def findings(solution: Solution) -> str:
     outside, gain = int(np.count_nonzero(impulses_beyond_cone(solution))), friction_gain(solution)
     found = [f", {unchecked} contacts whose bodies are not checked for overlap"] if unchecked else []
     found += [f", {outside} impulses outside of their friction cones"] if outside else []
-    # a smaller gain than the unexplained energy of the run may be an error of the integration
+    # report the gain only if it is above the unexplained energy: a smaller gain may be an error of the integration
     found += [f", {gain:.1e} J added by friction"] if gain > solution.energy.unexplained else []
     return "".join(found)

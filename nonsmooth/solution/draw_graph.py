@@ -66,7 +66,7 @@ def _relaxed(steps: Array, order: Array) -> Array:
 
 
 def _stress(points: Array, steps: Array) -> float:
-    """Sum of the squares of (distance - number) / number, where the number is that of transitions between two modes."""
+    """Sum of ((distance - n) / n)^2 over pairs of modes; n is the number of transitions between the two modes."""
     apart = np.linalg.norm(points[:, None] - points[None], axis=2)
     return float(np.sum(np.divide(apart - steps, steps, out=np.zeros_like(steps), where=steps > 0.0) ** 2))
 
@@ -184,7 +184,7 @@ def _caption(graph: TransitionGraph, many: bool) -> str:
 
 
 def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGraph) -> str:
-    # count an impact once: one transition leads into it, another out of it
+    # an impact is two transitions, into its mode (in `passing`) and out of it; count only the first of them
     changes = sum(n for (one, _, _), n in graph.counts.items() if one not in graph.passing)
     title = f"Modes of the run: {len(graph.shares)} visited, {changes} transition{'s' * (changes != 1)}"
     what = "modes"

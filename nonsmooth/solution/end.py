@@ -1,4 +1,4 @@
-"""Arguments of a run, and its end: state, counters, status, and the measures of the engine."""
+"""Arguments of a run, and its end: state, counters, status, and the numbers by which the engine judges the run."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ class End:
     verdict: Mapping[Measure, float] = field(default_factory=dict)
 
     def read(self) -> End:
-        """Return this end, which is its own source (:class:`EndSource`)."""
+        """Return this object, because an End is an :class:`EndSource` that has been read already."""
         return self
 
     @property

@@ -43,7 +43,7 @@ class EnergyAccount:
 
     @property
     def loss(self) -> float:
-        """Sum of the losses by restitution, friction and closing [J]."""
+        """Sum of the losses by restitution, friction and closing steps, which end accumulations of impacts [J]."""
         return self.restitution_loss + self.friction_loss + self.closing_loss
 
     @property

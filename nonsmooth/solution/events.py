@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, C
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 ReadRows: TypeAlias = Callable[[str, int, int | None], NDArray[Any]]
-"""``read(name, start, stop)`` gives the rows from ``start`` to ``stop`` of a column; the stop None is its end."""
+"""``read(name, start, stop)`` gives rows ``start`` to ``stop`` of a column, to its end if ``stop`` is None."""
 _BLOCK = 2**14
 """Number of events that are read at once, so that a long run does not fill the memory."""
 ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
@@ -49,7 +49,7 @@ class Events:
     n_contacts : int
         Number of contacts of the system.
     read : callable
-        ``read(name, start, stop)`` reads rows of a column by its name; the stop None is its end.
+        ``read(name, start, stop)`` reads rows of a column by its name; with ``stop`` None, to its end.
     """
 
     time = _Column("Times [s], shape [n].")
@@ -97,7 +97,7 @@ class Events:
 
     def rows(self, name: str, start: int, stop: int | None) -> NDArray[Any]:
         """Rows from ``start`` to ``stop`` of a column; they do not become an attribute."""
-        # a column that was used before is an attribute
+        # after its first use a column is an attribute of this object, so it is not read again
         used = vars(self).get(name)
         return self._read(name, start, stop) if used is None else np.asarray(used[start:stop])
 
@@ -193,17 +193,23 @@ class Events:
 
     @functools.cached_property
     def before(self) -> Integers:
-        """Bits a + 2 b + 4 c of Eq. (29) per contact before the event, shape [n, n_contacts]."""
+        """Sum of each contact's bits before the event, shape [n, n_contacts].
+
+        The bits are closed 1, approaching 2 and slipping 4, Eq. (29) of the paper.
+        """
         return self._bits(BEFORE)
 
     @functools.cached_property
     def during(self) -> Integers:
-        """Bits per contact during the event, shape [n, n_contacts]; in an impact they show which contacts collide."""
+        """Sum of each contact's bits during the event (1 closed, 2 approaching, 4 slipping), shape [n, n_contacts].
+
+        In an impact, contacts with the bit 2 collide.
+        """
         return self._bits(DURING)
 
     @functools.cached_property
     def after(self) -> Integers:
-        """The bits per contact after the event, shape [n, n_contacts]."""
+        """Sum of each contact's bits after the event (1 closed, 2 approaching, 4 slipping), shape [n, n_contacts]."""
         return self._bits(AFTER)
 
     @functools.cached_property
@@ -214,9 +220,9 @@ class Events:
         return impulse
 
     def codes_after(self, numbers: Integers) -> Integers:
-        """Bits per contact after the events with these numbers, shape [n, n_contacts].
+        """Sum of the bits of each contact after events with given numbers, shape [n, n_contacts].
 
-        The number -1 stands for the time before the first event; its bits are zero.
+        The bits are closed 1, approaching 2, slipping 4.  The number -1 is the time before all events, with bits 0.
         """
         before_all = np.zeros((1, self.n_contacts), np.int64)
         return np.concatenate([self.after, before_all])[numbers]
@@ -239,7 +245,10 @@ class Events:
         return ["" if i < 0 else (guards if cause == Cause.GUARD else contacts)[i] for cause, i in pairs]
 
     def words(self, which: str) -> list[str]:
-        """Mode word of all contacts, such as "{01,00,01}", for each event: "before", "during" or "after" it."""
+        """Mode word of all contacts, such as "{01,00,01}", for each event: "before", "during" or "after" it.
+
+        Its groups are the bits closed, approaching and slipping, with the first contact rightmost in each group.
+        """
         codes: Integers = {"before": self.before, "during": self.during, "after": self.after}[which]
         return self.spelled(codes)
 
@@ -263,7 +272,7 @@ class Events:
     def spelled(codes: Integers) -> list[str]:
         """Mode word, such as "{01,00,01}", of each row of ``codes``, shape [n, n_contacts].
 
-        Its groups are the bits closed, approaching and slipping of Eq. (29), with the first contact rightmost in each.
+        Its groups are the bits closed, approaching and slipping (Eq. (29) of the paper), the first contact rightmost.
         """
         unique, inverse = np.unique(codes, axis=0, return_inverse=True)
         found = [word(list(row & 1), list(row >> 1 & 1), list(row >> 2 & 1)) for row in unique]

@@ -20,9 +20,12 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 ContactModes: TypeAlias = tuple[tuple[int, int], ...]
-"""Mode of a system: pairs (contact, bits of Eq. (29)) of the contacts whose bits are not all zero, in order."""
+"""Mode of a system: pairs (number of a contact, sum of its bits), in the order of the contacts, without sums of 0.
+
+The bits are closed 1, approaching 2 and slipping 4, Eq. (29) of the paper.
+"""
 _CLOSED, _APPROACHING, _SLIPPING = 1, 2, 4
-"""Bits of Eq. (29) in the code of a contact: closed (1), approaching (2) and slipping (4)."""
+"""Bits in the code of a contact, Eq. (29) of the paper: closed (1), approaching (2) and slipping (4), respectively."""
 
 
 def are_recorded(solution: Solution) -> bool:
@@ -100,7 +103,10 @@ class TransitionGraph:
         return f"TransitionGraph({len(self.shares)} modes, {len(self.counts)} transitions)"
 
     def word(self, mode: ContactModes) -> str:
-        """Mode word, such as "{01,00,01}": bits closed, approaching and slipping of all contacts, Eq. (29)."""
+        """Mode word, such as "{01,00,01}": groups of bits, closed, approaching and slipping, Eq. (29) of the paper.
+
+        Each group has a bit for each contact, with the first contact rightmost.
+        """
         rows = [[0] * len(self.contacts) for _ in range(3)]
         for contact, bits in mode:
             for i, row in enumerate(rows):
@@ -109,7 +115,7 @@ class TransitionGraph:
 
     @property
     def nodes(self) -> dict[str, float]:
-        """Share of the time by mode word, the largest first."""
+        """Share of the run's time by mode word ("{01,00,01}"), sorted from the largest share to the smallest."""
         ranked = sorted(self.shares.items(), key=lambda item: -item[1])
         return {self.word(mode): share for mode, share in ranked}
 
@@ -196,7 +202,7 @@ def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes,
     for mode, share in graph.shares.items():
         shares[stands_for[mode]] += share
     for (one, other, cause), n in graph.counts.items():
-        # a mode whose contacts change their features at its very instant has no duration, so it is not among the shares
+        # a mode that lasts no time, because its contacts change their features at once, is not in `stands_for`
         before = stands_for.get(one) or standing.get(_kind(one, passing=False))
         if before is not None and before != stands_for[other]:
             counts[before, stands_for[other], cause] += n

@@ -73,8 +73,8 @@ class Track:
     y : array
         Integrated states: coordinates, velocities, energies, inner states of laws; shape [n, n_y].
     booked : array
-        Energies accounted at events so far [J]: work of driven bodies, losses by restitution, friction and closing;
-        shape [n, 4].
+        Energies accounted at events so far [J]: work of driven bodies, losses by restitution, friction and closing
+        steps; shape [n, 4].
     engine : Engine
         The engine that integrated the run.
     """
@@ -98,8 +98,9 @@ class Track:
 def row_of(state: State) -> Floats:
     """Row of a state in the form of a sample, shape [1 + n_y + 4].
 
-    A sample has the work of driven bodies and the friction loss in two parts, integrated and accounted at events.  A
-    state has only the sums.  So the integrated parts of the row are zero, and its parts at events are the sums.
+    A sample has the work of driven bodies and the friction loss as two numbers: the integrated part, and the part
+    accounted at events.  A state has only the sum of both.  In the row, the integrated part is zero, and the part at
+    events is the sum.
     """
     account = state.energy
     integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work

@@ -51,7 +51,7 @@ class Solution(metaclass=Readable):
     ending: EndSource
 
     def __reduce__(self) -> tuple[Callable[..., Solution], tuple[Any, ...]]:
-        """Pickle the end itself, without the memory of the model from which it is read."""
+        """Pickle the end of the run as it is read, without its source, which keeps the memory of the model."""
         return Solution, (self.system, self.recorded, self.end)
 
     @property
@@ -157,7 +157,7 @@ class Solution(metaclass=Readable):
     @functools.cached_property
     def end(self) -> End:
         """End of the run: state, counters, status and verdict of the engine."""
-        # read on use: it takes as long as a run of some microseconds, and many studies need samples only
+        # read at the first use: reading takes some microseconds, as short runs do, and many studies need samples only
         return self.ending.read()
 
     @functools.cached_property

@@ -36,7 +36,7 @@ class Continuation:
         Digest of the model that ran.
     difference : Difference
         Difference between the memory at a checkpoint and the memory before any run.  The checkpoint is a few steps
-        before the end, where the content does not depend on the end time.
+        before the end, at a time when the content does not depend on the end time.
     n_known_events : int
         Number of events after the checkpoint. The continued run repeats them, and they are recorded already.
     """
@@ -91,7 +91,7 @@ class State:
     law_states: Floats
     guards_spent: Integers
     energy: EnergyAccount
-    # no argument of the constructor, so that a state changed by dataclasses.replace has none
+    # no argument of the constructor: a state changed by dataclasses.replace gets None here, so it starts a new run
     continuation: Continuation | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -146,7 +146,7 @@ class State:
         return f"State(t = {self.time:.9g} s: {size})"
 
     def with_continuation(self, continuation: Continuation) -> State:
-        """Set the data that continue the run, and return this state; called before the state is used elsewhere."""
+        """Set the data that continue the run, and return this state. Only for a state that was just made."""
         object.__setattr__(self, "continuation", continuation)
         return self
 

@@ -13,7 +13,10 @@ from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
-"""Residual of the energy account that tolerances explain even in a short run, relative to the tolerance of a step."""
+"""Residual of the energy account that a short run may have, relative to the tolerance of a step.
+
+A run of more steps may have a residual of one tolerance for each step.
+"""
 _MOST = 1e-3
 """Largest unexplained energy that a run may have, however many steps it takes, relative to its scale of energy."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
@@ -50,8 +53,8 @@ def suspicions(
     worst_event : tuple of float
         Event with the largest residual: time [s], residual [J], and its ratio to the residual that tolerances explain.
     jump : tuple of float
-        Last time at which a compliant contact began with overlapping bodies [s], and the energy that its spring and
-        others gained in this way [J].
+        Last time at which a compliant contact began with overlapping bodies [s], and the energy that all contacts
+        gained in this way [J].
     rubbed : float
         Energy that friction added [J]; 0 if a law of the system can store energy.
     energy : EnergyAccount
@@ -65,11 +68,11 @@ def suspicions(
     steps : int
         Number of steps.
     scale : float
-        Kinetic energy of velocities as large as their scales [J].
+        Kinetic energy if each velocity had the size of its scale [J].
     floor : float
         Weight times size of the bodies [J].  A residual is compared with it if bodies hardly move.
     span : callable
-        Returns a sentence about the time in which the energy account became open.
+        Returns a sentence about the time in which the unexplained energy arose.
     """
     promised, name = engine.promised_residual, type(engine).__name__
     if promised is None:
@@ -80,7 +83,7 @@ def suspicions(
     given = pushed(rubbed, energy, floor)
     found = open_event(*worst_event), account, given, long_quaternion(bodies, *samples, off)
     said = "; ".join(filter(None, (jumped(*jump, energy, floor), *found)))
-    # the sentence about jumps has its own remedy
+    # the sentence of `jumped`, about contacts that began with overlap, has its own remedy
     more = span() if account else "", remedy if any(found) else ""
     return " ".join(filter(None, (f"{said}.", *more))) if said else ""
 
@@ -106,9 +109,9 @@ def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: flo
 
 
 def open_event(time: float, energy: float, share: float) -> str:
-    """Sentence about the event with the largest residual ``energy`` [J], "" if the tolerances explain it.
+    """Sentence about the event with the largest unexplained energy ``energy`` [J]; "" if the tolerances allow it.
 
-    ``share`` is the ratio of the residual to the largest one that the tolerances explain.
+    ``share`` is the ratio of this energy to the largest one that the tolerances allow.
     """
     if share <= 1.0:
         return ""
@@ -138,12 +141,13 @@ def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
 
 
 def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0, floor: float = 0.0) -> str:
-    """Sentence about an energy account that is open by more than the tolerances explain, else "".
+    """Sentence about a run with more unexplained energy than the tolerances allow, else "".
 
-    Each step may add one relative tolerance to the residual, and a run of few steps may have a thousand tolerances.  In
-    slow motion, tolerances are relative to the scale of velocities, which has the kinetic energy ``scale`` [J].  At
-    most a thousandth of the scale of the account is explained, or of ``floor`` [J] if that is larger.  At tolerances
-    above 1e-6 the limit is a thousand tolerances instead of a thousandth.
+    The allowed energy is one relative tolerance for each step, and at least a thousand tolerances, times the scale of
+    the account.  In slow motion, tolerances are relative to the scale of velocities, which has the kinetic energy
+    ``scale`` [J], so a term is added.  The allowed energy is at most a thousandth of the scale of the account, or of
+    ``floor`` [J] if that is larger.  At tolerances above 1e-6 it is at most a thousand tolerances instead of a
+    thousandth.
     """
     slow = steps * tolerance * math.sqrt(energy.scale * scale)
     potential = max(abs(energy.potential_start), abs(energy.potential_end))

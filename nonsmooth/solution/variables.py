@@ -47,7 +47,7 @@ _MEMORY = (
     ("mode after the time-stepping fallback", "1"),
     *((f"feature {number}", "1") for number in range(CANDIDATE)),
 )
-"""Names and units of the columns of ``Events.listed_memory``."""
+"""Names and units of the columns of ``Events.listed_memory``, which a contact keeps for a continued run."""
 _MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed approaching slipping"}
 _SHIFTS = {"mode_before": BEFORE, "mode_during": DURING, "mode_after": AFTER}
 _CAUSE: dict[str, Any] = {
@@ -61,7 +61,7 @@ def _words(name: str, dimension: str, words: Sequence[str], what: str) -> Labell
 
 
 def of_system(system: System) -> list[LabelledArray]:
-    """Labels of bodies, coordinates, contacts and guards, and the laws of the contacts."""
+    """Arrays of labels for results: names of bodies, coordinates, contacts and guards, laws of the contacts."""
     names, contacts = system.names, system.contacts
     known = dict(zip(map(id, system.bodies), names.bodies, strict=True))
     found = [
@@ -82,7 +82,7 @@ def of_system(system: System) -> list[LabelledArray]:
         found.append(_words(f"contact_{which}_body", "contact", between, f"{which} body of the contact"))
     for role in ("normal", "friction", "impact"):
         laws = [getattr(contact, role) for contact in contacts]
-        # contacts share laws, and the text of a law takes longer than its identity
+        # contacts share laws; the text of each law is made once, because that takes longer than a look-up by id()
         words = {key: repr(law) for key, law in {id(law): law for law in laws}.items()}
         texts = [words[id(law)] for law in laws]
         found.append(_words(f"contact_{role}", "contact", texts, f"law of the contact: {role}"))
@@ -113,7 +113,7 @@ SAMPLES = tuple(name for name, *_ in _SAMPLES)
 
 
 def of_samples(*values: Floats) -> list[LabelledArray]:
-    """Labelled arrays of the samples from values in the order of :data:`SAMPLES`, of which the last may be missing."""
+    """Labelled arrays of the samples; ``values`` are in the order of :data:`SAMPLES` and may lack the last ones."""
     return [LabelledArray(name, over, array, more) for (name, over, more), array in zip(_SAMPLES, values, strict=False)]
 
 
@@ -154,7 +154,7 @@ class _StoredArray:
 def _column(
     name: str, axes: str, column: str, what: str, unit: str = "1", kind: type[np.number[Any]] = np.float64, **more: Any
 ) -> _StoredArray:
-    """Row of an array that holds a column of events; with the unit "", another array has the unit of each entry."""
+    """Row of an array that holds a column of events; the unit "" means that another array has a unit for each entry."""
     attributes = {**described(what, unit), **more}
     return _StoredArray(name, tuple(axes.split()), attributes, attrgetter(column), column, kind)
 
@@ -215,7 +215,7 @@ def stored_events(read: ReadRows, n: int, n_contacts: int) -> Events:
     Parameters
     ----------
     read : callable
-        ``read(name, start, stop)`` reads rows of a stored array; the stop None is its end.
+        ``read(name, start, stop)`` reads rows of a stored array; with ``stop`` None, to the end of the array.
     n : int
         Number of events.
     n_contacts : int

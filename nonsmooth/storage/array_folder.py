@@ -87,7 +87,7 @@ class ArrayFolder:
             attributes = dict(content["attributes"])
             checksum, version = attributes.pop("checksum", None), attributes.pop("format_version", None)
             if checksum != _checksum(content):
-                # name another version as the cause first: it may compute another checksum, or none
+                # report another format version first, because its checksum may be computed in another way or be missing
                 _check_version(path, version if isinstance(version, int) else 0)
                 raise ValueError("the checksum is not that of what was written")
             _check_version(path, version)
@@ -149,9 +149,9 @@ class ArrayFolder:
         self.write(name, 0, values)
 
     def write(self, name: str, start: int, rows: NDArray[Any]) -> None:
-        """Write rows into an array from row ``start`` on; they take effect with the next commit.
+        """Write rows into an array from row ``start`` on; readers see them after the next commit.
 
-        The rows must end at the end of a chunk, or be the last rows of the array.
+        The rows must end at the end of a chunk, or be the last rows of the array: rows after them in a chunk are lost.
         """
         layout = self.layout(name)
         if not layout.shape:
@@ -163,7 +163,7 @@ class ArrayFolder:
             low, high = max(start, first), min(end, first + layout.chunk)
             content = rows[low - start : high - start]
             if len(content) < layout.chunk:
-                # the chunk begins with rows that were written earlier
+                # if the rows begin within this chunk, keep the earlier rows of the chunk
                 content = self.chunk(name, number) if low > first else layout.blank()
                 content[low - first : high - first] = rows[low - start : high - start]
             self._waiting[self._place(name, number)] = layout.encoded(content.astype(layout.numbers, copy=False))
@@ -217,7 +217,7 @@ class ArrayFolder:
             shutil.rmtree(self.path / name, ignore_errors=True)
 
     def file(self, name: str, content: bytes) -> None:
-        """Put a file of another kind into the folder, with the next commit."""
+        """Put a file that is no part of an array, such as a stored state, into the folder, with the next commit."""
         self._waiting[self.path / name] = content
 
     def commit(self, *, safely: bool) -> None:
@@ -309,7 +309,7 @@ def _json(content: Mapping[str, Any]) -> bytes:
 
 
 _MARK = _json({"zarr_format": 3, "node_type": "group", "attributes": {"title": "lock and states of nonsmooth"}})
-"""Metadata of the folder of the writer; their presence shows that nonsmooth made the folder of arrays."""
+"""Metadata of the subfolder for the lock and states. The subfolder shows that nonsmooth made the folder of arrays."""
 
 
 def is_marked(path: Path) -> bool:
@@ -321,7 +321,7 @@ def is_marked(path: Path) -> bool:
 
 
 def _checked(name: str) -> str:
-    """Check the name of an array, which its folder gets too, and return it.
+    """Check the name of an array, which is also the name of the array's folder, and return it.
 
     Raises
     ------

@@ -117,7 +117,7 @@ class ArrayLayout:
 
     def encoded(self, chunk: NDArray[Any]) -> bytes:
         """Bytes of a whole chunk."""
-        # imported on use: most runs write no folder
+        # imported on use, because the import takes time and most runs write no folder
         import google_crc32c
         from numcodecs.blosc import Blosc
         from numcodecs.vlen import VLenUTF8

@@ -68,7 +68,7 @@ class Contact:
         frames: tuple[int, int] = (0, 0),
         name: str = "",
     ) -> Contact:
-        """Contact of two shapes, with the extents and levers of the shapes.
+        """Contact of two shapes, which give its attributes ``extents`` and ``levers``.
 
         Parameters
         ----------

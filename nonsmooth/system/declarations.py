@@ -18,7 +18,7 @@ from nonsmooth.system.pairing import ContactGeometries, Side, select
 
 _Facing: TypeAlias = tuple[Side, Side, ContactKinematics]
 _WITHOUT_SHAPE = -1
-"""Number in ``paired`` for a shape of a contact of ``System.add_contact``, as no body needs to carry that shape."""
+"""Number in ``paired`` of a shape of ``System.add_contact``: the body need not carry it, so it has no number there."""
 
 
 @final
@@ -52,7 +52,7 @@ class ContactDeclarations:
     _geometries: ContactGeometries = field(default_factory=ContactGeometries, init=False)
 
     def copied(self, members: Members) -> ContactDeclarations:
-        """Independent copy of the declarations for ``members``, a copy of the bodies' numbers and names."""
+        """Independent copy of these declarations for a copy of the system, whose bodies are ``members``."""
         lists = [*self.contacts], [*self.declared], [*self.given]
         return ContactDeclarations(members, *lists, {*self.paired}, [*self.excluded], [*self.left_out])
 
@@ -111,7 +111,7 @@ class ContactDeclarations:
         exclude: Iterable[tuple[Body, Body]],
         joined: Iterable[tuple[Body, Body]],
     ) -> tuple[Contact, ...]:
-        """Add contacts between all bodies, as ``System.contact_all`` does; ``joined`` are the pairs tied by a joint."""
+        """Add contacts between all bodies, as ``System.contact_all``, but none for the pairs ``joined`` by a joint."""
         where, members = "System.contact_all", self.members
         materials = Materials(default=laws) if isinstance(laws, ContactLaws) else laws
         remedy = "Write nonsmooth.ContactLaws(normal, friction, impact), or nonsmooth.Materials({...})."

@@ -176,7 +176,7 @@ def _check_bundle(where: str, laws: ContactLaws) -> None:
 _MOST = 2
 """Largest number of compliant contacts with static friction between two bodies.
 
-With more contacts, the distribution of static friction does not follow the changes of their loads.
+With more contacts, the distribution of static friction over them does not follow changes of their normal forces.
 """
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _BETWEEN = " - "
 _RESERVED = (_BETWEEN, "(", ")")
-"""Texts that join the parts of made names. Chosen names must not contain them, so that they differ from made names."""
+"""Texts that join the parts of generated names. Chosen names must not contain them, to differ from generated names."""
 _HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
@@ -51,12 +51,12 @@ def kind_word(component: object) -> str:
 
 
 def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ...]:
-    """Names of bodies: the chosen name of each body, or a made name if the chosen name is empty."""
+    """Names of bodies: the chosen name of each body, or a generated name if the chosen name is empty."""
     words = {kind: kind_word(body) for kind, body in {type(body): body for body in bodies}.items()}
     kinds = ["" if name else words[type(body)] for body, name in zip(bodies, chosen, strict=True)]
     totals, taken = Counter(kinds), {*chosen}
-    # if only one body is of a kind, its name is the kind without a number, unless the user chose this name for another
-    # body
+    # if only one body of a kind has no chosen name, its name is the kind without a number. If the user chose this word
+    # as the name of another body, it gets a number
     free = {
         kind: (word for word in itertools.chain([kind] * (total == 1), _numbered(kind)) if word not in taken)
         for kind, total in totals.items()
@@ -148,7 +148,7 @@ def check_name(where: str, name: object, taken: Collection[str] = ()) -> None:
     Raises
     ------
     InvalidInput
-        If the name is not a text of words with single blanks, contains a text that joins made names, or is taken.
+        If the name is not a text of words with single blanks, is taken, or contains a text of generated names (" - ").
     """
     if not isinstance(name, str) or not name or name != " ".join(name.split()) or not name.isprintable():
         raise InvalidInput(where, "must be a text of words with single blanks", name, 'For example "left hammer".')

@@ -114,7 +114,7 @@ class ContactGeometries:
             return shape
 
     def between(self, first: Shape, second: Shape) -> tuple[Sequence[ContactKinematics], bool]:
-        """Geometries of two shapes of :meth:`shapes`, and True if the first shape comes first in them.
+        """Contact geometries of two shapes from :meth:`shapes`; True if the geometries have the shapes in this order.
 
         Raises
         ------
@@ -130,7 +130,7 @@ class ContactGeometries:
         if key not in self._made:
             made = kinematics.between(one, two)
             if any(geometry.candidates is not None for geometry in made):
-                # a search for features belongs to two bodies, so its geometry is not shared
+                # geometries with a search for features belong to one pair of bodies: do not store them for others
                 return made, in_order
             self._made[key] = tuple(made)
         return self._made[key], in_order
@@ -158,7 +158,7 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
 
 
 def installed_pair(first: Shape, second: Shape) -> Found | None:
-    """Installed kinematics of two shapes, and True if it takes the shapes in this order; None if none is installed."""
+    """Installed kinematics of two shapes, and True if it takes the shapes in this order; None without kinematics."""
     return nearest_pair(registry.load_all("kinematics", _named_after(first, second)).values(), first, second)
 
 
@@ -178,7 +178,7 @@ def _named_after(first: Shape, second: Shape) -> list[str]:
 
 
 _UPPER = re.compile(r"(?<!^)(?=[A-Z])")
-"""Place before an upper-case letter within the name of a class, where it is divided into words."""
+"""Place before an upper-case letter within the name of a class: the name is divided into words there."""
 
 
 def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:

@@ -65,7 +65,7 @@ def page(solution: Solution, title: str, most_knots: int) -> str:
 
 
 def _named(bodies: Sequence[str]) -> str:
-    """Title from the names of bodies; bodies whose names differ by a number only are counted."""
+    """Title from the names of bodies; names that differ by a number only are put together, as in "3 x ball"."""
     kinds = Counter(re.sub(r" \d+$", "", name) for name in bodies)
     words = [kind if count == 1 else f"{count}\u00a0\u00d7\u00a0{kind}" for kind, count in kinds.items()]
     return ", ".join(words[:_MOST_KINDS] + ["…"] * (len(words) > _MOST_KINDS))

@@ -25,7 +25,7 @@ _MOST_LETTERS = 12
 _MOST_NUMBERS = 6
 """Largest number of contacts that are listed by their numbers; further contacts are counted."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2
-"""Codes of Eq. (29): of a sticking contact (1), of a sliding contact (5), and the bit of an approaching contact (2)."""
+"""Sums of a contact's bits, Eq. (29) of the paper: sticking (1) and sliding (5). Bit of an approaching contact (2)."""
 
 
 def event_words(events: Events) -> tuple[list[str], NDArray[np.int64]]:

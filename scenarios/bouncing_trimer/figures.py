@@ -52,7 +52,10 @@ def _finished(scenario: BouncingTrimer, run: Run) -> Solution:
 
 
 def regimes(runs: list[Ran]) -> Figure:
-    """Draw gap, speed and turning rate over Gamma: a marker for each run, with a circle if the trimer tumbles."""
+    """Draw gap, speed and turning rate over Gamma, with a marker for each run, and a circle if the trimer tumbles.
+
+    Gamma is the peak acceleration of the plate over gravity.
+    """
     title = "It rests, bounces level, wanders and turns, and at last tumbles, as Γ grows"
     figure, axes = charts.panels(3, 1, title, (7.2, 7.2), sharex=True)
     circle: dict[str, Any] = {"marker": "o", "markersize": 9, "fillstyle": "none", "linestyle": "none", "color": "0.4"}

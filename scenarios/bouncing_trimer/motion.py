@@ -71,11 +71,11 @@ def repetition(motion: TrimerMotion) -> int | None:
 
 
 def summary(motion: TrimerMotion) -> Mapping[str, Any]:
-    """Return attractor and numbers of the second half of a run.
+    """Return the attractor of a run, and numbers of its motion in the second half of the run.
 
     - ``attractor``: "rest", "period_k" (k plate periods), "tumbling" if the trimer turns over, or "irregular";
     - ``drift``: distance between first and last place / time [m/s];
-    - ``wandering``: mean speed along the path, with one point in a plate period [m/s];
+    - ``wandering``: mean speed along the path, of which one point in each plate period is taken [m/s];
     - ``rotation``, ``turning``: mean of the vertical angular velocity, and of its absolute value [rad/s];
     - ``largest_gap``, ``largest_tilt``: [m], [rad].
     """

@@ -188,7 +188,10 @@ class BouncingTrimer(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return gaps and speeds over Gamma at three frequencies, and path and gaps of one run."""
+        """Return figures: gaps and speeds over Gamma at 25, 50 and 100 Hz; path and gaps of a run at Gamma = 3.
+
+        Gamma is the peak acceleration of the plate over gravity.
+        """
         gammas = np.round(np.arange(0.9, 6.01, 0.3), 6).tolist()
         one = cls(gamma=3.0)
         regimes = draw.regimes(draw.survey(cls(), gammas, (25.0, 50.0, 100.0), 150, run))

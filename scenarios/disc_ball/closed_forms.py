@@ -21,7 +21,8 @@ def half_angle(radius_ratio: float) -> float:
 def symmetric(mass_ratio: float, radius_ratio: float, restitution: float) -> tuple[float, float]:
     """Return the velocity of the disc along the axis and the speed of either ball, relative to the disc's speed before.
 
-    By symmetry the impulse P is the same at both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.
+    By symmetry the impulse P is the same at both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.  Here m
+    is the mass of a ball, M the mass of the disc, v its speed before, and alpha the angle of :func:`half_angle`.
     """
     c = math.cos(half_angle(radius_ratio))
     ball = (1.0 + restitution) * c / (1.0 + 2.0 * c * c / mass_ratio)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _LONG = 2.0
-"""End of runs with other ratios and offsets [s]: after an oblique strike the disc may reach the second ball late."""
+"""End time of the runs over stiffness ratio and offset [s]: after an oblique strike the second ball may be hit late."""
 
 
 def strike(scenario: DiscBall, solution: Solution) -> Figure:
@@ -62,7 +62,10 @@ def _body(ax: Axes, place: Floats, radius: float, velocity: Floats, color: str, 
 
 
 def over_stiffness(scenario: DiscBall, run: Run) -> Figure:
-    """Draw velocities after the strike over the ratio of stiffnesses, with the limits by successive collisions."""
+    """Draw velocities after the strike over the ratio of stiffnesses at the two contacts.
+
+    Marks at both ends show the limit there: the disc hits one ball after the other.
+    """
     ratios = np.logspace(-4.0, 4.0, 49)
     after = _after([dataclasses.replace(scenario, t_end=_LONG, stiffness_ratio=x) for x in ratios.tolist()], run)
     title = "The ball at the stiffer contact gets more; at either end one is struck after the other"
@@ -79,7 +82,8 @@ def over_stiffness(scenario: DiscBall, run: Run) -> Figure:
 
 def over_offset(scenario: DiscBall, run: Run) -> Figure:
     """Draw velocities after the strike over the offset, and the closed form of the symmetric strike."""
-    offsets = np.linspace(-1.95, 1.95, 118)  # an even number of offsets leaves out zero
+    # an even number of offsets, symmetric about zero, has no offset zero, at which the disc hits both balls at once
+    offsets = np.linspace(-1.95, 1.95, 118)
     cases = [dataclasses.replace(scenario, t_end=_LONG, offset=x * scenario.radius) for x in offsets.tolist()]
     middle = len(offsets) // 2  # nan in the middle interrupts the line between both sides
     places, after = np.insert(offsets, middle, np.nan), np.insert(_after(cases, run), middle, np.nan, axis=0)

@@ -37,7 +37,7 @@ _LEVEL = 0.25
 _SYMMETRIC = 0.1
 """Largest sum of the least and the largest tilt of a symmetric motion, relative to their difference."""
 _STANDING = 0.2
-"""Fraction of the time in contact with the plate from which a ball stands on it, and below which it bounces."""
+"""Part of the time in contact with the plate: a ball with at least this part stays on the plate, else it bounces."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class Settled:
         return next((name for name, test in tests.items() if period is not None and test(period)), "other")
 
     def _jumps(self, period: int) -> bool:
-        """Return True if both balls bounce once per plate period, level."""
+        """Return True if both balls bounce once per plate period and the dumbbell stays level."""
         struck, _ = self._strikes
         lift = np.abs(self.motion.gap[:, 0] - self.motion.gap[:, 1]).max()
         level = lift <= _LEVEL * float(self.motion.gap.max()) and float(self._standing.max()) < _STANDING
@@ -143,7 +143,10 @@ class Settled:
         return period == 2 and abs(len(struck) - self.cycles) <= 1 and in_turn and symmetric
 
     def _drifts(self, period: int) -> bool:
-        """Return True if one ball stands, the other strikes once per plate period, and then both touch: {11,10,11}."""
+        """Return True if one ball stays on the plate, and the other strikes once per plate period while both touch.
+
+        With ball 1 on the plate, the strike has the mode word {11,10,11}: both closed, ball 2 approaches, both slip.
+        """
         struck, touching = self._strikes
         resting = int(np.argmax(self._standing))
         other = struck[:, 1 - resting]
@@ -153,7 +156,7 @@ class Settled:
 
     @functools.cached_property
     def _strikes(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """For every impact: True for balls that strike, and for balls that touch the plate during it, shapes [n, 2]."""
+        """Return two arrays for the n impacts, shape [n, 2]: True for balls that strike, and for balls that touch."""
         events = self.events
         inside = (events.time > self.motion.t[0]) & (events.time <= self.motion.t[-1])
         during = events.during[inside & (events.cause == Cause.IMPACT)]

@@ -73,7 +73,7 @@ class DumbbellMotion:
 
     @property
     def slip(self) -> Floats:
-        """Slip velocity of ball 1 at its lowest point, along x and y [m/s], shape [n, 2]; N of Eq. (12)."""
+        """Slip velocity of ball 1 at its lowest point, along x and y [m/s], shape [n, 2]; Eq. (12) of the paper."""
         r, c_b = self.scenario.radius, np.cos(self.q[:, 4])
         s_t, c_t = np.sin(self.q[:, 3]), np.cos(self.q[:, 3])
         x = self.u[:, 0] - r * s_t * self.u[:, 4] - r * c_b * c_t * self.u[:, 5]

@@ -32,7 +32,7 @@ _RUNS: Mapping[str, dict[str, Any]] = {
     "jump 1": {"mode": "jump", "beta0": math.radians(1.0)},
     "flutter": {"mode": "flutter", "t_end": 8.0},
     "drift 3D": {"mode": "drift", "t_end": 24.0} | _ACROSS,
-    # the level orbit is not stable: in a long run round-off tilts it
+    # jump 3D is short, because the level motion is not stable: in a long run round-off tilts the dumbbell
     "jump 3D": {"mode": "jump", "t_end": 0.5} | _ACROSS,
     "flutter 3D": {"mode": "flutter", "t_end": 8.0} | _ACROSS,
 }
@@ -142,7 +142,7 @@ _NEUTRAL = {
     slip_velocity: "Slip of ball 1 at the end of the run",
     gap_rate: "Normal velocity of ball 1 at the end of the run",
 }
-"""Titles, by drawing function, for runs that did not settle into the motion of their mode."""
+"""Drawing function -> title of its figure, for a run that has not settled into the motion named by its mode."""
 _STANDS = "Drift: one ball keeps to the plate, the other strikes once per plate period"
 _SLIP = "Drift: the slip of ball 1 is not symmetric, so that friction moves the dumbbell"
 _TILTED = "Jump from a tilt: two single impacts per plate period instead of a double one"
@@ -166,7 +166,8 @@ def paths(runs: Mapping[str, tuple[DumbbellScenario, Solution]], spans: Mapping[
         motion = scenario.motion(solution, solution.t_end - spans[mode] / scenario.frequency - 1e-9)
         t, path = motion.t, motion.centre
         times, velocities = _means(settled, t, path)
-        if mode == "flutter":  # its path sways too little across to be seen to scale
+        # the path of flutter sways across by too little to be seen at equal scales of both axes
+        if mode == "flutter":
             turn = 1e3 * _turn(path)
             path, velocities = (path - path[0]) @ turn, velocities @ turn
             ax.set(xlabel="along the mean path [mm]", ylabel="across it [mm], magnified")
@@ -211,7 +212,7 @@ def _show_square(ax: Axes, path: Floats) -> None:
 
 
 def _turn(path: Floats) -> Floats:
-    """Return the matrix R for which ``path @ R`` has its displacement from start to end along the first axis."""
+    """Return the rotation matrix R for which ``path @ R`` leads from start to end along the first axis."""
     c, s = (path[-1] - path[0]) / max(float(np.hypot(*(path[-1] - path[0]))), 1e-300)
     return np.array([[c, -s], [s, c]])
 

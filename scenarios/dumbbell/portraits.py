@@ -1,4 +1,4 @@
-"""Figs. 8 to 10: phase portraits of theta, beta and gamma, with the paper's marks."""
+"""Figs. 8 to 10 of the dumbbell's paper: phase portraits of theta, beta and gamma, with its marks at impacts."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _STATEMENTS: Mapping[str, str] = {
     "beta": "the tilt: closed, as the normal motion is periodic; jump, not shown, stays level",
     "gamma": "the roll: open in all three modes, the dumbbell rolls along",
 }
-"""Titles of the figures with all three modes, by angle."""
+"""Angle -> title of the phase portrait that shows all three modes."""
 _TURN = 1e-9
 """Range of an angle [rad] and of its rate [rad/s] below which the angle is treated as constant."""
 
@@ -69,7 +69,10 @@ def _portrait(traces: Mapping[str, Trace], column: int, symbol: str, title: str)
 
 
 def _draw_drift(ax: Axes, trace: Trace, x: Floats, y: Floats) -> None:
-    """Black: free flight; blue, dashed: one ball on the plate; dotted: impacts, red circles at double ones."""
+    """Draw a drift: free flight black, one ball on the plate blue and dashed, changes in impacts dotted.
+
+    Red circles mark the states before and after double impacts.
+    """
     double, hit = _struck(trace)
     standing = np.asarray(trace.touching.any(axis=1)) & ~hit
     _steps(ax, x, y, ~standing & ~hit, "free flight", _FLIGHT)
@@ -113,7 +116,7 @@ def _steps(ax: Axes, x: Floats, y: Floats, chosen: Flags, label: str, style: dic
     index = np.flatnonzero(chosen[:-1])
     if len(index):
         pieces = np.split(index, np.flatnonzero(np.diff(index) > 1) + 1)
-        # a piece ends at the point after its last chosen one; -1 becomes nan, which interrupts the line
+        # the line of a piece also has the point after the last chosen point; -1 becomes nan, which interrupts the line
         points = np.concatenate([np.append(piece, [piece[-1] + 1, -1]) for piece in pieces])
         ax.plot(*(np.where(points < 0, np.nan, values[points]) for values in (x, y)), label=label, **style)
 

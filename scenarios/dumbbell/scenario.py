@@ -45,7 +45,7 @@ _STARTS: Mapping[str, dict[str, float]] = {
     },
     "free": {"beta0": math.radians(10.0)},
 }
-"""Parameters of the paper's starts by mode, section 5.1 [SI units, rad].
+"""Mode -> start of its motion in the dumbbell's paper, section 5.1, as parameters of the scenario [SI units, rad].
 
 The vertical velocity of the jump is not listed, because it depends on the frequency.
 """
@@ -69,8 +69,10 @@ def _quiet() -> Iterator[None]:
 class DumbbellScenario(Scenario):
     """A dumbbell on a vibrating plate drifts, jumps or flutters: the system of the paper.
 
-    The plate moves as z_p = A_z sin(2 pi f t + phi_0).  The paper prints 2 g / f as the start of the jump; that is a
-    flight of four plate periods.  Period 1 needs g / (2 f), which ``mode=jump`` takes; the printed one is
+    The plate moves as z_p = A_z sin(2 pi f t + phi_0).
+
+    The paper prints the vertical velocity 2 g / f at the start of the jump; that is a flight of four plate periods.  A
+    jump of one plate period needs g / (2 f), which ``mode=jump`` takes.  The printed velocity is
     ``vertical_velocity=0.7848`` at 25 Hz.
     """
 
@@ -190,7 +192,10 @@ class DumbbellScenario(Scenario):
         return {name: left_out[name] if value is None else value for name, value in super().resolved().items()}
 
     def _hertz_time(self, aspect_ratio: float) -> float:
-        """Return the duration of the slightest impact of a level dumbbell's ball [s], by Hertz's law and gravity."""
+        """Return the contact time T_c [s] of a ball of the level dumbbell, by Hertz's law and gravity.
+
+        An impact at the speed g T_c, which gravity gives in the time T_c, lasts just T_c.
+        """
         body, material = self._dumbbell(aspect_ratio), (self.young_modulus, self.poisson_ratio)
         return closing_time(body.level_mass, self.radius, effective_modulus(material, material), GRAVITY)
 
@@ -254,7 +259,7 @@ class DumbbellScenario(Scenario):
         return law
 
     def motion(self, solution: Solution, since: float = 0.0) -> coordinates.DumbbellMotion:
-        """Return the motion in the paper's coordinates, at samples from the time ``since`` [s] on and at the end."""
+        """Return the motion in the coordinates of the dumbbell's paper, at samples from ``since`` [s] to the end."""
         t, q, u = solution.t, solution.q, solution.u
         if len(t) == 0 or solution.t_end > t[-1] + 1e-9 / self.frequency:
             t = np.append(t, solution.t_end)
@@ -277,7 +282,11 @@ class DumbbellScenario(Scenario):
         return attractor.Settled.of(self, solution).summary()
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return criteria for a run with the mode's own parameters: its period, and a number typical of the mode."""
+        """Return criteria for a run with the start of its mode: its period [plate periods] and a second quantity.
+
+        It is the part of the time with ball 1 alone on the plate for drift, the largest gaps [m] for jump, and the
+        tilts [rad] for flutter.
+        """
         if self.mode not in _PERIODS or not self._is_nominal():
             return ()
         paper, summary = "the paper, section 5", self.summarise(solution)
@@ -300,7 +309,7 @@ class DumbbellScenario(Scenario):
         return tuple(found)
 
     def _is_nominal(self) -> bool:
-        """Return True if no parameter was changed but the mode, the end time and the transverse velocity."""
+        """Return True if all parameters but mode, end time and transverse velocity have their default values."""
         declared = rules(type(self)).items()
         changed = {name for name, (field, _) in declared if getattr(self, name) != field.default}
         return changed <= {"mode", "t_end", "transverse_velocity"}

@@ -161,7 +161,7 @@ class MeshDrop(Scenario):
         return float(times[0]) if len(times) else None
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return criteria: deepest point below ground, time of the first impact, and balance of energy."""
+        """Return criteria for the body's lowest point, the time of the first impact, and the balance of energy."""
         system = self.build()
         q, u = system.start(system.bodies[1])
         kinetic = self.kinetic_energy(np.stack([u, solution.u_end]))

@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 def contact_point(semi: Floats, offset: float, n: Floats) -> tuple[Floats, Floats]:
-    """Return the contact point from the mass centre [m] and its derivative by the upward normal n [m], in body axes.
+    """Return the contact point from the mass centre [m], and its derivative with respect to the normal n, in body axes.
 
     With S the squares of the semi-axes the point is r = offset e_z - S n / h, h = sqrt(n . S n) the support function.
 
@@ -46,8 +46,8 @@ def roll(
 ) -> tuple[Floats, Floats]:
     """Return upward normals and angular velocities [rad/s], in body axes, at given times, shapes [n, 3].
 
-    They follow from J w' + w x J w = r x m (a + g n) and n' = -w x n.  The acceleration a of the mass centre is the
-    rate of its velocity -w x r.
+    They follow from J w' + w x J w = r x m (a + g n) and n' = -w x n.  Here r is the point of :func:`contact_point`,
+    and a is the acceleration of the mass centre, the rate of its velocity -w x r.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def roll(
         # numpy's cross product takes ten times as long
         across_w, across_r = _across(w), _across(r)
         turning = -across_w @ n
-        # a + g n for w' = 0
+        # acceleration of the mass centre for w' = 0, plus gravity along the upward normal n
         bias = gravity * n - across_w @ (by_normal @ turning + across_w @ r)
         matrix = tensor - mass * across_r @ across_r
         return np.concatenate([turning, np.linalg.solve(matrix, mass * across_r @ bias - across_w @ tensor @ w)])

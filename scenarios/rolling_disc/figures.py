@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 _MOST_TURNS = 8.0
 """Turns of the lowest point up to which its whole path is drawn; more turns would fill the figure with grey."""
 _TURNS, _POINTS = 3.0, 1500
-"""Number of last turns that are drawn of a longer path, and number of points in them."""
+"""Number of turns at the end of a longer path that are drawn, and number of points of these turns, respectively."""
 _THEORY: dict[str, Any] = charts.line(2) | {"linestyle": ":"}
 
 

@@ -116,7 +116,7 @@ class SliderCrank(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return criteria: number of corners in the first impact; with Newton's law, velocities after it."""
+        """Return criteria: number of corners that the first impact hits; with Newton's law, velocities after it."""
         events = solution.events
         first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
         hit, ratio, turning = (math.nan,) * 3

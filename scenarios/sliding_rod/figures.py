@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _ANGLES, _COEFFICIENTS = 17, 11
-"""Numbers of angles and friction coefficients at which runs are tested for the paradox."""
+"""Numbers of angles and friction coefficients at which runs are tested for Painleve's paradox, respectively."""
 _MARKED: dict[int, str] = {
     Cause.PAINLEVE: "impact without collision",
     Cause.JAM: "jamming of the slip",
@@ -51,7 +51,7 @@ def histories(runs: Mapping[str, tuple[SlidingRod, Solution]], title: str) -> Fi
 
 
 def _history(axes: Sequence[Axes], rod: SlidingRod, solution: Solution) -> None:
-    """Draw the quantities of one run, with the values before and after each event."""
+    """Draw angle, slip velocity and gap of one run, with the values before and after each event."""
     events = solution.events
     apart = ~np.isin(solution.t, events.time)
     t = np.concatenate([solution.t[apart], np.repeat(events.time, 2)])

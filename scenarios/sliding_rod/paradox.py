@@ -35,7 +35,7 @@ class RodContact:
         return self.mass * self.half_length**2 / 3.0
 
     def arm(self, tilt: float) -> tuple[float, float]:
-        """Return how far the contact point is ahead of the middle of the rod, and how far below it [m]."""
+        """Return how far the contact point is ahead of the rod's middle, along the slip, and how far below it [m]."""
         return self.half_length * math.cos(tilt), self.half_length * math.sin(tilt) + self.end_radius
 
     def reduced_coefficient(self, tilt: float, friction: float) -> float:

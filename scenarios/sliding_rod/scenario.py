@@ -140,7 +140,10 @@ class SlidingRod(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return criteria: whether the start is in the paradox; if it is and e = 0, rate and slip after the impact."""
+        """Return criteria: whether Painleve's paradox holds at the start of the run.
+
+        If it does, and e = 0, also the angular velocity and the slip after the impact.
+        """
         if self.speed <= 0.0 or self.rod.free_acceleration(self.tilt, self.rate, GRAVITY) >= 0.0:
             return ()
         events, rod = solution.events, self.rod
@@ -169,7 +172,7 @@ class SlidingRod(Scenario):
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the region of the paradox, and three runs: lift-off, jamming, impact without collision."""
+        """Return the region of Painleve's paradox, and three runs: lift-off, jamming, impact without collision."""
         cases = {
             "lift-off": cls(friction=1.2, tilt=1.0, rate=8.0, speed=5.0, t_end=0.08),
             "jamming": cls(friction=2.0, tilt=0.5, rate=5.0, speed=3.0, t_end=0.04),

@@ -46,6 +46,6 @@ class SpinningCoulomb(FrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """Return True if the tangential force is the one of this slip velocity, within the tolerance [N]."""
+        """Return True if the tangential force is the law's force at this slip velocity, within the tolerance [N]."""
         per_speed = self.friction * normal_force / (math.hypot(*slip) + self.drilling_speed)
         return all(abs(t + per_speed * v) <= tolerance for t, v in zip(tangential_force, slip, strict=True))

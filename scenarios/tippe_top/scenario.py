@@ -105,7 +105,7 @@ class TippeTop(Scenario):
             )
 
     def friction_law(self) -> FrictionLaw:
-        """Return the friction law: at a point, or of a contact disc that spins as the top does at the start."""
+        """Return the law of friction on the plane: at a point, or over a contact disc that spins as at the start."""
         if self.friction == 0.0:
             return Frictionless()
         if self.contact_radius == 0.0 or self.spin == 0.0:

@@ -90,7 +90,7 @@ class TwoLinkArm(Scenario):
 
     @property
     def reduced_coefficient(self) -> float:
-        """A = G_nn - mu G_nt at the start [1/kg]; negative in the paradox."""
+        """A = G_nn - mu G_nt at the start [1/kg]; negative in Painleve's paradox."""
         return painleve.reduced_coefficient(self.angle, self.friction, *self.sizes)
 
     def build(self) -> System:
@@ -135,7 +135,7 @@ class TwoLinkArm(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the published numbers of the posture, whether it is a paradox, and the impulse that ends it."""
+        """Return the posture's published numbers, whether it is Painleve's paradox, and the impulse that ends it."""
         found = []
         if self.sizes == (5.0 / 3.0, 1.0, 1.0):
             source = "Liu, Zhao, Chen (2007)"
@@ -175,7 +175,7 @@ class TwoLinkArm(Scenario):
 
 
 def _critical_friction(scenario: TwoLinkArm) -> Figure:
-    """Draw the least friction of the paradox over the first link's angle, and the start of the runs."""
+    """Draw the least friction of Painleve's paradox over the first link's angle; mark the start of the runs."""
     ratio = scenario.height / scenario.link_length
     low, high = math.acos(min(1.0, ratio)), math.acos(max(-1.0, ratio - 1.0))
     angles = np.linspace(low, high, 402)[1:-1]

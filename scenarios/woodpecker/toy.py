@@ -20,7 +20,7 @@ def mass(
     sleeve_arm: float,
     bird_arm: float,
 ) -> None:
-    """Write the mass matrix M, row by row."""
+    """Write the mass matrix M to ``out``, row by row."""
     out[0] = bird_mass + sleeve_mass
     out[1] = out[3] = bird_mass * sleeve_arm
     out[2] = out[6] = bird_mass * bird_arm
@@ -71,7 +71,7 @@ def beak(
     beak_height: float,
     pole_radius: float,
 ) -> None:
-    """Write the gap of the beak, along x, and its height along the pole [m]."""
+    """Write to ``out`` the gap of the beak, along x, and the height of the beak's tip along the pole [m]."""
     out[0] = sleeve_arm + bird_arm - beak_arm - pole_radius - beak_height * q[2]
     out[2] = q[0] + beak_height + sleeve_arm * q[1] + (bird_arm - beak_arm) * q[2]
 
@@ -79,7 +79,7 @@ def beak(
 def beak_jacobian(
     q: Floats, out: Floats, sleeve_arm: float, bird_arm: float, beak_arm: float, beak_height: float
 ) -> None:
-    """Write the Jacobian of the beak."""
+    """Write the derivatives of gap and height of the beak by q, row by row, to ``out``."""
     out[2] = -beak_height
     out[6], out[7], out[8] = 1.0, sleeve_arm, bird_arm - beak_arm
 
@@ -91,7 +91,7 @@ def lower_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float,
 
 
 def lower_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_height: float) -> None:
-    """Write the Jacobian of the lower edges."""
+    """Write the derivatives of gap and height of the lower edges by q, row by row, to ``out``."""
     out[4] = sleeve_height
     out[6], out[7] = 1.0, sleeve_radius
 
@@ -103,7 +103,7 @@ def upper_edge(q: Floats, out: Floats, sleeve_radius: float, pole_radius: float,
 
 
 def upper_edge_jacobian(q: Floats, out: Floats, sleeve_radius: float, sleeve_height: float) -> None:
-    """Write the Jacobian of the upper edges."""
+    """Write the derivatives of gap and height of the upper edges by q, row by row, to ``out``."""
     out[4] = -sleeve_height
     out[6], out[7] = 1.0, sleeve_radius
 

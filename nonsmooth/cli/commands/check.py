@@ -22,7 +22,8 @@ _NAME = Option("name", "a name or class of `nonsmooth list`, or FILE.py:CLASS", 
 
 def _execute(arguments: argparse.Namespace) -> bool:
     """Check all components of a name and print the outcomes; return True if no property fails."""
-    with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print, but standard output is for the result
+    # prints of a plug-in go to standard error, because standard output is for the result only
+    with contextlib.redirect_stdout(sys.stderr):
         found = _checked(arguments.name, assignments(arguments.set))
     failed = any(row["outcome"] == _FAILS for part in found for row in part["properties"])
     if arguments.json:

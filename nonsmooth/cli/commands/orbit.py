@@ -164,7 +164,7 @@ def _found(arguments: argparse.Namespace, scenario: Scenario, period: float | No
 
 
 def _table(branch: orbits.Branch) -> str:
-    """Return a branch as CSV: parameter, largest magnitude of a multiplier, and 1 if stable, of each orbit."""
+    """Return a branch as CSV, a row per orbit: parameter, largest magnitude of a multiplier, 1 if stable else 0."""
     rows = [f"{branch.name},largest_multiplier,stable"]
     for value, one in zip(branch.values.tolist(), branch.orbits, strict=True):
         rows.append(f"{value!r},{float(np.max(np.abs(one.multipliers)))!r},{int(one.stable)}")
@@ -172,7 +172,10 @@ def _table(branch: orbits.Branch) -> str:
 
 
 def _bifurcation(arguments: argparse.Namespace) -> bool:
-    """Sample the motion at each value, print counts of motions by period, save; return whether all succeeded."""
+    """Sample the motion at each value of the parameter, print how many values have which period, and save the diagram.
+
+    Return True if all runs and files succeeded.
+    """
     values.check_not_set([arguments.over], arguments.set)
     name, row = values.axis(arguments.over)
     saver = Saver.of_pictures(arguments.out, arguments.overwrite)

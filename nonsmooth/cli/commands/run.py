@@ -42,7 +42,8 @@ _RESUME = (Option("folder", "the folder that `run --out` was given", metavar="DI
 
 def _run(arguments: argparse.Namespace) -> bool:
     saver = Saver(None if arguments.out is None else Output.to(arguments.out).folder)
-    with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print, but standard output is for the result
+    # prints of a plug-in go to standard error, because standard output is for the result only
+    with contextlib.redirect_stdout(sys.stderr):
         report = _performed(arguments, saver)
     accepted = not arguments.accept or is_accepted(report)
     return _said(report, saver, arguments.json) and accepted

@@ -74,7 +74,10 @@ def _described(owner: Any, title: str, *imported: str) -> str:
 
 
 def _near_bodies(name: str, trust: bool) -> str:
-    """Return the table of near bodies at the start of a scenario, with its defaults, or of a scenario file."""
+    """Return a table of the bodies near each other at the start, of a scenario with its defaults or of a scenario file.
+
+    ``trust`` lets the file name code that is not installed.
+    """
     # imported on use: the other commands start faster without it
     from nonsmooth.queries.proximity import proximity
 

@@ -47,7 +47,8 @@ def _performed(
 ) -> xarray.Dataset:
     """Run or continue a study, store its request with it, print a summary, and return its records."""
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # a plug-in may print, but standard output is for the result
+        # prints of a plug-in go to standard error, because standard output is for the result only
+        with contextlib.redirect_stdout(sys.stderr):
             found = study.run(path, executor=executor, chunk=chunk, request=words)
     except KeyboardInterrupt:
         tell(f"complete chunks stay: `nonsmooth study resume {path}` continues")

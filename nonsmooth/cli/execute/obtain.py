@@ -63,7 +63,10 @@ def obtain(command: str, arguments: argparse.Namespace) -> Obtained:
 
 
 def _check_known(word: str) -> None:
-    """Raise UnknownRun unless a word is a folder, a file, or the name of a component."""
+    """Raise UnknownRun unless the user's word for a run is a path or the name of an installed component.
+
+    A word is a path if the file or folder exists, or if it ends like a file name (".py").
+    """
     is_path = Path(word).exists() or Path(word).suffix
     # a component of another kind gets a message that names its kind
     if not is_path and word not in registry.names("scenarios") and not registry.kinds_named(word):

@@ -1,4 +1,4 @@
-"""Files and folders that a command writes: they are checked before it starts, and get pictures and texts."""
+"""Files and folders of a command: checked before the computation begins, filled with pictures and texts at its end."""
 
 from __future__ import annotations
 

@@ -76,7 +76,7 @@ def described(kind: str, made: Any) -> dict[str, Any]:
 
 
 def replacements(laws: Mapping[str, Any]) -> dict[str, str]:
-    """Return the role of the new law by each role that it replaces; a compliant normal law replaces the impact law."""
+    """Return {replaced role: role of the new law}. A compliant normal law also replaces the impact law."""
     replaced = {role: role for role in laws}
     if isinstance(laws.get("normal"), CompliantNormalLaw):
         replaced["impact"] = "normal"

@@ -88,12 +88,12 @@ class Option:
 
     @property
     def place(self) -> str:
-        """Attribute of the parsed request that has the value of the option."""
+        """Name of the attribute of the parsed arguments that holds the option's value: "t_end" for "--t-end"."""
         return self.name.removeprefix("--").replace("-", "_")
 
     @property
     def stored_kinds(self) -> tuple[type, ...]:
-        """Types that the value of the option may have in a stored request."""
+        """Types that the option's value may have in a request that is read from a folder of results."""
         if self.repeats:
             return (list,)
         number = {float: (int, float), int: (int,)}.get(self.kind, (str,)) if isinstance(self.kind, type) else (str,)

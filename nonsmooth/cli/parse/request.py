@@ -1,4 +1,7 @@
-"""Job of a request, typed or stored: its scenario, laws and engine. Also the options that name them."""
+"""Scenario, laws and engine that a user requests on the command line, or that a folder's stored request names.
+
+The command-line options for scenario, laws and engine are also defined here.
+"""
 
 from __future__ import annotations
 

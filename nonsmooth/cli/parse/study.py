@@ -52,7 +52,7 @@ STUDY_WORDS = (SCENARIO, *_DRAWN, SET, ENGINE, *STROBOSCOPE, _BUDGET, RECORD_OPT
 
 
 def words_of(arguments: argparse.Namespace, record: list[str]) -> dict[str, Any]:
-    """Return the values of a request, by option, from which its study can be made again.
+    """Return {option: value} of all options that define the study; with them the study can be made again.
 
     Raises
     ------
@@ -70,7 +70,10 @@ def executor_given(arguments: argparse.Namespace) -> Executor:
 
 
 def study_of(words: Mapping[str, Any], *, trust: bool, typed: bool = True) -> Study:
-    """Return the study of a request, typed or stored; ``trust`` as for :func:`nonsmooth.cli.parse.request.job`.
+    """Return the study that the values of the options define.
+
+    ``typed`` is True for values from the command line, False for values stored with a study. Stored values may name
+    code that is not installed only if ``trust`` is True.
 
     Raises
     ------

@@ -120,7 +120,7 @@ def _cut(word: str) -> tuple[str, str]:
 
 
 def _values(name: str, word: str, more: str = "") -> NDArray[Any]:
-    """Return the values of a list or a grid; ``more`` is another form that messages name."""
+    """Return the values of a list ("1,2,5") or of a grid; error messages also name ``more``, another accepted form."""
     if ":" in word:
         *parts, n = word.split(":")
         if len(parts) != 2:

@@ -10,7 +10,10 @@ from nonsmooth.studies.orbits import Orbit
 
 
 def verdict(orbit: Orbit) -> str:
-    """Return whether an orbit is stable, with its largest multiplier: "stable, largest multiplier 0.613"."""
+    """Return the stability of an orbit as text, with its largest multiplier by magnitude.
+
+    An example is "stable, largest multiplier 0.613".
+    """
     sizes, errors = np.abs(orbit.multipliers), orbit.multiplier_errors
     largest = f"largest multiplier {np.max(sizes):.3g}" if len(sizes) else "no multipliers"
     if orbit.stable:
@@ -22,7 +25,7 @@ def verdict(orbit: Orbit) -> str:
 
 
 def as_text(orbit: Orbit) -> str:
-    """Return the report: the verdict in the first line, then two tables."""
+    """Return the report on an orbit: its stability, a table of period, residual and events, a table of multipliers."""
     model = orbit.family.model()
     rows = [("period", f"{orbit.period:.9g} s"), ("residual", f"{orbit.residual:.1e}")]
     rows += [(f"turn by {name}", f"{angle:.9g} rad") for name, angle in orbit.turns.items()]

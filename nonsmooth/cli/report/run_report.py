@@ -17,13 +17,16 @@ from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
 _LONG_WORD = 80
-"""Largest number of characters of a mode word that is printed in full, so that it fits into a line."""
+"""Largest number of characters of a mode word ("{01,00,01}") that is printed in full, so that it fits into a line."""
 _NAMED = 2
-"""Largest number of contacts that are named if a mode word is too long to be printed."""
+"""Largest number of contacts that are named if a mode word, the bits of all contacts, is too long to be printed."""
 _COMMONEST = 5
 """Largest number of mode words that are printed; the report gives the number of further mode words."""
 _INSTANT = 5e-5
-"""Share of the run's time below which a mode word is only counted: its share would be printed as 0.00 %."""
+"""Share of the run's time below which a mode word gets no line, because the share would be printed as 0.00 %.
+
+The last line of the list gives the number of these mode words.
+"""
 _ROUND_OFF = 1e-15
 """Numbers of smaller magnitude, in their SI units, are printed as 0, because they are round-off."""
 _NOTHING = 1e-9
@@ -99,7 +102,10 @@ def as_text(report: Report) -> str:
 
 
 def _modes(shares: dict[str, float] | None, names: list[str]) -> list[str]:
-    """Return lines with the commonest mode words and their shares of time, and the number of further mode words."""
+    """Return lines with the commonest mode words ("{01,00,01}") and their shares of the run's time.
+
+    The last line has the number of further mode words. ``shares`` is None if the engine records no modes.
+    """
     if shares is None:
         return ["unknown: the engine records no modes"]
     lasting = [(word, share) for word, share in shares.items() if share >= _INSTANT]
@@ -118,13 +124,17 @@ def _limits(counts: dict[str, int]) -> str:
 
 
 def _contacts(names: list[str]) -> str:
-    """Return the names of the contacts in the order of a mode word's digits, or their number if a line is too short."""
+    """Return the contacts' names in the order of the digits in a mode word; their number if the names exceed a line."""
     text = f"from the right {', '.join(names)}"
     return text if names and len(text) <= _LONG_WORD else str(len(names))
 
 
 def _described(word: str, before: str, names: list[str]) -> str:
-    """Return a mode word, or, if it is too long, the counts of its modes and contacts that differ from ``before``."""
+    """Return a mode word. For a word that is too long, return text on it instead.
+
+    The text has the numbers of closed, approaching and slipping contacts, and names the contacts whose bits differ from
+    those in ``before``, the word printed above.
+    """
     if len(word) <= _LONG_WORD:
         return word
     kinds, others = word.strip("{}").split(","), before.strip("{}").split(",")
