@@ -5,6 +5,7 @@
 
 Texts are docstrings, comments and notes of constants in Python files, and paragraphs, list items and rows of tables in
 pages.  With ``--since`` only those count of which a line changed after the commit.  The same seed draws the same texts.
+With ``--context N`` each text is printed in its place, with N lines before and behind it.
 """
 
 from __future__ import annotations
@@ -122,9 +123,14 @@ def main() -> None:
     parser.add_argument("--since", default="", metavar="COMMIT", help="only texts that changed after this commit")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=30)
+    parser.add_argument("--context", type=int, default=0, metavar="N", help="lines to print before and behind a text")
     given = parser.parse_args()
     for number, text in enumerate(draw(given.names, given.since, given.seed, given.count), 1):
         print(f"[{number}] {text.path}:{text.lines.start}\n    of: {text.owner}\n{text.words}\n")
+        if given.context:
+            rows = Path(text.path).read_text("utf-8").splitlines()
+            before, behind = max(0, text.lines.start - 1 - given.context), text.lines.stop - 1 + given.context
+            print("    in its place:", *rows[before:behind], "", sep="\n    | ")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
-"""Warnings of bodies without contact that overlap at the start or the end of a run."""
+"""Warnings of bodies without contact that overlap at the start of a run or during it."""
 
 from __future__ import annotations
 
 import functools
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -25,10 +25,13 @@ Places = Sequence[Sequence[Place]]
 """Places of the frames of all bodies, body by body."""
 _NAMED = 3
 """Largest number of pairs that a warning names; it gives only the number of further pairs."""
+_MOVED = 0.25
+"""Motion between two checked samples, relative to the smallest body: bodies that pass through each other move farther
+while they overlap."""
 
 
 class UndeclaredOverlap(NonsmoothWarning):
-    """Bodies without a contact overlap at the start of a run, or have passed into each other at its end."""
+    """Bodies without a contact overlap at the start of a run, or pass into each other during the run."""
 
 
 class UndeclaredContact(NonsmoothWarning):
@@ -110,14 +113,34 @@ class Undeclared:
         ]
         self._warn(found, "overlap at the start, and will pass through each other")
 
-    def warn_of_end(self, before: Places, after: Places) -> None:
-        """Warn of pairs of bodies, planes too, that overlap at the end of a run but did not overlap at its start."""
-        found = [
-            (i, j, -gap)
-            for i, j in self.near(after)
-            if (gap := self._gap(i, j, after)) < 0.0 and self._gap(i, j, before) >= 0.0
-        ]
-        self._warn(found, "overlap where the run ended, having passed into each other")
+    @property
+    def least_move(self) -> float:
+        """Motion between two samples that are checked for overlaps [m]: a part of the smallest body."""
+        return _MOVED * min(map(size_of, self.system.bodies))
+
+    def warn_of_run(self, before: Places, samples: Iterable[tuple[float, Places]]) -> None:
+        """Warn of pairs of bodies, planes too, that overlap at a sample of a run but did not overlap at its start.
+
+        Parameters
+        ----------
+        before : Places
+            Places of the frames at the start.
+        samples : iterable
+            Times [s], and places of the frames at these times.
+        """
+        checked: dict[tuple[int, int], bool] = {}
+        """Whether an overlap of the pair would be new: it did not overlap at the start, and was not found yet."""
+        found: list[tuple[int, int, float]] = []
+        times = dict[tuple[int, int], float]()
+        for t, places in samples:
+            for i, j in self.near(places):
+                if (i, j) not in checked:
+                    checked[i, j] = self._gap(i, j, before) >= 0.0
+                if checked[i, j] and (gap := self._gap(i, j, places)) < 0.0:
+                    checked[i, j], times[i, j] = False, t
+                    found.append((i, j, -gap))
+        first = min(times.values(), default=0.0)
+        self._warn(found, f"pass into each other, the first at t = {first:.6g} s")
 
     def _gap(self, i: int, j: int, places: Places) -> float:
         """Gap of two bodies [m], negative if they overlap; 0 if they touch or no method gives their distance."""

@@ -20,6 +20,7 @@ from nonsmooth.checks import check_count, check_kind
 from nonsmooth.engine.memory import owners
 from nonsmooth.errors import STUCK, InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
@@ -44,6 +45,7 @@ from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import Callbacks, EngineLoop, Progress
 from nonsmooth.runs.outcome import RunOutcome, interpenetration, outcome
 from nonsmooth.runs.records import Records
+from nonsmooth.runs.samples import states_at_samples
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
 from nonsmooth.solution.end import RunRequest, RunStatus
@@ -400,7 +402,7 @@ class Model:
     def _run(self, request: RunRequest, state: State, output: Output | None, callbacks: Callbacks) -> Solution:
         """Run from a state, while the memory is reserved; errors as :meth:`run`.
 
-        Bodies without a contact that overlap at the end, but not at the start, cause a warning.
+        Bodies without a contact that overlap at a sample, but not at the start, cause a warning.
         """
         laid = self._laid
         self._records = Records(laid)
@@ -421,9 +423,15 @@ class Model:
         loop = EngineLoop(self._engine, laid, self._records, start, sink, callbacks)
         solution = self._complete(loop, energy, wall=0.0)
         if self._pairs_without_contact.any:
-            laid.evaluate()
-            self._pairs_without_contact.warn_of_end(before, laid.places())
+            self._pairs_without_contact.warn_of_run(before, self._places_at_samples(solution.recorded.rows))
         return solution
+
+    def _places_at_samples(self, rows: Floats) -> Iterator[tuple[float, list[list[Place]]]]:
+        """Time [s] and places of the frames at samples between which undeclared pairs move by a part of their size."""
+        laid = self._laid
+        for t in states_at_samples(laid, rows, self._pairs_without_contact.least_move):
+            laid.evaluate()
+            yield t, laid.places()
 
     def _put_start(self, state: State) -> tuple[float, float]:
         """Put a state into the memory. Return kinetic and potential energy [J] at the start of the energy account.

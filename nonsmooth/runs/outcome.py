@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import NamedTuple
 
 import numpy as np
@@ -11,11 +12,11 @@ from nonsmooth.engine.memory.modes import REASONS, Mode, Status
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import EndCause, Engine
 from nonsmooth.model.blocks import block_overrun
-from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.overlaps import Overlap, first_overlap
 from nonsmooth.runs.diagnosis import failing_function
 from nonsmooth.runs.loop import LoopEnd
+from nonsmooth.runs.samples import states_at_samples
 from nonsmooth.solution.end import RunStatus
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Solution
@@ -152,9 +153,6 @@ The check is for overlap of bodies: a smaller motion hides no deeper overlap.
 def interpenetration(model: LaidOut, rows: Floats) -> str:
     """Sentences about the first sample at which bodies of contacts overlap more than is allowed, or "".
 
-    Each sample that :func:`_moved_samples` chooses is written to the memory in turn. At the end the memory has its
-    former content again.
-
     Parameters
     ----------
     model : LaidOut
@@ -166,20 +164,13 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
     # no contact has to be checked here: the engine has checked all of them during the run
     if not numbers:
         return ""
-    before = Checkpoint.of(model.memory)
     least_move = _MOVED * min(contacts[i].size for i in numbers)
-    try:
-        for row in rows[_moved_samples(rows[:, 1 : 1 + model.n_q], least_move)]:
-            model.memory[owners.Island.time] = row[0]
-            model.memory[owners.Island.y] = row[1 : 1 + model.n_y]
+    with contextlib.closing(states_at_samples(model, rows, least_move)) as times:
+        for t in times:
             model.list_contacts()
             model.evaluate()
             if found := first_overlap(model, numbers):
-                return _sentences(model, row[0], found)
-    finally:
-        before.put(model.memory)
-        # evaluate again, because a checkpoint restores the state but no results of evaluations
-        model.evaluate()
+                return _sentences(model, t, found)
     return ""
 
 
@@ -192,15 +183,3 @@ def _sentences(model: LaidOut, t: float, overlap: Overlap) -> str:
         f"{contact} overlap by at least {overlap.depth:.3g} m. Turn or shift one of them by a thousandth of its "
         "size, or give its body convex pieces: MeshBody(..., decomposition=Decomposition())."
     )
-
-
-def _moved_samples(q: Floats, least_move: float) -> list[int]:
-    """Numbers of the samples to compare: the first, the last, and each sample between them that moved enough.
-
-    A sample moved enough if a coordinate changed by more than ``least_move`` [m or rad] since the last chosen sample.
-    """
-    chosen = [0]
-    for i in range(1, len(q)):
-        if np.max(np.abs(q[i] - q[chosen[-1]]), initial=0.0) > least_move:
-            chosen.append(i)
-    return sorted({*chosen, len(q) - 1})

@@ -137,13 +137,28 @@ def test_bodies_that_passed_into_each_other_are_told_after_a_run() -> None:
         for i, j in {(0, 1), (0, 2), (1, 2)} - {forgotten}:
             system.contact(system.bodies[i], system.bodies[j], **LAWS)
         names = " and ".join(repr(system.names.bodies[i]) for i in forgotten)
-        with pytest.warns(UndeclaredOverlap, match=f"where the run ended.*{names} by at least"):
+        with pytest.warns(UndeclaredOverlap, match=f"pass into each other, the first at t = .*{names} by at least"):
             solution = ns.simulate(system, 0.3)
         assert solution.status == "done"
     system.place(two, position=(0.1, 0.0, -1.0))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         ns.simulate(system, 0.01)
+
+
+def test_bodies_that_passed_through_each_other_are_told_after_a_run() -> None:
+    """They are apart at the start and at the end of the run; a pair that was excluded passes without a warning."""
+    one, two = Ball(0.01), Ball(0.01)
+    system = ns.System([Plate(), one, two], gravity=0.0)
+    for ball, side in ((one, -1.0), (two, 1.0)):
+        system.contact(system.bodies[0], ball, **LAWS)
+        system.place(ball, position=(side * 0.05, 0.0, 0.02), velocity=(-side * 1.0, 0.0, 0.0))
+    with pytest.warns(UndeclaredOverlap, match=r"first at t = 0\.04.* s: 'ball 1' and 'ball 2' by at least"):
+        ns.simulate(system, 0.1)
+    system.exclude(one, two)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ns.simulate(system, 0.1)
 
 
 def _heap(n: int) -> ns.System:
