@@ -18,16 +18,19 @@ from .features import Bools, Features
 from .topology import Integers
 
 _AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
-"""Largest number of pairs of near faces that are examined at once (for memory), and in all (more are refused)."""
+"""Largest number of pairs of near faces that are examined at once, which limits the memory; largest number in all.
+
+With more pairs in all, the mesh is refused.
+"""
 _SAMPLE = 1000
-"""Faces by which pairs are counted beforehand; surfaces with fewer have not enough of them."""
+"""Number of faces whose near pairs are counted to estimate the cost of all; smaller surfaces cost little."""
 _COSTS = np.array([[3500.0, 6.5e-5], [0.0, 2.9e-7], [90.0, 0.0], [170.0, 3e-6]])
 """Memory [B] and time [s] of triangles, edges and corners; of near faces, all and at once; of those in conflict."""
 _MUCH, _LONG = 1.2e8, 2.0
 """Memory [B] and time [s] of the preparation of contacts, respectively, from which a notice announces it."""
 Reach: TypeAlias = Callable[[Integers, Integers], Vector]
 Search: TypeAlias = Callable[[int], Iterator[tuple[Integers, Integers, Bools]]]
-"""Yields the numbers of two near faces, of one pair in so many, and whether they are in conflict."""
+"""``search(every)`` yields near pairs of faces, one in ``every``: two numbers of faces, and if they are in conflict."""
 _ABOVE = 1e-9
 """Height over a plane, relative to the size of the surface, above which a face protrudes from the plane."""
 _AROUND = 1.1
@@ -42,7 +45,7 @@ class Patches:
     Attributes
     ----------
     of_faces, of_edges, of_corners : tuple of int
-        Their numbers.
+        Number of the patch of each face, each convex edge and each corner.
     """
 
     of_faces: tuple[int, ...]
@@ -51,32 +54,32 @@ class Patches:
 
     @property
     def count(self) -> int:
-        """How many there are: 1 for a convex surface."""
+        """Number of patches: 1 for a convex surface."""
         return 1 + max(self.of_faces + self.of_edges + self.of_corners)
 
 
 @lru_cache(maxsize=4)
 def patches_for_ball(features: Features, radius: float) -> Patches:
-    """Return patches for a ball of a radius [m]; points p and q that it touches are r |n_p - n_q| from each other."""
+    """Return patches for a ball of a radius r [m]; points with normals n, m that it touches are r |n - m| apart."""
     normals = features.planes[:, :3]
     return _patches(features, 2.0 * radius, lambda i, j: radius * np.linalg.norm(normals[i] - normals[j], axis=1))
 
 
 @lru_cache(maxsize=4)
 def patches_for_body(features: Features, diameter: float) -> Patches:
-    """Return patches for a convex body of a diameter [m]; 0 for a vertex."""
+    """Return patches for a convex body with a diameter [m]; the diameter of a vertex is 0."""
     return _patches(features, diameter, lambda i, _: np.full(len(i), diameter))
 
 
 def _patches(features: Features, most: float, reach: Reach) -> Patches:
-    """Return patches, where ``reach`` says how far from each other a body may touch two faces, ``most`` at most [m].
+    """Return patches for a body that can touch two faces at points up to ``reach`` apart, at most ``most`` [m].
 
-    A body that touches points p and q of two faces from outside lies over both planes: each of the two faces has a
-    point over the plane of the other.  Faces of which that is not so, such as all of a convex surface, can be in one
-    patch, however a body moves, and so can edges and corners whose faces all get on with all others.
+    A body that touches two faces from outside lies over both planes, so that each face has a point over the plane of
+    the other: the faces are in conflict.  Faces without conflict, such as all faces of a convex surface, can share a
+    patch.  An edge or a corner can join a patch if its faces have no conflict with the faces of this patch.
 
-    Faces are taken one after the other over convex edges, and go with a neighbour where they can, because a body that
-    rolls from one patch to another changes its contact.
+    Faces are taken in the order in which convex edges join them.  A face gets the patch of a neighbour if it can,
+    because a body that rolls from one patch to another changes its contact.
     """
     n_faces = len(features.planes)
     search = _search(features, most, reach)

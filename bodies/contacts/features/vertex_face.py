@@ -65,7 +65,7 @@ def _least(
 
 @compiled
 def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
-    """Return how far the foot of a point on a face is past its edges [m]: largest height over the other faces' planes."""
+    """Return how far the foot of a point on a face is past its edges [m]: largest height over planes of other faces."""
     x, y, z = x - height * faces[face], y - height * faces[face + 1], z - height * faces[face + 2]
     past = -math.inf
     for i in range(int(n_faces)):

@@ -281,7 +281,7 @@ def _beside_apex(bodies: Bodies) -> Answer:
 
 @compiled
 def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
-    """Return the best stop of rims and apex, by steps uphill on the gap, and its part; the gap is nan without a stop."""
+    """Return the best stop of rims and apex, by steps uphill on the gap, and its part; the gap is nan without one."""
     frustum, low, high, point, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_RIM

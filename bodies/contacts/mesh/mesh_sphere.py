@@ -43,7 +43,7 @@ def _evaluate_near(
 @final
 @dataclass(frozen=True)
 class MeshSphereNear(PatchNear):
-    """The contact of a sphere with a patch of a mesh near it at present."""
+    """Contact of a sphere with one patch of a mesh; a search assigns a patch that is near at present."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
 
