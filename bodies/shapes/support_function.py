@@ -9,7 +9,7 @@ from nonsmooth.compiled import call_support, compiled
 from nonsmooth.types import Floats
 
 Support: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float]
-"""Support function h [m], gradient (the farthest point) [m], and xx, yy, zz, yz, xz, xy of its second derivative [m]."""
+"""Support function h [m], gradient (the farthest point) [m], xx, yy, zz, yz, xz, xy of its second derivative [m]."""
 
 
 OF_FUNCTION = math.inf

@@ -84,12 +84,12 @@ class Attempt(NamedTuple):
 
 @entry_point("ImpactOutcome(ws, f8)")
 def energetic_impact(ws: Workspace, seed: float) -> ImpactOutcome:
-    """Integrate the impact of the active contacts, from their rates before it.
+    """Integrate the impact of the active contacts, from their rates before the impact.
 
     Writes the impulse of every active contact [N s] and its energies stored in compression, returned in expansion and
     dissipated by friction [J]. The result is ``FINISHED``, or the reason why the impact has no end
-    (:class:`ImpactOutcome`). An impact without collision needs a speed ``seed`` [m/s] as its scale; for other impacts
-    it is zero.
+    (:class:`ImpactOutcome`). ``seed`` [m/s] is the speed that scales an impact without collision, which has no speed
+    of approach (Painleve's paradox). For other impacts it is zero.
     """
     # the normal impulse of a lone contact is the variable of integration; later one that is left alone may become so
     ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT
