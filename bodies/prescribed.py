@@ -55,7 +55,7 @@ class Driven(Prescribed, ABC):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function ``evaluate(t, q, u, out, ...)``, with empty q and u, that writes the motion of the frame at time t."""
+        """Function ``evaluate(t, q, u, out, ...)``, with empty q and u, that writes the motion of the frame at t."""
         return self.motion.evaluator
 
     @property

@@ -12,7 +12,7 @@ PART_END = 7
 They are the fraction of the step, the gap, its rate, the distance past the features, and the offset of the witness.
 """
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
-"""Positions of energies integrated with the state: work of driven bodies, friction loss, gross exchange, work of loads."""
+"""Positions of the energies integrated with the state: driven work, friction loss, gross exchange, work of loads."""
 N_ACCOUNTS = 4
 """Number of energies that are integrated with the state."""
 BOOKED = 4

@@ -19,7 +19,7 @@ class Limit(IntEnum):
     SAMPLES = 4
     """The buffer of samples is full at the end of the step."""
     FIRST_STEP = 5
-    """The first step after an event is short, because the error of no earlier step is known."""
+    """The first step after an event is short, not to miss the end of a bounce or the start of a compliant force."""
     CLOSING_GAP = 6
     """The step ends shortly before a gap is expected to close."""
     SINGULARITY = 7
@@ -27,9 +27,9 @@ class Limit(IntEnum):
     STOPPING_SLIP = 8
     """The step ends shortly before a slip is expected to stop."""
     EVENT = 9
-    """The step ends at an event."""
+    """The step ends at an event, or where bodies in ballistic motion are expected to touch."""
     CROWDED_EVENTS = 10
-    """More guards fire within the step than its events can be located for, so that it was shortened."""
+    """The step was shortened to a quarter: an event in it, such as one of very many, could not be located."""
     END = 11
     """The step ends at the end time of the run."""
     AVERAGING = 12
