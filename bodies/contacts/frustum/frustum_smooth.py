@@ -374,7 +374,7 @@ class FrustumSmooth(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block: trial of the parts, with Newton's method on the support function."""
+        """A trial of the parts, with Newton's method on the support function."""
         return _evaluate
 
     @property

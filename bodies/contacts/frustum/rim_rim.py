@@ -319,7 +319,7 @@ class RimRim(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, by Newton's method for the angle round the first rim."""
+        """Newton's method for one angle, between bounds."""
         return _evaluate
 
     @property

@@ -199,7 +199,7 @@ class FrustumCorner(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form."""
+        """The closed form."""
         return _evaluate
 
     @property

@@ -304,7 +304,7 @@ class FrustumPairs(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block; the kind of the candidate chooses the closed form or search."""
+        """The function for the kind of the candidate's features: a closed form or a search."""
         return _evaluate
 
     @property

@@ -119,7 +119,7 @@ class MeshMesh(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form."""
+        """The closed form."""
         return evaluate_edges
 
     @property

@@ -58,7 +58,7 @@ class MeshSmoothNear(PatchNear):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, by Newton's method on the smooth body's support function."""
+        """A search over the features, with Newton's method on the support function."""
         return _evaluate_near
 
 
@@ -108,7 +108,7 @@ class MeshSmooth(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, by Newton's method on the smooth body's support function."""
+        """A search over the features, with Newton's method on the support function."""
         return _evaluate
 
     @property

@@ -58,7 +58,7 @@ class MeshSphereNear(PatchNear):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form."""
+        """The closed form."""
         return _evaluate_near
 
 
@@ -162,7 +162,7 @@ class MeshSphere(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form."""
+        """The closed form."""
         return _evaluate
 
     @property

@@ -82,7 +82,7 @@ class RimMesh(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, by Newton's method for the angle round the rim."""
+        """Newton's method for one angle, that of a rim and an edge."""
         return _evaluate
 
     @property

@@ -272,7 +272,7 @@ class SweptPairs(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form for each kind of features."""
+        """The closed forms of all kinds of features."""
         return _evaluate
 
     @property

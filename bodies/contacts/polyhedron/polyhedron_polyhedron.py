@@ -204,7 +204,7 @@ class PolyhedronPolyhedron(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form."""
+        """The closed form."""
         return _evaluate
 
     @property

@@ -1,4 +1,4 @@
-"""Which patches of a surface are near a point, and which corners of another surface may touch them, by their trees."""
+"""Search, by trees of boxes, for patches of a surface near a point, and for corners of another surface near them."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def patches_near(
     kind, third : float
         The first and the third number of these candidates; the second is the number of the patch.
     out, n, most : Floats, int
-        As of :func:`corners_near`.
+        As in :func:`corners_near`.
     """
     members, first, node = int(surface[MEMBERS]), n, 0
     while node < int(surface[N_NODES]) and n <= most:
@@ -159,9 +159,11 @@ def patches_under(
     n: int,
     most: int,
 ) -> int:
-    """Write the patches of the faces no farther from a vertex than a reach that it may stand over after a small turn.
+    """Append the patches of faces that a vertex of the other body may soon touch; return the new number of candidates.
 
-    Arguments as of :func:`corners_near` and :func:`patches_near`; place and star are those of the other body's vertex.
+    The faces are within ``reach`` [m] of the vertex, and no edge of it leads below them after a rotation by ``turn``.
+    ``place`` is the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other
+    arguments are those of :func:`corners_near` and :func:`patches_near`.
     """
     x, y, z = seen_from(frame, other, place[0], place[1], place[2])
     members, first, node = int(surface[MEMBERS]), n, 0
@@ -197,24 +199,24 @@ def corners_near(
     n: int,
     most: int,
 ) -> int:
-    """Write the corners of the other body near patches of the surface in ``frame`` behind ``n``; return their number.
+    """Append pairs of a corner of the other body and a near patch of the surface in ``frame``; return the new number.
 
     Parameters
     ----------
     frame, other : Floats
         Frame blocks.
     surface, corners : Floats
-        Numbers of either body's surface.
+        Numbers of the surface in ``frame`` and of the surface of the other body.
     reach : float
-        How far from each other [m].
+        Largest distance of corner and patch [m].
     turn : float
-        How far the bodies may turn until they are looked for again [rad].
+        Largest relative rotation of the bodies until the next search [rad].
     kind : float
         The first number of these candidates.
     out : Floats
-        Three numbers of each, from the second place on.
+        Three numbers of each candidate, from index 1 on.
     n, most : int
-        How many there are, and more of which are not counted.
+        Number of candidates so far, and the number after which the search stops.
     """
     first = int(corners[N_TRIANGLES]) + int(corners[N_EDGES])
     members, node = int(corners[MEMBERS]), 0
