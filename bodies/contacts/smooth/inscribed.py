@@ -47,7 +47,7 @@ def no_shorter_way(
 
 @compiled
 def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
-    """Return the radius [m], at most ``most``, of a ball in a core that touches its surface at a point with normal n."""
+    """Return the radius [m], at most ``most``, of a ball in a core that touches its surface at a point of normal n."""
     a, b, c = core[0], core[1], core[2]
     height = nx * x + ny * y + nz * z
     if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:

@@ -40,7 +40,7 @@ def _passes_box(
 
 @compiled
 def _square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
-    """Return the squared distance of two segments [m^2]: from 0 along e, of length p, and from w along f, of length q."""
+    """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q."""
     (wx, wy, wz), (ex, ey, ez), (fx, fy, fz) = w, e, f
     across = ex * fx + ey * fy + ez * fz
     along_e, along_f = wx * ex + wy * ey + wz * ez, wx * fx + wy * fy + wz * fz
