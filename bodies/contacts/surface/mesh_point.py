@@ -205,7 +205,7 @@ class MeshPoint(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         return self.vertex.features
 
 
@@ -252,7 +252,7 @@ class PointMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         return self.vertex.features
 
 
