@@ -39,7 +39,7 @@ rule applies only if both points of the crossing lie outside of the other body.
 
 @compiled
 def past_border(gap: float, over: float, astray: float, overlap: float, size: float) -> float:
-    """Return how far a crossing of two rims or of a rim and a side is past its ends [m], negative before them.
+    """Return how far a contact of two frustums is past the ends of its features [m], negative before them.
 
     ``gap`` is the gap of the cores and ``over`` the distance past the ends of both features [m].  ``astray`` is the
     sine of the angle by which the contact normal leaves the normals of the features.  A negative ``overlap`` is the
