@@ -192,17 +192,17 @@ class FreeBody(Body):
 
     @functools.cached_property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
-        """One frame with all shapes, which are made once."""
+        """The body's single frame, with all its shapes."""
         return (check_carried(f"{type(self).__name__}.shapes", self.shapes),)
 
     @property
     def q_labels(self) -> NamesAndUnits:
-        """Position and quaternion."""
+        """Names and units of the coordinates: position and quaternion."""
         return POSE_LABELS
 
     @property
     def u_labels(self) -> NamesAndUnits:
-        """Velocity and angular velocity."""
+        """Names and units of the velocities: velocity and angular velocity."""
         return TWIST_LABELS
 
     @property
@@ -215,14 +215,15 @@ class FreeBody(Body):
         """Offset of the angular velocity in u, 3, for a symmetric top; else -1.
 
         The offset makes the engine integrate the angular velocity in space axes.  In these axes the angular velocity of
-        a symmetric top changes slowly, that of another body as fast as the body turns.  Between steps, components along
-        body axes are then only as accurate as the attitude.  A ball would gain too little in exchange.
+        a symmetric top changes slowly, that of another body as fast as the body turns.  The price is accuracy: between
+        steps, the components along body axes follow from the attitude, and have its error.  A ball does not pay this
+        price, because its free angular velocity is constant in both kinds of axes.
         """
         return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Newton-Euler equations."""
+        """Function that writes the output block of the body, by the Newton-Euler equations."""
         return _evaluate
 
     @property

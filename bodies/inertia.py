@@ -1,4 +1,4 @@
-"""Inertia tensors: rules, parallel axes, masses."""
+"""Inertia tensors: checks of a user's tensor, parallel axes, mass from density."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class HasVolume(Protocol):
 
     @property
     def inertia(self) -> Vector:
-        """Inertia tensor about the centroid [m^5], shape [3, 3]."""
+        """Inertia tensor about the centroid at density 1 [m^5], shape [3, 3]."""
 
 
 def tensor_of(moments: Triple, products: Triple) -> Vector:
@@ -40,12 +40,12 @@ def tensor_of(moments: Triple, products: Triple) -> Vector:
 
 
 def read_tensor(thing: str, value: Any) -> Vector:
-    """Return an inertia tensor, shape [3, 3], from one or from three principal moments [kg m^2].
+    """Return an inertia tensor [kg m^2], shape [3, 3], from a tensor or from three principal moments.
 
     Raises
     ------
     InvalidInput
-        If it has another shape, a number that is not finite, or is not symmetric.
+        The value has another shape, a number that is not finite, or is not symmetric.
     """
     if np.shape(value) == (3,):
         return np.diag(vector(thing, value, 3, "kg m^2"))

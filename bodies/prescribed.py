@@ -22,7 +22,7 @@ class Prescribed(Body, ABC):
     """A body without coordinates: its motion does not depend on contacts."""
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
-        """Return empty vectors; a driven body cannot be placed."""
+        """Return empty vectors q and u: a driven body has no coordinates and cannot be placed."""
         if start:
             raise InvalidInput(
                 f"start of a {type(self).__name__}",
@@ -55,7 +55,7 @@ class Driven(Prescribed, ABC):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The evaluator of the motion."""
+        """Function ``evaluate(t, q, u, out, ...)``, with empty q and u, that writes the motion of the frame at t."""
         return self.motion.evaluator
 
     @property

@@ -18,15 +18,18 @@ from .equations import GUARD, LEADING, Equations, UserFunction, own_names, place
 Vector = NDArray[np.float64]
 
 _STEP = 1e-3
-"""Step of the differences, in units of the scales; their error is its fourth power."""
+"""Step of the finite differences, relative to the scales of q and u; their error is of its fourth power."""
 _ALLOWED = 1e-6
 _LOOK = "Look at the signs of the potential's derivatives and at the terms quadratic in u"
 _ASIDE = 0.01
-"""Shift of the second place that is checked, relative to the scales, because at a symmetric start many terms vanish."""
+"""Shift from the start to the second configuration that is checked, relative to the scales of the coordinates.
+
+A start is often symmetric, so that many terms vanish there and a mistake in them would not be found.
+"""
 
 
 def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_scale: Vector) -> None:
-    """Check the functions at a start and at a shifted place, each with the start's velocities and with others.
+    """Check the functions at the start and at a shifted configuration, each with two sets of velocities.
 
     Raises
     ------
@@ -35,12 +38,12 @@ def check_equations(sample: Sampler, q: Vector, u: Vector, q_scale: Vector, u_sc
         the derivative of its pose, a bias not the rate of its Jacobian times u, or forces and energies contradict each
         other.
     """
-    # no number here is 1 or its neighbour's, so that a square forgotten or an index exchanged cannot hide
+    # all numbers differ from 1 and from each other, so that a forgotten square or an exchanged index shows
     signs = (-1.0) ** np.arange(len(q)) * 1.37 / (1.0 + 0.7 * np.arange(len(q)))
     places, speeds = (q, q + _ASIDE * q_scale * signs[::-1]), (u, u + u_scale * signs)
     states = [(place, speed) for place in places for speed in speeds]
     frames = range(len(sample.equations.frames))
-    # a mistake is found where it is made: the later checks build on the earlier ones
+    # later checks use the functions of earlier ones, so that the message names the function with the mistake
     for place in places:
         _check_mass(sample, place, u)
     for place in places:
@@ -57,7 +60,7 @@ def _check_mass(sample: Sampler, q: Vector, u: Vector) -> None:
     n = len(q)
     mass = sample(q, u)["mass"].reshape(n, n)
     thing, shown = sample.thing("mass"), mass.tolist()
-    # entries may have different units: they are judged by their diagonals
+    # entries may have different units: errors are relative to the diagonal entries
     size = np.sqrt(np.abs(np.diag(mass)))
     if not np.all(np.abs(mass - mass.T) <= 1e-12 * np.outer(size, size)):
         raise InvalidInput(thing, "must write a symmetric matrix", shown, "Write M[i n + j] and M[j n + i] alike.")
@@ -212,7 +215,7 @@ def _form(role: str) -> str:
 
 
 class Sampler:
-    """Calls the functions of a body as the engine does, and notices if one writes past the end of its output."""
+    """Calls a body's functions, such as mass and force, as the engine does; detects writes outside of their outputs."""
 
     def __init__(self, name: str, equations: Equations, constants: Mapping[str, Value]) -> None:
         self.name = name
@@ -228,7 +231,7 @@ class Sampler:
         return f"{self.name}.{part}: {self._functions[part].__qualname__}"
 
     def __call__(self, q: Vector, u: Vector) -> dict[str, Any]:
-        """Return the values of all functions at t = 0, q and u, by the names of the functions.
+        """Return the outputs of all functions of the body at t = 0, q and u, by the names of the functions.
 
         Raises
         ------
@@ -242,7 +245,7 @@ class Sampler:
         where = f"at q = {q.tolist()}, u = {u.tolist()}"
         try:
             self._call(0.0, np.concatenate([q, beyond]), np.concatenate([u, beyond]), out)
-        except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # raised by uncompiled functions
+        except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # functions that run uncompiled
             raise InvalidInput(
                 f"{self.name}", f"must have functions that do not fail {where}", error, "Look at its functions."
             ) from error

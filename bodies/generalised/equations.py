@@ -1,4 +1,4 @@
-"""Makes the evaluator of a body from the user's functions, and a probe that calls each function for checks."""
+"""Makes a body's compiled function from the user's functions of mass, force and so on, and a probe for their checks."""
 
 from __future__ import annotations
 
@@ -26,11 +26,25 @@ LEADING = {
     "jacobian": ("q", "out"),
     "bias": ("q", "u", "out"),
 }
-"""Leading arguments of a body's functions, by role; constants follow."""
+"""Leading arguments of a body's functions, by role, that is by what the function computes; constants follow."""
 
 
 class UserFunction(NamedTuple):
-    """A function of a body: variable in the source text below, name in messages, role, function, number of values."""
+    """A user's function of a body.
+
+    Attributes
+    ----------
+    variable : str
+        Name for the function in the generated source text, such as "pose_0".
+    name : str
+        Name in messages, such as "moving_frames[0].pose".
+    role : str
+        Key of its leading arguments in ``LEADING``, such as "pose".
+    function : callable
+        The function.
+    size : int
+        Number of values that it returns or writes.
+    """
 
     variable: str
     name: str
@@ -51,7 +65,7 @@ class Equations:
     frames: tuple[MovingFrame, ...]
 
     def parts(self) -> tuple[UserFunction, ...]:
-        """Return all functions."""
+        """Return all functions that the user has given."""
         n = self.n
         found = [
             UserFunction("mass", "mass", "mass", self.mass, n * n),
@@ -71,11 +85,11 @@ class Equations:
 
 
 GUARD = 16
-"""Floats around what each function writes to the probe, in which nothing may be written."""
+"""Number of floats before and after each function's output in the probe; a change shows a wrong index."""
 
 
 def places(equations: Equations) -> tuple[tuple[UserFunction, int], ...]:
-    """Return every function with the offset at which it writes to the probe."""
+    """Return every function with the offset of its output in the probe's array."""
     found, start = [], GUARD
     for part in equations.parts():
         found.append((part, start))
@@ -84,7 +98,7 @@ def places(equations: Equations) -> tuple[tuple[UserFunction, int], ...]:
 
 
 def own_names(function: Callable[..., Any], role: str) -> tuple[str, ...]:
-    """Return the names of the constants that a function asks for."""
+    """Return the names of the constants among a function's arguments."""
     return tuple(inspect.signature(function).parameters)[len(LEADING[role]) :]
 
 
@@ -122,7 +136,7 @@ def evaluator(equations: Equations) -> Callable[..., None]:
 
 @functools.cache
 def probe(equations: Equations) -> Callable[..., None]:
-    """Return ``probe(t, q, u, out, ...)``, which writes what every function says, as :func:`places` tells."""
+    """Return ``probe(t, q, u, out, ...)``, which writes each function's output at its offset of :func:`places`."""
     lines = []
     for part, start in places(equations):
         call = _call(equations, part.variable, start)
@@ -131,7 +145,7 @@ def probe(equations: Equations) -> Callable[..., None]:
 
 
 def _call(equations: Equations, variable: str, start: int) -> str:
-    """Return the text of a call whose result goes to ``out`` from an offset on."""
+    """Return the source text of a call of a function that writes to ``out`` from the offset ``start`` on."""
     part = next(part for part in equations.parts() if part.variable == variable)
     leading = [f"at(out, {start})" if name == "out" else name for name in LEADING[part.role]]
     constants = [f"c_{name}" for name in own_names(part.function, part.role)]
@@ -139,7 +153,7 @@ def _call(equations: Equations, variable: str, start: int) -> str:
 
 
 def _function(equations: Equations, name: str, lines: list[str]) -> Callable[..., None]:
-    """Return a function of these lines, its further arguments being all constants that the body's functions ask for."""
+    """Return a function made from source lines; its arguments are t, q, u, out and the body's constants."""
     parts = equations.parts()
     names = sorted({own for part in parts for own in own_names(part.function, part.role)})
     scope: dict[str, Any] = {
@@ -152,7 +166,7 @@ def _function(equations: Equations, name: str, lines: list[str]) -> Callable[...
         **{f"f_{part.variable}": _compiled(part.function) for part in parts},
         **{f"head_{i}": _compiled(frame.head) for i, frame in enumerate(equations.frames)},
     }
-    # constants come under names of their own, so that none of them can hide what the lines use
+    # constants get a prefix, so that none of them can hide a name that the lines use
     lines = [*(f"c_{own} = {own}" for own in names), *lines]
     exec(f"def {name}({', '.join(['t', 'q', 'u', 'out', *names])}):\n " + "\n ".join(lines), scope)
     made: Callable[..., None] = scope[name]

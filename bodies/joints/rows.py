@@ -39,13 +39,13 @@ from nonsmooth.vectors import vector
 
 Point = tuple[float, float, float]
 _WIDTH = 10
-"""Numbers of a row in the table: its kind and three vectors."""
+"""Number of floats of a row in the table: its kind and three vectors."""
 AXES: tuple[Point, Point, Point] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 """Unit vectors of the axes of a frame."""
 
 
 class RowKind(IntEnum):
-    """Kinds of rows."""
+    """Kinds of scalar conditions between two bodies, of which a joint is made."""
 
     ON_PLANE = 0
     """A point of the second body stays on a plane of the first one."""
@@ -110,10 +110,10 @@ class RowsJoint(Joint, ABC):
     @property
     @abstractmethod
     def rows(self) -> Sequence[JointRow]:
-        """The scalar conditions of the joint."""
+        """Scalar conditions of the joint, one for each degree of freedom that it removes."""
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return the table of the rows."""
+        """Return the number of rows and the table of the rows, for the evaluator."""
         for name in ("first", "second"):
             vector(f"{type(self).__name__}.{name}", getattr(self, name), 3, "m")
         rows = self.rows
@@ -127,7 +127,7 @@ class RowsJoint(Joint, ABC):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The function that evaluates all rows of the table."""
+        """Function that writes the joint's rows: residual, axis, moment and bias of each."""
         return evaluate_rows
 
     @property
@@ -137,7 +137,11 @@ class RowsJoint(Joint, ABC):
 
 
 def evaluate_rows(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats) -> None:
-    """Evaluate the rows of a table between two frames."""
+    """Write the rows of a joint to ``out``: residual, axis, moment, points and bias of each condition.
+
+    ``rows`` is the table of the conditions between the frames ``a`` and ``b`` of the first and the second body.  The
+    layout of ``out`` is explained in :mod:`nonsmooth.engine.memory.blocks`.
+    """
     for i in range(int(n_rows)):
         row = _WIDTH * i
         kind, first, second = int(rows[row]), block_at(rows, row + 1), block_at(rows, row + 4)

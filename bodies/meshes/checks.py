@@ -167,9 +167,15 @@ MOST_PAIRS = 2_000_000_000
 """Largest number of pairs of triangles that are examined; so many pairs take minutes."""
 _CHUNK = 2_000_000
 _STRIPS, _WIDE = 1000, 4.0
-"""Largest number of strips of the sweep, and least width of a strip relative to the mean extent of the triangles."""
+"""Strips into which `count_crossings` divides the surface: largest number; least width over mean triangle extent.
+
+Narrow strips have fewer pairs to compare, but a triangle must not belong to many of them.
+"""
 _ROUNDED = 1e-12
-"""Bound of the round-off of a coordinate in the last strip, relative to the largest extent."""
+"""Bound of the round-off of a swept coordinate, relative to the largest extent of the surface.
+
+Strip i is shifted by 2 i times the extent, so that coordinates reach 2000 extents, with an error of 2000 * 2^-52.
+"""
 _SHALLOW = 1e-6
 """Least distance of both ends of a crossing edge from the triangle's plane, relative to the largest extent.
 
@@ -184,8 +190,8 @@ class TooManyPairs(Exception):
 def count_crossings(vertices: Vector, faces: Integers) -> int:
     """Return the number of pairs of triangles in which an edge of one passes through the inside of the other.
 
-    The boxes of the triangles are swept along one axis, strip by strip of a second one, so that the time grows little
-    faster than their number.
+    Bounding boxes of triangles are sorted along one axis, separately in strips across a second axis.  Only boxes that
+    overlap in both are compared, so that the time grows little faster than the number of triangles.
 
     Raises
     ------
@@ -195,14 +201,14 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
     corners = vertices[faces]
     low, high = np.min(corners, axis=1), np.max(corners, axis=1)
     size = float(np.max(np.max(high, axis=0) - np.min(low, axis=0)))
-    # sweep along the axis along which the triangles are shortest
+    # sweep along the axis on which the triangles are shortest, relative to the extent of the surface
     axes = np.argsort(np.sum(high - low, axis=0) / np.maximum(np.ptp(vertices, axis=0), 1e-300))
     triangle, strip, width = _strips(low[:, axes[1]], high[:, axes[1]])
     begin_of_strip = 2.0 * size * strip
     start, end = (begin_of_strip + side[triangle, axes[0]] - np.min(low[:, axes[0]]) for side in (low, high))
     order = np.argsort(start, kind="stable")
     triangle, strip, start, end = triangle[order], strip[order], start[order], end[order]
-    # coordinates of the last strips are larger than those of the first strips, and so is their round-off
+    # all strips share one coordinate, each shifted by twice the extent; round-off grows with the shift
     ends = np.searchsorted(start, end + _ROUNDED * size, side="right")
     counts = np.maximum(ends - np.arange(len(triangle)) - 1, 0)
     total, begin = 0, 0
@@ -230,7 +236,10 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
 
 
 def _strips(low: Vector, high: Vector) -> tuple[Integers, Integers, float]:
-    """Return triangles and their strips, one entry for every strip that a triangle meets, and the width of a strip."""
+    """Divide the range of one coordinate into strips; ``low`` and ``high`` are the triangles' least and largest values.
+
+    Return the numbers of triangles and of strips, one entry for each strip that a triangle meets, and the width [m].
+    """
     origin, span = float(np.min(low)), float(np.max(high) - np.min(low))
     width = max(_WIDE * float(np.mean(high - low)), span / _STRIPS, 1e-300)
     first = _strip_of(low, origin, width)

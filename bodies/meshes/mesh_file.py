@@ -111,7 +111,8 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
                 np.array(loaded.faces, dtype=np.int64).reshape(-1, 3),
             )
     except ModuleNotFoundError as error:
-        # raised if the format needs a further package, or if a reader takes a broken file for another format
+        # the import error has two causes: the format needs a package that trimesh does not install, or a reader
+        # mistook a broken file for such a format
         package = error.name or str(error).rpartition(" ")[2].strip("'")
         raise InvalidInput(
             thing,
@@ -120,7 +121,7 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
             "Is the file whole, and its ending right? STL, OBJ, PLY, OFF and GLB need no further package.",
         ) from error
     except Exception as error:
-        # the readers of a dozen formats raise errors of any type for broken files
+        # trimesh has readers for a dozen formats, and each raises other types of errors for broken files
         formats = ", ".join(sorted(trimesh.available_formats()))
         raise InvalidInput(
             thing,

@@ -1,4 +1,4 @@
-"""Patches of a surface: sets of features of which a convex body touches one at a time."""
+"""Patches of a surface: sets of features; a convex body touches at most one feature of a patch at a time."""
 
 from __future__ import annotations
 
@@ -18,31 +18,37 @@ from .features import Bools, Features
 from .topology import Integers
 
 _AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
-"""Largest number of pairs of near faces that are examined at once (for memory), and in all (more are refused)."""
+"""Largest number of pairs of near faces that are examined at once, which limits the memory; largest number in all.
+
+With more pairs in all, the mesh is refused.
+"""
 _SAMPLE = 1000
-"""Faces by which pairs are counted beforehand; surfaces with fewer have not enough of them."""
+"""Number of faces whose near pairs are counted to estimate the cost of all; smaller surfaces cost little."""
 _COSTS = np.array([[3500.0, 6.5e-5], [0.0, 2.9e-7], [90.0, 0.0], [170.0, 3e-6]])
-"""Memory [B] and time [s] of triangles, edges and corners; of near faces, all and at once; of those in conflict."""
+"""Memory [B] and time [s] to prepare contacts, for each item of four kinds, one kind a row.
+
+In this order: triangles, edges and corners; all pairs of near faces; pairs examined at once; pairs in conflict.
+"""
 _MUCH, _LONG = 1.2e8, 2.0
-"""Memory [B] and time [s] of the preparation of contacts, respectively, from which a notice announces it."""
+"""Memory [B] and time [s] for the preparation of contacts above which a notice announces it."""
 Reach: TypeAlias = Callable[[Integers, Integers], Vector]
 Search: TypeAlias = Callable[[int], Iterator[tuple[Integers, Integers, Bools]]]
-"""Yields the numbers of two near faces, of one pair in so many, and whether they are in conflict."""
+"""``search(every)`` yields near pairs of faces, one in ``every``: two numbers of faces, and if they are in conflict."""
 _ABOVE = 1e-9
 """Height over a plane, relative to the size of the surface, above which a face protrudes from the plane."""
 _AROUND = 1.1
-"""Factor on the radius of the touching body, for what it may touch while it overlaps or is not quite there."""
+"""Factor on the distance at which a body can touch two faces: it may overlap a little, or not touch yet."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Patches:
-    """The patch of every face, convex edge and corner, from 0.
+    """Numbers of the patches, from 0, to which faces, convex edges and corners of a surface belong.
 
     Attributes
     ----------
     of_faces, of_edges, of_corners : tuple of int
-        Their numbers.
+        Number of the patch of each face, each convex edge and each corner.
     """
 
     of_faces: tuple[int, ...]
@@ -51,32 +57,32 @@ class Patches:
 
     @property
     def count(self) -> int:
-        """How many there are: 1 for a convex surface."""
+        """Number of patches: 1 for a convex surface."""
         return 1 + max(self.of_faces + self.of_edges + self.of_corners)
 
 
 @lru_cache(maxsize=4)
 def patches_for_ball(features: Features, radius: float) -> Patches:
-    """Return patches for a ball of a radius [m]; points p and q that it touches are r |n_p - n_q| from each other."""
+    """Return patches for a ball of a radius r [m]; points with normals n, m that it touches are r |n - m| apart."""
     normals = features.planes[:, :3]
     return _patches(features, 2.0 * radius, lambda i, j: radius * np.linalg.norm(normals[i] - normals[j], axis=1))
 
 
 @lru_cache(maxsize=4)
 def patches_for_body(features: Features, diameter: float) -> Patches:
-    """Return patches for a convex body of a diameter [m]; 0 for a vertex."""
+    """Return patches for a convex body with a diameter [m]; the diameter of a vertex is 0."""
     return _patches(features, diameter, lambda i, _: np.full(len(i), diameter))
 
 
 def _patches(features: Features, most: float, reach: Reach) -> Patches:
-    """Return patches, where ``reach`` says how far from each other a body may touch two faces, ``most`` at most [m].
+    """Return patches for a body that can touch two faces at points up to ``reach`` apart, at most ``most`` [m].
 
-    A body that touches points p and q of two faces from outside lies over both planes: each of the two faces has a
-    point over the plane of the other.  Faces of which that is not so, such as all of a convex surface, can be in one
-    patch, however a body moves, and so can edges and corners whose faces all get on with all others.
+    A body that touches two faces from outside lies over both planes, so that each face has a point over the plane of
+    the other: the faces are in conflict.  Faces without conflict, such as all faces of a convex surface, can share a
+    patch.  An edge or a corner can join a patch if its faces have no conflict with the faces of this patch.
 
-    Faces are taken one after the other over convex edges, and go with a neighbour where they can, because a body that
-    rolls from one patch to another changes its contact.
+    Faces are taken in the order in which convex edges join them.  A face gets the patch of a neighbour if it can,
+    because a body that rolls from one patch to another changes its contact.
     """
     n_faces = len(features.planes)
     search = _search(features, most, reach)
@@ -113,7 +119,7 @@ def _patches(features: Features, most: float, reach: Reach) -> Patches:
 
 
 class _Colours:
-    """A greedy colouring of sets of faces."""
+    """Greedy colouring: assigns patches (colours) to sets of faces, so that faces in conflict differ."""
 
     def __init__(self, excludes: Sequence[set[int]]) -> None:
         self._excludes = excludes
@@ -121,7 +127,7 @@ class _Colours:
         self._count = 0
 
     def of(self, faces: Iterable[int], preferred: list[int]) -> int:
-        """Return the first colour that takes these faces, the preferred ones first."""
+        """Return the first colour without a face in conflict with ``faces``; try the ``preferred`` colours first."""
         own = list(faces)
         taken = set[int]().union(*(self._of[other] for face in own for other in self._excludes[face]))
         colour: int = next(colour for colour in (*preferred, *range(self._count + 1)) if colour not in taken)
@@ -138,9 +144,9 @@ def _areas(features: Features) -> Vector:
 
 
 def _cost(features: Features, search: Search) -> tuple[float, float]:
-    """Return the memory [B], that of the mesh included, and the time [s] that contacts will take, before a run.
+    """Return an estimate of memory [B], with the mesh, and time [s] that the preparation of contacts will take.
 
-    Pairs of faces are counted for one face in so many.  What each part takes is a fit to rows of
+    Pairs of faces are counted for a sample of the faces.  The cost of each item is a fit to rows of
     ``python -m tests.benchmarks.large_mesh`` with 60, 100, 140 and 220 edges, balls of 2, 10 and 20 cm, and an
     ellipsoid of 10 cm, on two cores of a server: memory is off by a factor of 1.3 at most, time by 1.3 while nothing
     else runs, by 1.8 on a busy machine.
@@ -154,7 +160,7 @@ def _cost(features: Features, search: Search) -> tuple[float, float]:
 
 
 def _conflicts(n_faces: int, search: Search) -> list[set[int]]:
-    """Return for every face those of which a body may touch both."""
+    """Return, for every face, the numbers of the faces that a body may touch together with it."""
     found: list[set[int]] = [set() for _ in range(n_faces)]
     for one, two, close in search(1):
         for a, b in zip(one[close].tolist(), two[close].tolist(), strict=True):
@@ -164,7 +170,7 @@ def _conflicts(n_faces: int, search: Search) -> list[set[int]]:
 
 
 def _search(features: Features, most: float, reach: Reach) -> Search:
-    """Return what finds near faces, and whether a body, which reaches ``most`` at most [m], may touch both."""
+    """Return a function that yields pairs of faces at most ``most`` apart [m], and whether a body may touch both."""
     points, starts = _points(features)
     low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
     least = _ABOVE * features.size
@@ -185,7 +191,7 @@ def _search(features: Features, most: float, reach: Reach) -> Search:
 
 
 def _highest(features: Features) -> Vector:
-    """Return how far the surface reaches over the plane of each face [m], shape [k]: 0 on its convex hull."""
+    """Return the largest height of the surface over the plane of each face [m], shape [k]: 0 on its convex hull."""
     from scipy.spatial import ConvexHull
 
     tips, planes = features.vertices[ConvexHull(features.vertices).vertices], features.planes
@@ -194,7 +200,7 @@ def _highest(features: Features) -> Vector:
 
 
 def _points(features: Features) -> tuple[Vector, Integers]:
-    """Return the vertices of all triangles, face by face [m], and where those of each face begin."""
+    """Return the vertices of all triangles, face by face [m], and the index of the first vertex of each face."""
     faces = np.repeat(features.face_of, 3)
     order = np.argsort(faces, kind="stable")
     points = features.vertices[features.triangles.reshape(-1)[order]]
@@ -202,7 +208,7 @@ def _points(features: Features) -> tuple[Vector, Integers]:
 
 
 def _height(points: Vector, starts: Integers, planes: Vector, faces: Integers) -> Vector:
-    """Return how far each of some faces reaches over a plane [m], shape [n]."""
+    """Return the largest height of each face of ``faces`` over the plane in the same row [m], shape [n]."""
     if len(faces) == 0:
         return np.zeros(0)
     counts = np.diff(starts, append=len(points))[faces]
@@ -213,21 +219,21 @@ def _height(points: Vector, starts: Integers, planes: Vector, faces: Integers) -
 
 
 def _near(middles: Vector, radii: Vector, reach: float, stride: int) -> Iterator[tuple[Integers, Integers]]:
-    """Yield arrays of the numbers of balls that are no farther than a reach [m] from each other, each pair once.
+    """Yield two arrays of numbers of balls: pairs with a distance of at most ``reach`` [m], each pair once.
 
-    With a stride above 1 only a part of the pairs, one in so many.
+    With a ``stride`` above 1, only pairs of every stride-th ball with others are found.
 
     Raises
     ------
     InvalidInput
-        If there are more than :data:`MOST_PAIRS`.
+        There are more pairs than :data:`MOST_PAIRS`.
     """
     from scipy.spatial import cKDTree
 
     if len(middles) == 0:
         return
     total, order = 0, np.argsort(radii, kind="stable")
-    # of about one size together, so that a large ball does not widen the search of all
+    # groups of balls of similar size, so that a large ball does not widen the search for all
     sizes = np.searchsorted(radii[order], np.max(radii) * 0.25 ** np.arange(6)[::-1], side="right")
     for begin, end in itertools.pairwise((0, *sizes.tolist())):
         group = order[begin:end]
@@ -249,6 +255,6 @@ def _near(middles: Vector, radii: Vector, reach: float, stride: int) -> Iterator
             found = tree.query_ball_point(middles[chunk], reached)
             one = np.repeat(chunk, [len(near) for near in found])
             two = group[np.fromiter(itertools.chain.from_iterable(found), dtype=np.int64, count=len(one))]
-            # those of one group come twice
+            # pairs within one group are found twice: keep one of them
             once = (radii[one] < radii[group[0]]) | (one < two)
             yield one[once], two[once]

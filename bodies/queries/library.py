@@ -1,4 +1,4 @@
-"""Library: how distance libraries are called, and how their answers are read."""
+"""Base class for distance libraries: how the libraries are called, and how their results are checked."""
 
 from __future__ import annotations
 
@@ -21,47 +21,51 @@ from ..shapes.triangle_mesh import TriangleMesh
 from .geometries import MAKERS, GeometryMaker, Made
 
 _DOUBT = 1e-3
-"""Largest excess of a distance over its lower bound, relative to distance and size: its direction is inexact."""
+"""Largest excess of a library's distance over its lower bound, relative to the sum of distance and size.
+
+The lower bound is the width of the gap between two planes across the line of the library's nearest points.  It equals
+the distance for exact points; a larger excess means wrong points, and raises `DoubtfulDistance`.
+"""
 _BELOW = 1e-7
-"""Largest amount by which a distance may be below its bound, relative to distance and size."""
+"""Largest amount by which a library's distance may be below that lower bound, relative to distance plus size."""
 _FLAT = TriangleMesh, ConvexHull, Box, Sphere
-"""Kinds of which libraries tell distances to round-off, beside one another."""
+"""Classes of shapes for which libraries give distances to round-off, if both shapes are among them."""
 _LEAST = 1e-12
-"""Distance [m] at which a library does not tell any more whether bodies overlap."""
+"""Distance [m] up to which bodies count as overlapping, because a library cannot distinguish the two."""
 
 
 class Library(GeometryMaker):
-    """A library that is asked for unsigned distances only; subclasses are final, one for each.
+    """A library that computes unsigned distances; each library has its final subclass.
 
-    Errors of the distance of centimetres are mostly below 1e-11 m.  What is stated is, of convex solids, how far the
-    distance is from a lower bound by support functions; of meshes the worst that was met in many poses, and more.
-    Points may be off by the square root of that, relative to the size.
+    Errors of distances of centimetres are mostly below 1e-11 m.  The stated error is larger.  For convex solids it is
+    the excess of the distance over a lower bound by support functions.  For meshes it is more than the worst error
+    found in many poses.  The relative error of nearest points may be the square root of the relative error of the
+    distance.
     """
 
     @property
     @abstractmethod
     def part(self) -> float:
-        """By how much distances of meshes and round solids may be off, relative to distance and size."""
+        """Largest error of distances of meshes and round solids, relative to distance plus size."""
 
     @abstractmethod
     def unsigned(self, first: Made, one: Place, second: Made, two: Place) -> tuple[float, Vector, Vector]:
         """Return the distance of two geometries at two places [m], and nearest points in the same axes.
 
-        A distance that is not positive stands for an overlap.  A mesh is asked for its distance to another shape, not
-        the other way round.
+        A distance that is not positive means an overlap.  If one of the two is a mesh, it is the first.
         """
 
     @final
     def solid(self, shape: Shape) -> Made | None:
-        """Return the shape as an object of the library; None if it has no such kind."""
+        """Return the shape as an object of the library; None if the library has no such shape."""
         make = MAKERS.get(type(shape))
         return None if make is None else make(self, shape)
 
     @final
     def separation(self, first: Made, one: Place, second: Made, two: Place) -> Separation:
-        """Return the distance of two solids and where they are nearest."""
+        """Return distance, error, nearest points and normal of two solids, or that they overlap."""
         if _is_mesh(second) and not _is_mesh(first):
-            # the other order gives points in swapped places
+            # a mesh must be the first argument: swap the solids, and swap the result back
             back = self.separation(second, two, first, one)
             return Separation(back.overlap, back.distance, back.error, back.second, back.first, -back.normal)
         origin = 0.5 * (one[0] + two[0])
@@ -89,12 +93,12 @@ class Library(GeometryMaker):
     def _judged(
         self, first: Made, one: Place, second: Made, two: Place, distance: float, way: Vector
     ) -> tuple[Vector, float | None]:
-        """Return the normal of two cores, and how far above a bound their distance is if they are convex.
+        """Return the normal of two cores, and for convex cores the excess of the distance over its lower bound [m].
 
         Raises
         ------
         DoubtfulDistance
-            If what is known of them contradicts the distance.
+            The distance contradicts the distance of the nearest points, or the lower bound by support functions.
         """
         library = type(self).__name__
         names = f"{type(first.shape).__name__}-{type(second.shape).__name__}"
@@ -134,7 +138,7 @@ def _size(first: Made, second: Made) -> float:
 
 
 def _between(first: Made, one: Place, second: Made, two: Place, normal: Vector) -> float:
-    """Return how far apart planes across a normal are that part the cores of convex solids [m]."""
+    """Return the distance of two planes across a normal that touch the cores of convex solids [m]; may be negative."""
     assert isinstance(first.shape, ConvexShape)
     assert isinstance(second.shape, ConvexShape)
     low = two[0] + two[1] @ second.shape.support(two[1].T @ -normal)
@@ -143,12 +147,12 @@ def _between(first: Made, one: Place, second: Made, two: Place, normal: Vector) 
 
 
 def _stands(solid: Made, place: Place, origin: Vector) -> Place:
-    """Return where the geometry stands, its place from ``origin`` [m]."""
+    """Return position relative to ``origin`` [m] and axes of a solid's geometry in the world."""
     return place[0] - origin + place[1] @ solid.place, place[1] @ solid.axes
 
 
 def _inside(solid: Made, place: Place, point: Vector) -> bool:
-    """Return whether a point is inside of a mesh: for a library a mesh is a hollow surface."""
+    """Return whether a point is inside of a mesh, which a library treats as a hollow surface; else False."""
     if not isinstance(solid.shape, TriangleMesh):
         return False
     own, (low, high) = place[1].T @ (point - place[0]), solid.box
@@ -185,7 +189,7 @@ def aligned_boxes(one: Place, half: Vector, two: Place, other: Vector) -> tuple[
     # along every axis of the first box, the interval that both boxes share
     low, high = np.maximum(-half, way - reach), np.minimum(half, way + reach)
     middle = 0.5 * (low + high)
-    # boxes that are apart along an axis share nothing: take the ends that face each other
+    # if the boxes share no interval along an axis, their nearest points lie at the ends that face each other
     apart = low > high
     first = np.where(apart, np.where(way > 0.0, half, -half), middle)
     second = np.where(apart, np.where(way > 0.0, way - reach, way + reach), middle)

@@ -75,7 +75,7 @@ class Capsule(SweptPolytope):
 
     @property
     def inertia(self) -> Vector:
-        """Inertia tensor of the cylinder and the two half-balls, by the parallel-axis theorem [m^5]."""
+        """Inertia tensor of the cylinder and the two half-balls, at density 1, by the parallel-axis theorem [m^5]."""
         r, c = self.radius, self.half_length
         side, ends = 2.0 * math.pi * r**2 * c, 4.0 / 3.0 * math.pi * r**3
         along = (0.5 * side + 0.4 * ends) * r**2

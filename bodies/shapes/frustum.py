@@ -18,17 +18,20 @@ from .placement import turned
 
 Point = tuple[float, float, float]
 LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN, SWEEP = 2, 3, 4, 5, 6, 11, 18, 19, 20
-"""Where in the numbers stand the heights of the rims and of the feet, the length of the side, the centre, the axis (in
-steps of three), the normal of the side, and the radius that sweeps it all."""
+"""Indices in the numbers of a frustum (:func:`frustum_numbers`).
+
+In this order: heights of the lower and the upper rim, height of the feet, length of the side, centre, axis (its
+components are three apart), radial and axial component of the side's normal, rounding radius.
+"""
 _THINNEST = 1e-5
-"""The core is at least so thick, in units of the largest size."""
+"""Least radius of the largest ball inside of a rounded body's core, relative to the largest size of the body."""
 
 
 class Frustum(ConvexShape):
-    """A convex solid between two circles about one axis: a radius may be 0, and so may the height.
+    """Convex solid between two circles about one axis; one radius may be 0 (cone), or the height (disc).
 
-    Its rims and its apex are sharp, or rounded by the radius ``rounding``: then it is all that is so near to a smaller
-    frustum, the core, of which everything here tells.
+    Its rims and its apex are sharp, or rounded by the radius ``rounding``.  A rounded solid is the set of all points
+    within this radius of a smaller frustum, the core.  All properties here belong to the core.
     """
 
     rounding: float
@@ -36,22 +39,22 @@ class Frustum(ConvexShape):
     @property
     @abstractmethod
     def frustum(self) -> tuple[float, ...]:
-        """Its numbers (:func:`frustum_numbers`)."""
+        """Numbers of the frustum for compiled functions (:func:`frustum_numbers`)."""
 
     @property
     @abstractmethod
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet of the core in the body frame [m]; none without a height."""
+        """Tips of the feet on the core's flat faces in the body frame [m]; empty if the feet have no height."""
 
     @property
     @abstractmethod
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """Radius and centre in the body frame of the rims over flat faces [m], set back by the feet."""
+        """Radius and centre of each rim in the body frame [m], set back from the faces by the height of the feet."""
 
     @property
     @final
     def set_back(self) -> float:
-        """By how much feet let the rims be set back along the side [m]; those of a disc stand out by their height."""
+        """Distance by which rims are set back along the side because of feet [m]; for a disc, height of the feet."""
         numbers = self.frustum
         height = numbers[HIGH] - numbers[LOW]
         return numbers[FEET] * (numbers[SIDE] / height if height > 0.0 else 1.0)
@@ -59,9 +62,9 @@ class Frustum(ConvexShape):
     @property
     @final
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The hull of the rims that are set back, and the feet but those of a disc.
+        """The hull of the rims, set back by the feet, and each foot.
 
-        These stand out of its faces and go into one another where those of two discs come to lie on each other.
+        A disc has no parts for its feet: they protrude from its faces, and overlap if two discs lie on each other.
         """
         numbers = self.frustum
         place, sweep = np.array(numbers[CENTER : CENTER + 3]), numbers[SWEEP]
@@ -78,7 +81,7 @@ class Frustum(ConvexShape):
 
 
 def check_rounding(name: str, inner: float, sizes: Sequence[float], rounding: float) -> None:
-    """Raise InvalidInput unless a body of these sizes that holds a ball of radius ``inner`` [m] keeps a core."""
+    """Raise InvalidInput if the rounding is not below ``inner``, the radius of the largest ball inside of the body."""
     most = inner - _THINNEST * max(sizes)
     if rounding > 0.0 and rounding > most:
         raise InvalidInput(
@@ -97,25 +100,25 @@ def frustum_numbers(
     foot_height: float,
     sweep: float = 0.0,
 ) -> tuple[float, ...]:
-    """Return the numbers by which evaluators know a frustum.
+    """Return the numbers that describe a frustum to compiled functions.
 
     They are the radii of the lower and the upper rim [m], their heights over the centre along the axis [m], the height
     of the feet [m], the length of the side from rim to rim [m], the centre in the body frame [m], the rotation from the
-    frustum's axes to those of the body, row by row, with the axis as the third column, the outward normal of the
-    side, across and along the axis, and the radius of the sphere that sweeps it all [m].
+    frustum's axes to the body's axes, row by row, with the axis as the third column, the radial and the axial component
+    of the side's outward normal, and the rounding radius [m].
 
     Parameters
     ----------
     radii : sequence of float
-        Of the lower and the upper rim [m], the upper one not larger.
+        Radii of the lower and the upper rim [m]; the upper radius is not larger.
     heights : sequence of float
-        Of the lower and the upper rim over the centre [m].
+        Heights of the lower and the upper rim over the centre [m].
     center, axis : tuple of float
-        In the body frame [m and 1].
+        Centre [m] and axis, of any length, in the body frame.
     foot_height : float
-        By which rims are set back over flat faces [m].
+        Height of the feet on flat faces [m].
     sweep : float
-        Radius about the core that all other numbers tell of [m].
+        Rounding radius about the core [m]; all other numbers describe the core.
     """
     (low, high), (below, above) = radii, heights
     side = math.hypot(low - high, above - below)
@@ -127,7 +130,7 @@ def frustum_numbers(
 
 
 def without_feet(numbers: tuple[float, ...]) -> tuple[float, ...]:
-    """Return the numbers of the frustum as those see it who meet its faces as if there were no feet."""
+    """Return the numbers of the frustum with feet of height 0, for contacts that ignore the feet."""
     return (*numbers[:FEET], 0.0, *numbers[FEET + 1 :])
 
 
@@ -136,7 +139,7 @@ def rims_over_faces(
 ) -> tuple[tuple[float, Point], ...]:
     """Return radius and centre of either rim [m], set back along the side by the height of the feet.
 
-    So a body on its side lies as without feet.  The apex of a cone, a rim of radius 0, is not set back.
+    A body on its side therefore lies as without feet.  The apex of a cone, a rim of radius 0, is not set back.
     """
     (low, high), (below, above) = radii, heights
     part = foot_height / (above - below)
@@ -154,11 +157,15 @@ def on_axis(center: Point, axis: Point, height: float) -> Point:
 
 
 FEET_OF_FACE = 3
-"""Number of feet of a face: fewer would not support it, and the normal forces of more feet would not be unique."""
-CIRCLE = 2.0 / 3.0
-"""Radius of the circle of feet, relative to the radius R of the face.
+"""Number of feet of a flat face, small tips on which a body with this face down rests on a plane.
 
-The friction moment against a spin about the axis is then the same as under an even pressure, 2 mu m g R / 3.
+Fewer feet would not support it; the normal forces of more feet would not be unique.
+"""
+CIRCLE = 2.0 / 3.0
+"""Radius of the circle on which the three feet of a flat face lie, relative to the radius R of the face.
+
+With this radius, friction at the feet resists a spin about the axis by the moment 2 mu m g R / 3.  A face without feet
+and with uniform pressure has the same moment.
 """
 USUAL = 1e-4
 """Default height of the feet, relative to the radius of the face."""

@@ -1,4 +1,4 @@
-"""Places shapes elsewhere in their body: :func:`moved` for all shapes, MovedShape for shapes by farthest points."""
+"""Shapes turned and shifted in their body: `moved` for every shape, `MovedShape` for a `SupportShape`."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class MovedShape(SmoothShape):
     Attributes
     ----------
     shape : SupportShape
-        The shape where its class has it.
+        The shape in the frame of its class, before it is turned and shifted.
     """
 
     shape: SupportShape = field()
@@ -68,13 +68,13 @@ class MovedShape(SmoothShape):
 
     @property
     def core(self) -> tuple[float, ...]:
-        """Core of the shape, with its middle and its axes moved."""
+        """Numbers of the shape's support function, with its centre and its axes turned and shifted."""
         core = self.shape.core
         return (*core[:6], *self._placed(core[6:9]).tolist(), *self._axes.ravel().tolist(), *core[18:])
 
     @property
     def length(self) -> float:
-        """A bound of the distance of the farthest point [m]."""
+        """Bound of the distance of the farthest point from the origin of the body frame [m]."""
         return self.shape.length + float(np.linalg.norm([self.x, self.y, self.z]))
 
     def support(self, direction: Vector) -> Vector:

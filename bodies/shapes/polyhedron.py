@@ -1,4 +1,4 @@
-"""Base classes of shapes with flat faces, sharp or rounded, and of segments with a radius."""
+"""Base classes of shapes with flat faces, sharp or rounded, and of capsules."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from .polytope import Polytope
 
 
 class SweptPolytope(ConvexShape):
-    """All points within a radius of a polyhedron or a segment, the core; with radius 0 the core itself."""
+    """All points within the radius ``sweep`` of a polyhedron or a segment, the core; with radius 0 the core itself."""
 
     @property
     @abstractmethod
     def core(self) -> Polytope:
-        """Vertices, faces and edges of the polyhedron or segment that is swept, in the body frame."""
+        """Vertices, faces and edges of the polyhedron or segment inside of the shape, in the body frame."""
 
     @property
     @abstractmethod
     def sweep(self) -> float:
-        """Radius of the sphere that sweeps the core [m]."""
+        """Distance of the surface from the core, the polyhedron or segment inside of it [m]; 0 for a sharp shape."""
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The hull of the vertices, swept by the sphere."""
+        """One convex part: the hull of the vertices, with all points within the radius ``sweep``."""
         return (ConvexPart.of_points(np.array(self.core.vertices), self.sweep),)
 
 
@@ -48,12 +48,12 @@ class Polyhedron(SweptPolytope):
     @property
     @final
     def polytope(self) -> Polytope:
-        """Vertices, faces and edges of a sharp one in the body frame.
+        """Vertices, faces and edges of a sharp shape in the body frame.
 
         Raises
         ------
         InvalidInput
-            If it is rounded: who asks for its sharp edges would not see where they are.
+            The shape is rounded, and has no sharp edges.
         """
         if self.rounding > 0.0:
             raise InvalidInput(
@@ -66,11 +66,11 @@ class Polyhedron(SweptPolytope):
 
     @property
     def length(self) -> float:
-        """Distance of the farthest point [m]."""
+        """Distance of the farthest point from the origin of the body frame [m]."""
         return max(math.hypot(*vertex) for vertex in self.core.vertices) + self.rounding
 
     def support(self, direction: Vector) -> Vector:
-        """Return the farthest vertex of the core, of several the first, and the rounding along the direction [m]."""
+        """Return the farthest point along a direction [m]: a vertex of the core, shifted by the rounding."""
         vertices = np.array(self.core.vertices)
         return np.asarray(vertices[np.argmax(vertices @ direction)] + self._rounded(direction))
 

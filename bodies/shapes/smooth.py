@@ -17,7 +17,7 @@ from .support_function import FUNCTION, OF_FUNCTION, support_of
 
 
 class SmoothShape(ConvexShape):
-    """A convex shape without edges, known by the numbers of a core.
+    """A convex shape without edges, given by the numbers of its support function.
 
     Its radii of curvature are finite and continuous.  A boxy shape has finite and continuous curvatures instead, which
     are 0 at its flat points.
@@ -35,12 +35,12 @@ class SmoothShape(ConvexShape):
 
     @property
     def mixed(self) -> bool:
-        """True if one of the two powers makes the shape flat and the other power makes it sharp."""
+        """True if the shape has both flat and sharp places: of its powers p and q, one is below and one above 2."""
         return self.core[0] > 0.0 and (self.core[3] - 2.0) * (self.core[4] - 2.0) < 0.0
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:
-        """One convex part: the core with its radius."""
+        """One convex part: all points within the radius of the core."""
         core = self.core
         a, b, c, p, q, radius = core[:6]
         place, axes = np.array(core[6:9]), np.array(core[9:18]).reshape(3, 3)
@@ -51,7 +51,10 @@ class SmoothShape(ConvexShape):
 
 
 _STEP, _LAST_NODE = 0.125, 4.75
-"""Distance of the nodes, and the last node, of the double exponential quadrature over an angle; both without unit."""
+"""Spacing and largest value of the nodes of the double exponential quadrature, for an integral over an angle.
+
+The nodes are values of the transformed variable, which has no unit.
+"""
 
 
 def core_numbers(
@@ -61,7 +64,7 @@ def core_numbers(
     center: tuple[float, float, float],
     orientation: tuple[float, float, float, float],
 ) -> tuple[float, ...]:
-    """Return the numbers of a core by which evaluators know a shape.
+    """Return the numbers that describe a smooth shape to compiled functions: a core and a radius about it.
 
     They are three semi-axes a, b, c [m], two powers p, q, the radius about the core [m], the centre in the body frame
     [m], and the rotation from the axes of the core to those of the body, row by row.  The core's support function is
@@ -96,15 +99,16 @@ def support_point(core: tuple[float, ...], direction: Vector) -> Vector:
 
 
 def farthest(core: tuple[float, ...]) -> float:
-    """Return the distance of the farthest point from the origin of the body frame [m], a bound if it is not known."""
+    """Return the distance of the farthest point from the origin of the body frame [m], or an upper bound of it."""
     return math.hypot(*core[6:9]) + extent(core)
 
 
 def extent(core: tuple[float, ...]) -> float:
     """Return the distance of the farthest point from the centre of the core [m].
 
-    It is an axis's, powers of 2 and more, as the core lies in the ellipsoid.  In the squares of the coordinates a core
-    with less is one of the same kind, and their sum the support function of that.
+    For powers of 2 and more it is the largest semi-axis, because the core lies in the ellipsoid.  A core with smaller
+    powers is, in the squares of the coordinates, a core of the same kind.  The squared distance, the sum of these
+    squares, is the support function of that core.
     """
     return _corner(core) + core[5]
 

@@ -9,7 +9,7 @@ from nonsmooth.compiled import call_support, compiled
 from nonsmooth.types import Floats
 
 Support: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float]
-"""h, the point (gradient), and xx, yy, zz, yz, xz, xy of the second derivative."""
+"""Support function h [m], gradient (the farthest point) [m], xx, yy, zz, yz, xz, xy of its second derivative [m]."""
 
 
 OF_FUNCTION = math.inf
@@ -24,7 +24,7 @@ _TURN = 3e-4
 def support_of(core: Floats, x: float, y: float, z: float) -> Support:
     """Return the support function of the core, without the radius, at the unit vector (x, y, z) of its own axes.
 
-    Of a core that is not round its second derivative, which is infinite at the axes, is not a number.
+    The second derivative is infinite at the axes of a core that is not round; it is returned as nan for such cores.
     """
     if core[3] == OF_FUNCTION:
         found: Support = _by_function(core, x, y, z)
@@ -35,9 +35,13 @@ def support_of(core: Floats, x: float, y: float, z: float) -> Support:
 
 @compiled
 def _by_function(core: Floats, x: float, y: float, z: float) -> Support:
-    """Return the support function of a core given by a user's function: by its points, and by their differences."""
+    """Return the support function of a core given by a user's function of farthest points.
+
+    The value and the gradient follow from the farthest point.  The second derivative follows from finite differences of
+    the farthest points for neighbouring directions.
+    """
     px, py, pz = call_support(core, FUNCTION, x, y, z)
-    # across the direction, (t, u) right-handed with it
+    # t and u: unit vectors that form a right-handed system with the direction
     if abs(z) < 0.7:
         length = math.sqrt(x * x + y * y)
         tx, ty, tz = -y / length, x / length, 0.0
@@ -65,7 +69,7 @@ def _by_function(core: Floats, x: float, y: float, z: float) -> Support:
 
 @compiled
 def _slope(core: Floats, x: float, y: float, z: float, tx: float, ty: float, tz: float) -> tuple[float, float, float]:
-    """Return the derivative of the point as the direction turns to a unit vector across it."""
+    """Return the derivative of the farthest point by the angle, as the direction turns towards the perpendicular t."""
     sx, sy, sz = 0.0, 0.0, 0.0
     for i in range(-2, 3):
         if i != 0:
@@ -104,7 +108,7 @@ def is_round(core: Floats) -> bool:
 
 @compiled
 def is_mixed(core: Floats) -> bool:
-    """Return whether a core is flat along one of the two ways and sharp along the other."""
+    """Return whether a core has both flat and sharp places: of its powers, one is below 2 and the other above 2."""
     return core[0] > 0.0 and (core[3] - 2.0) * (core[4] - 2.0) < 0.0
 
 
@@ -192,10 +196,10 @@ def norm_of(a: float, b: float, c: float, p: float, q: float, x: float, y: float
 
 @compiled
 def gauge_of(core: Floats, x: float, y: float, z: float) -> float:
-    """Return by how much the core, without the radius, has to grow about its centre to reach (x, y, z) of its axes.
+    """Return the factor by which the core, without the radius, must grow about its centre to reach (x, y, z).
 
-    The norm of which the support function is the dual one, with the powers p / (p - 1) and q / (q - 1); infinite where
-    that is not known.
+    It is 0 at the centre, 1 on the surface, and infinite if it is not known.  The point is in the axes of the core.
+    The gauge is the norm dual to the support function, with the powers p / (p - 1) and q / (q - 1).
     """
     if core[0] == 0.0 or core[3] == OF_FUNCTION:
         return math.inf

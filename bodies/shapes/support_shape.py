@@ -22,31 +22,31 @@ from .smooth import SmoothShape
 from .support_function import OF_FUNCTION
 
 _SHARPEST, _FLATTEST = 1e-3, 1e3
-"""Radii of curvature that a shape may have, in units of its size."""
+"""Least and largest radius of curvature that a shape may have, relative to its size."""
 _LOOKS = 400
-"""Directions along which a shape is looked at before it is used."""
+"""Number of directions, evenly over the sphere, along which a shape is checked before its first use."""
 _ROUND_OFF = 1e-9
 _DERIVED = ("core", "length", "_integrals", "_checked")
 
 
 class SupportShape(SmoothShape):
-    """A convex shape that a user gives by its farthest points; all else follows from them.
+    """A convex shape that a user gives by its farthest points; the engine derives all other properties.
 
     A subclass is a final, frozen dataclass whose parameters are declared with :func:`nonsmooth.parameters.parameter`,
-    and has one method, ``support``.  The contract of that:
+    and has one method, ``support``.  Its contract:
 
     1. It returns the point of the shape that lies farthest along a direction of any length, in the frame of the body.
-    2. The surface has no edge, no corner and no flat place: of a shape with edges give the one with a ball rolled
-       over it, which adds ``radius * direction / |direction|``.
-    3. If it uses of ``self`` the declared parameters and else numbers, :mod:`math`, numpy and functions at module
-       level, it is compiled; otherwise it runs in Python, with a warning.
+    2. The surface has no edge, no corner and no flat place.  Round the edges of a shape by a ball that rolls over it:
+       add ``radius * direction / |direction|`` to the point.
+    3. It is compiled if it uses only declared parameters of ``self``, numbers, :mod:`math`, numpy and functions at
+       module level.  Otherwise it runs in Python, with a warning.
 
     Raises
     ------
     InvalidInput
-        When it is first used: where points are not farthest, or a radius of curvature is below a thousandth of the
-        size or above a thousand times it.  Whenever it is asked before a run: where ``support`` raises, or returns
-        anything but three finite numbers.
+        At the first use: a point is not the farthest one, or a radius of curvature is below a thousandth of the size
+        or above a thousand times the size.  At any call before a run: ``support`` raises, or does not return three
+        finite numbers.
     """
 
     @abstractmethod
@@ -55,7 +55,7 @@ class SupportShape(SmoothShape):
 
     @final
     def farthest(self, direction: Vector) -> Vector:
-        """Return the point of ``support`` [m], shape [3], or say what is wrong with it."""
+        """Return the point of ``support`` [m], shape [3]; raise InvalidInput if it is not three finite numbers."""
         found: object
         where, cause = "", None
         try:
@@ -74,7 +74,7 @@ class SupportShape(SmoothShape):
 
     @final
     def farthest_of(self, directions: Vector) -> Vector:
-        """Return the points of ``support`` along directions [m], shape [n, 3] both, or say what is wrong with one."""
+        """Return the points of ``support`` along directions [m], shape [n, 3]; InvalidInput if one is not finite."""
         with contextlib.suppress(Exception):
             points = np.array([self.support(n) for n in directions], dtype=float)
             if points.shape == directions.shape and np.all(np.isfinite(points)):
@@ -83,7 +83,7 @@ class SupportShape(SmoothShape):
 
     @functools.cached_property
     def core(self) -> tuple[float, ...]:
-        """Half its extents [m], its middle [m], and where the engine finds its points."""
+        """Numbers for compiled functions: half the extents [m], middle [m], address of ``support``, its parameters."""
         assert self._checked
         low, high = self.bounds
         half, (x, y, z) = (0.5 * (high - low)).tolist(), (0.5 * (low + high)).tolist()
@@ -93,7 +93,7 @@ class SupportShape(SmoothShape):
 
     @functools.cached_property
     def length(self) -> float:
-        """Distance of the farthest point [m], a bound: no direction is far from one that is looked at."""
+        """Upper bound of the distance of the farthest point from the origin [m], by ``_LOOKS`` directions."""
         directions, reach = spiral(_LOOKS)
         return max(float(np.linalg.norm(p)) for p in self.farthest_of(directions)) / math.cos(reach)
 
@@ -108,7 +108,7 @@ class SupportShape(SmoothShape):
         return True
 
     def __getstate__(self) -> dict[str, Any]:
-        # addresses are valid in this process only
+        # derived attributes hold addresses of compiled functions, which are valid in this process only: leave them out
         return {name: value for name, value in vars(self).items() if name not in _DERIVED}
 
     @property
@@ -127,13 +127,13 @@ class SupportShape(SmoothShape):
         return self._integrals[2]
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
-        """Return the points along the meridians and parallels of directions."""
+        """Return a mesh of farthest points [m], along directions on meridians and parallels of the sphere."""
         sphere, triangles = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
         return self.farthest_of(sphere), triangles
 
 
 def _check(shape: SupportShape) -> None:
-    """Raise InvalidInput if a shape is not convex, too sharp or too flat, as seen along directions all round."""
+    """Raise InvalidInput if a shape is not convex, too sharp or too flat, by its farthest points in all directions."""
     name = f"{type(shape).__name__}.support"
     directions, _ = spiral(_LOOKS)
     points = shape.farthest_of(directions)
@@ -176,7 +176,10 @@ Support = Callable[[Vector], Vector]
 """A function that returns the farthest points [m] along directions, shape [n, 3] both."""
 _TURN = 1e-3
 _WAYS, _FIRST, _LAST, _CLOSER = 4, 0.15, 1e-4, 0.8
-"""Number of searches for a flat place; their first and last step [rad]; ratio of a step to the step before."""
+"""Searches of :func:`largest_radius` for a flat place.
+
+Their number; first and last step of the direction [rad]; ratio of a step to the step before.
+"""
 _ROUND = [(math.cos(0.25 * math.pi * i), math.sin(0.25 * math.pi * i)) for i in range(8)]
 _COARSEST, _TIMES = 24, 4
 """Number of edges round the coarsest mesh, and number of meshes, each twice as fine as the mesh before."""
@@ -193,7 +196,7 @@ def spiral(count: int) -> tuple[Vector, float]:
 def least_radius(support: Support, directions: Vector) -> float:
     """Return the least radius of curvature at the points with given normals [m].
 
-    Principal radii are the eigenvalues of dP/dn, with the point P(n) that lies farthest along n.
+    Principal radii are the eigenvalues of the derivative dP/dn, with the shape's farthest point P(n) along n.
     """
     rates = _rates(support, directions)
     middle, half = 0.5 * (rates[:, 0] + rates[:, 2]), 0.5 * (rates[:, 0] - rates[:, 2])
@@ -203,9 +206,10 @@ def least_radius(support: Support, directions: Vector) -> float:
 def largest_radius(support: Support, directions: Vector, points: Vector) -> float:
     """Return the largest radius of curvature found by searches for flat places [m].
 
-    A flat place has a single normal, which is in general none of the given directions.  On both sides of this normal,
-    the farthest points along two neighbouring directions lie far apart.  Each search therefore goes, in ever smaller
-    steps, to the direction with the largest distance of these points.
+    A flat place has a single normal, in general not one of the given ``directions``.  If two neighbouring directions
+    lie on either side of this normal, their farthest points are far apart.  A search therefore starts from a given
+    direction whose point has the largest distances from its neighbours.  It goes, in ever smaller steps, to the
+    direction at which points for two directions on either side are farthest apart.
     """
     beside = points[np.argsort(directions @ directions.T, axis=1)[:, -5:]]
     apart = np.max(np.linalg.norm(beside - points[:, None], axis=2), axis=1)
@@ -262,7 +266,10 @@ def _across(directions: Vector) -> tuple[Vector, Vector]:
 
 
 def _rates(support: Support, directions: Vector) -> Vector:
-    """Return the elements tt, tu and uu of dP/dn, along the vectors t and u of :func:`_across` [m], shape [n, 3]."""
+    """Return three elements of the derivative dP/dn of a shape's farthest point P(n) along n [m], shape [n, 3].
+
+    They are t . dP/dn t, t . dP/dn u and u . dP/dn u, with the vectors t and u of :func:`_across`.
+    """
     t, u = _across(directions)
     slopes = [np.zeros_like(t), np.zeros_like(t)]
     for slope, across in zip(slopes, (t, u), strict=True):

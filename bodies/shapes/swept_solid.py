@@ -26,14 +26,14 @@ Integrals = tuple[float, Vector, Vector]
 
 @dataclass
 class _Sums:
-    """Integrals of 1, x and x x^T, which add up over the pieces."""
+    """Sums over the pieces of a body of the integrals of 1, x and x x^T."""
 
     volume: float
     first: Vector
     second: Vector
 
     def add(self, place: Vector, volume: float, first: Vector, second: Vector) -> None:
-        """Add a piece whose integrals are taken from ``place``."""
+        """Add a piece, whose integrals of x and x x^T are relative to the point ``place`` [m]."""
         cross = np.outer(place, first)
         self.volume += volume
         self.first += volume * place + first
@@ -94,7 +94,7 @@ def swept_solid(core: Polytope, radius: float) -> Integrals:
 
 
 def _prism(n: int) -> Vector:
-    """Return the triangles of a prism on n corners, which come first below, then above."""
+    """Return the triangles of a prism with n corners; vertices are numbered first below, then above."""
     fan = [(0, i + 1, i) for i in range(1, n - 1)]
     top = [(n, n + i, n + i + 1) for i in range(1, n - 1)]
     sides = [(i, (i + 1) % n, n + (i + 1) % n) for i in range(n)] + [(i, n + (i + 1) % n, n + i) for i in range(n)]
@@ -102,7 +102,7 @@ def _prism(n: int) -> Vector:
 
 
 def _add_wedge(sums: _Sums, one: Vector, two: Vector, middle: Vector, angle: float, radius: float) -> None:
-    """Add the wedge of a cylinder about an edge, as wide as ``angle`` [rad] to both sides of ``middle``."""
+    """Add the wedge of a cylinder about an edge, with the opening ``angle`` [rad] and the bisector ``middle``."""
     way = two - one
     length = float(np.linalg.norm(way))
     across = np.cross(way / length, middle)
@@ -119,8 +119,8 @@ Integers = NDArray[np.int64]
 def draw_swept(core: Polytope, radius: float, fineness: int) -> tuple[Vector, Vector]:
     """Return vertices [m], shape [n, 3], and triangles, shape [m, 3], of all points within a radius of a polyhedron.
 
-    Every face is shifted outward, every edge becomes a strip with a quarter of ``fineness`` steps, and every vertex as
-    many rings about the mean normal of its faces.
+    Every face is shifted outward by the radius.  Every edge becomes a strip of ``fineness`` / 4 steps, rounded up.
+    Every vertex becomes a cap of the same number of rings about the mean normal of its faces.
     """
     check_fineness(fineness)
     steps = -(-fineness // 4)

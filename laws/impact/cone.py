@@ -1,4 +1,4 @@
-"""One contact problem with Coulomb's cone at velocity level, for the laws that map velocities."""
+"""Solver of the impact problem with Coulomb's friction cone at velocity level, for laws that map velocities."""
 
 from __future__ import annotations
 
@@ -24,9 +24,13 @@ def solve_cone(
 ) -> int:
     """Solve for the impulses P, starting from ``out`` or from the solution on pyramids; return 1 for an exact solution.
 
-    With z = rates + G P and xi = z + shift: P_N >= least complementary to xi_N >= 0; P_T - base_T in the disc of
-    radius mu (P_N - base_N), on its edge against xi_T unless that vanishes.  Without a shift, as in an inelastic
-    impact, there always is an answer.
+    The rates after the impact are z = rates + G P, and xi = z + shift.  Conditions for each contact:
+
+    - P_N >= least, xi_N >= 0, and (P_N - least) xi_N = 0;
+    - P_T - base_T lies in the disc of radius mu (P_N - base_N).  If xi_T is not 0, it lies on the edge of the disc,
+      opposite to xi_T.
+
+    With ``shift`` 0, as in an inelastic impact, a solution always exists.
 
     Parameters
     ----------
@@ -37,7 +41,7 @@ def solve_cone(
     rates, shift : array
         Rates (n, t1, t2) of each contact before, and the shift added to the rates after [m/s], length 3 n.
     base : array
-        Impulses that friction does not count [N s], length 3 n.
+        Impulses that are subtracted from P before the friction condition is applied [N s], length 3 n.
     least : array
         Least normal impulses [N s], length n.
     out : array
@@ -66,7 +70,7 @@ def solve_cone(
             for compliance in _COMPLIANCES:
                 tried = p.copy()
                 if find_zero(n, matrix, free, kept, lower, mu, compliance, False, tried) == 1:
-                    # a search from zero impulses ends near the least norm already
+                    # trial -1 starts from the caller's impulses, such as 0, and needs no reduction of the norm
                     if trial >= 0:
                         _lessen(n, matrix, free, kept, lower, mu, tried)
                     _write_inside(n, kept, lower, mu, tried, out)
@@ -79,10 +83,10 @@ def solve_cone(
 
 @compiled
 def _lessen(n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, p: Array) -> None:
-    """Replace a solution by one close to the least norm, if such a solution is found.
+    """Replace impulses P that solve the problem by a solution with nearly the least norm |P|, if one is found.
 
-    Redundant contacts, such as those of a wedged body, may exchange unbounded impulses that change no motion.  A vertex
-    of the pyramids may contain such impulses, and the search would end with them.
+    Redundant contacts, such as the contacts of a wedged body, may have arbitrarily large impulses that cancel each
+    other.  The solution on pyramids may contain such impulses, and the search that starts from it does not remove them.
     """
     for compliance in _COMPLIANCES[::-1]:
         tried = p.copy()
@@ -97,7 +101,7 @@ def _lessen(n: int, matrix: Array, free: Array, base: Array, least: Array, frict
 
 @compiled
 def _write_inside(n: int, base: Array, least: Array, friction: Array, p: Array, out: Floats) -> None:
-    """Write impulses that lie in their cones within round-off, projected into the cones."""
+    """Write impulses to ``out``, projected into their friction cones, which they leave by round-off only."""
     for a in range(n):
         i = 3 * a
         out[i] = max(least[a], p[i])
@@ -109,9 +113,11 @@ def _write_inside(n: int, base: Array, least: Array, friction: Array, p: Array, 
 
 @compiled
 def solve_rebound(n: int, delassus: Floats, rates: Floats, shift: Floats, out: Floats, friction: Floats) -> None:
-    """Solve for the impulses of an impact with the rebound ``shift``; if there is no solution, of an inelastic impact.
+    """Solve for the impulses of an impact; if it has no solution, for the impulses of the inelastic impact.
 
-    A wedged body cannot rebound: the impulse that opens one contact compresses another one.
+    ``shift`` [m/s] sets the rebound: it is added to the rates after the impact in the conditions of :func:`solve_cone`,
+    such as e times the rates before.  A wedged body cannot rebound, because the impulse that opens one contact
+    compresses another one.
     """
     none, least = np.zeros(3 * n), np.zeros(n)
     for i in range(3 * n):
@@ -125,11 +131,14 @@ def solve_rebound(n: int, delassus: Floats, rates: Floats, shift: Floats, out: F
 def cone_deviation(
     delassus: Array, rates: Array, shift: Array, base: Array, least: Array, impulses: Array, friction: Array
 ) -> float:
-    """Return by how much impulses miss the problem of :func:`solve_cone` [m/s], with its arguments; 0 for a solution.
+    """Return the largest violation of the conditions of :func:`solve_cone` by impulses [m/s]; 0 for a solution.
 
-    Both conditions are fixed points of a projection, and factors such as G_NN make velocities of impulses.
-    Complementarity is min(G_NN (P_N - least), xi_N) = 0.  Friction: P_T - base_T is the projection of
-    P_T - base_T - xi_T / G_T on its disc, with G_T the sum of both tangential diagonal entries of G.
+    The arguments are those of :func:`solve_cone`.  Each condition is written as an equation whose residual is a
+    velocity:
+
+    - complementarity: min(G_NN (P_N - least), xi_N) = 0;
+    - friction: G_T times the difference of P_T - base_T and its projection, 0 if P_T - base_T is the point of the
+      friction disc nearest to P_T - base_T - xi_T / G_T, with the sum G_T of both tangential diagonal entries of G.
     """
     n = len(friction)
     xi = (rates + shift + delassus @ impulses).reshape(n, 3)
@@ -154,9 +163,9 @@ def follows_cone(
     restitution: float,
     tangential_restitution: float,
 ) -> bool:
-    """Tell whether impulses solve the problem for z+ + e z-; for arguments see :class:`nonsmooth.interfaces.ImpactMap`.
+    """Return whether impulses solve the problem with xi = z+ + e z- (:class:`nonsmooth.interfaces.ImpactMap`).
 
-    A contact that was separating counts with the normal restitution 0.
+    For a contact that was separating before the impact, the normal restitution e is 0.
     """
     shift = tangential_restitution * before
     shift[::3] = restitution * np.minimum(before[::3], 0.0)

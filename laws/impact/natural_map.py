@@ -1,12 +1,12 @@
-"""Coulomb's cone at velocity level by Newton's method on the natural map, of which a solution is a zero.
+"""Impact problem with Coulomb's cone at velocity level, by Newton's method for a zero of its natural map.
 
-With xi = G P + c, the impulses P of a solution are where a step against xi leads, projected:
+With xi = G P + c, impulses P are a solution if a step against xi, projected to the admissible impulses, returns P:
 
     P_N = max(least, P_N - xi_N / g_N),
     P_T = projection of P_T - xi_T / g_T on the disc of radius mu (P_N - base_N) about base_T,
 
-g_N being the own entry of the normal and g_T the trace of the own tangential block, or g_N where a body cannot move
-along the tangents: any positive number leads to the same zeros.
+Here g_N is the normal entry of the contact's diagonal block of G, and g_T the trace of its tangential part, or g_N if
+the contact cannot move along the tangents.  Any positive numbers give the same solutions.
 """
 
 from __future__ import annotations
@@ -19,27 +19,29 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Array
 
 _EXACT = 1e-11
-"""Residual that counts as zero, relative to the largest given velocity."""
+"""Residual that is zero within round-off, relative to the largest given velocity."""
 _ROUND_OFF = 1e-15
-"""Residual that the sums of a row leave, relative to the largest velocity that an impulse makes at its own contact."""
+"""Round-off of a residual, relative to the largest velocity that an impulse causes at its own contact."""
 _STEPS = 30
 _HALVINGS = 10
 _ROUNDS = 20
 _UNBOUNDED = 1e5
-"""Impulses that make so many times the largest given velocity at their own contacts have left every answer: their
-round-off leaves 1e-10 of that velocity."""
+"""Velocity that an impulse causes at its own contact, over the largest given velocity, above which P is unbounded.
+
+The round-off of so large impulses is 1e-10 of the given velocity, so that no solution is accurate enough.
+"""
 
 
 @compiled
 def _tangential_scale(matrix: Array, i: int) -> float:
-    """Return g_T of the contact whose normal has the row i."""
+    """Return g_T [1/kg] of the contact whose normal row in G is i."""
     trace = matrix[i + 1, i + 1] + matrix[i + 2, i + 2]
     return trace if trace > 0.0 else matrix[i, i]  # type: ignore[no-any-return]
 
 
 @compiled
 def sweep(n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, p: Array) -> None:
-    """Project the impulses ``p`` [N s], contact by contact; the arguments are those of :func:`find_zero`."""
+    """Do one projected Gauss-Seidel sweep over the impulses ``p`` [N s]; arguments as in :func:`find_zero`."""
     width = 3 * n
     for a in range(n):
         i = 3 * a
@@ -115,7 +117,7 @@ def _miss(
 
 @compiled
 def _largest_given(n: int, matrix: Array, free: Array, least: Array) -> float:
-    """Return the largest velocity that is given, without and with the least impulses [m/s]."""
+    """Return the largest component of c, and of c with the least impulses, as a scale of velocities [m/s]."""
     largest = 0.0
     for i in range(3 * n):
         given = free[i]
@@ -127,7 +129,7 @@ def _largest_given(n: int, matrix: Array, free: Array, least: Array) -> float:
 
 @compiled
 def is_unbounded(n: int, matrix: Array, free: Array, least: Array, p: Array) -> bool:
-    """Tell whether impulses are so large that round-off of theirs hides what is asked; see :func:`find_zero`."""
+    """Return whether impulses are so large that their round-off exceeds the accuracy required by :func:`find_zero`."""
     bound = _UNBOUNDED * _largest_given(n, matrix, free, least)
     made = 0.0
     for i in range(3 * n):
@@ -147,11 +149,11 @@ def find_zero(
     from_none: bool,
     p: Array,
 ) -> int:
-    """Improve the impulses until they solve the problem; return 1 if they do.
+    """Improve the impulses by Newton's method until they solve the problem; return 1 if they do, else 0.
 
-    Impulses need not be unique: a small compliance of every contact makes them so, and rounds in which it is taken
-    to start from the impulses that are there take its effect out.  Where the first round takes it to start from none,
-    the answer is next to that of least norm.
+    Impulses need not be unique.  A small compliance of every contact makes them unique.  Further rounds count the
+    compliance from the impulses of the round before, which removes its effect.  If the first round counts it from zero
+    impulses, the solution has nearly the least norm.
 
     Parameters
     ----------
@@ -160,15 +162,15 @@ def find_zero(
     matrix : array
         G [1/kg], shape [3 n, 3 n].
     free, base : array
-        c [m/s], and the impulses that friction does not count [N s], shape [3 n].
+        c [m/s], and the impulses that are subtracted before the friction condition [N s], shape [3 n].
     least, friction : array
         Least normal impulses [N s], and coefficients mu, shape [n].
     compliance : float
-        The compliance, relative to the own entries of G.
+        Compliance of the contacts, relative to their diagonal entries of G.
     from_none : bool
-        Whether the compliance of the first round starts from no impulses; Newton's method starts from ``p`` anyway.
+        Whether the first round counts the compliance from zero impulses; Newton's method always starts from ``p``.
     p : array
-        Impulses P: a start, then the answer [N s], shape [3 n].
+        Impulses P: a start, then the solution [N s], shape [3 n].
     """
     width = 3 * n
     missed, slope, step, old = np.zeros(width), np.zeros((width, width)), np.zeros(width), np.zeros(width)

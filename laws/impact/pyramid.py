@@ -15,20 +15,25 @@ from nonsmooth.types import Array
 
 _FACETS = 8
 _PARTS = _FACETS + 2
-"""Unknowns of a contact: its normal impulse, friction along each facet, and how fast it slips."""
+"""Number of unknowns of a contact: normal impulse, friction impulse along each facet, slip speed."""
 _PIVOTS = 50
-"""Largest number of pivots for each unknown."""
+"""Largest number of pivots of Lemke's method, per unknown of the complementarity problem; it stops cycles."""
 _ZERO = 1e-11
 _APART = (1e-9, 1e-7, 1e-5, 1e-3)
-"""Perturbations of the conditions, relative to the velocities, in successive trials.
+"""Perturbations of the complementarity problem in successive trials, relative to its largest right-hand side.
 
-Each condition is moved by another amount, because ties and round-off mislead the choice of pivots.
+A trial increases every right-hand side by a different amount of this order.  Otherwise equal ratios and round-off would
+mislead the choice of pivots.
 """
 
 
 @compiled
 def _angle(facet: int, a: int, narrow: float, p1: float, p2: float) -> float:
-    """Return the angle of a facet: all around, or five that lie close around p and three that close the pyramid."""
+    """Return the direction of a facet of a pyramid in the tangent plane [rad].
+
+    If ``narrow`` is 0, the facets are evenly spaced.  Else five facets lie close round the friction impulse (p1, p2),
+    and three others close the pyramid.
+    """
     if narrow == 0.0:
         return 2.0 * math.pi * facet / _FACETS + 0.1 * a
     towards = math.atan2(p2, p1)
@@ -41,17 +46,19 @@ def _angle(facet: int, a: int, narrow: float, p1: float, p2: float) -> float:
 def solve_on_pyramids(
     n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, narrow: float, p: Array
 ) -> int:
-    """Solve on pyramids inside the cones; return 0 if Lemke's method ends on a ray, which says that there is no answer.
+    """Solve the impact problem on pyramids inside the friction cones; return 1 for a solution, 0 for none.
+
+    If Lemke's method ends on a ray, the problem has no solution.
 
     The arguments are those of :func:`laws.impact.natural_map.find_zero`; ``narrow`` [rad] is the angle between the
-    facets next to the friction in ``p``, or 0 where they lie all around.
+    facets next to the friction impulse in ``p``, or 0 for evenly spaced facets.
     """
     width, m = 3 * n, _PARTS * n
     ways, weights, offsets, z = np.zeros((width, m)), np.zeros((m, m)), np.zeros(m), np.zeros(m)
     start = base.copy()
     for a in range(n):
         i, first = 3 * a, _PARTS * a
-        # impulses in units of the contact's own
+        # unknowns are scaled by the contact's normal entry of G
         unit = 1.0 / math.sqrt(matrix[i, i])
         ways[i, first] = unit
         for facet in range(_FACETS):
@@ -94,7 +101,7 @@ def solve_on_pyramids(
 
 @compiled
 def _lemke(m: int, weights: Array, offsets: Array, z: Array) -> int:
-    """Find z >= 0 with w = weights z + offsets >= 0 and z w = 0 by pivots; return 1 if there is one.
+    """Find z >= 0 with w = weights z + offsets >= 0 and z w = 0 by Lemke's pivots; return 1 if it is found, else 0.
 
     The columns of the tableau are w, z, the artificial unknown and the right-hand side.
     """

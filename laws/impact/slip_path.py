@@ -16,18 +16,30 @@ from nonsmooth.compiled import compiled
 Matrix: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
 """The Delassus matrix of a contact [1/kg], row by row."""
 Path: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""Angle [rad] and length [m/s] of the slip, impulses n, t1, t2 [N s], gap rate [m/s], work of the normal one [J]."""
+"""State of an impact of one contact: slip angle [rad], slip speed [m/s], impulses n, t1, t2 [N s], gap rate, work.
+
+The gap rate is in [m/s]; the work is the work of the normal impulse [J].
+"""
 
 _STRAIGHT = 1e-9
-"""A slip whose direction turns more slowly than this, relative to the trace of G, counts as straight."""
+"""Rate of the slip angle below which a slip is straight, relative to the trace of the Delassus matrix.
+
+The rate is the derivative of the angle [rad] by the parameter of the path, in [1/kg] as the matrix.
+"""
 _SINGULAR = 1e-14
-"""Determinant, relative to the squared trace, below which A is singular: a contact of a mechanism slips in a line."""
+"""Determinant of the tangential block of the Delassus matrix, relative to its squared trace, that counts as zero.
+
+The block is singular if a mechanism allows its contact to slip along one line only.
+"""
 _LEAST = 1e-300
 
 
 @compiled
 def way_of_slip(angle: float, g: Matrix, mu: float) -> tuple[float, float]:
-    """Return the rates of the angle and of the logarithm of the slip speed over the parameter, for a slip direction."""
+    """Return the derivatives of slip angle and logarithm of slip speed by the parameter of the path [1/kg].
+
+    ``angle`` [rad] is the present direction of slip.  The parameter is defined at the top of this module.
+    """
     x, y = math.cos(angle), math.sin(angle)
     along, across = g[3] - mu * (g[4] * x + g[5] * y), g[6] - mu * (g[7] * x + g[8] * y)
     return y * -along + x * across, x * along + y * across
@@ -35,13 +47,13 @@ def way_of_slip(angle: float, g: Matrix, mu: float) -> tuple[float, float]:
 
 @compiled
 def runs_straight(angle: float, g: Matrix, mu: float) -> bool:
-    """Return True if a slip in this direction does not turn."""
+    """Return True if a slip in the direction ``angle`` [rad] keeps its direction during the impact."""
     return bool(abs(way_of_slip(angle, g, mu)[0]) <= _STRAIGHT * (g[0] + g[4] + g[8]))
 
 
 @compiled
 def _rates(path: Path, h: float, by: Path, g: Matrix, mu: float) -> Path:
-    """Return the derivatives at ``path + h by``."""
+    """Return the derivative of the path by its parameter at ``path + h by``."""
     angle, slip, rate = path[0] + h * by[0], path[1] + h * by[1], path[5] + h * by[5]
     turning, growing = way_of_slip(angle, g, mu)
     t1, t2 = -mu * math.cos(angle), -mu * math.sin(angle)
@@ -69,15 +81,16 @@ def along_path(path: Path, g: Matrix, mu: float, h: float) -> Path:
 
 @compiled
 def friction_from_rest(g: Matrix, mu: float) -> tuple[float, float]:
-    """Return the tangential impulse per normal impulse for a contact without slip: it sticks or starts to slip.
+    """Return the tangential impulse per normal impulse of a contact without slip, which sticks or starts to slip.
 
-    If friction cannot hold it, the slip starts along the only direction e that does not turn: c - mu A e = l e, l > 0.
+    c = G_tn and A = G_tt are blocks of the Delassus matrix G.  If friction cannot hold the contact, slip starts in the
+    direction of a unit vector e that stays constant: c - mu A e = l e with l > 0.  There is one such direction.
     """
     a, b, d = g[4], 0.5 * (g[5] + g[7]), g[8]
     x, y = _solved(a, b, d, g[3], g[6])
     if math.hypot(x, y) <= mu:
         return -x, -y
-    # the l of (l + mu A) e = c with |e| = 1 lies between 0 and |c|
+    # seek l with |e| = 1 for e = (l + mu A)^-1 c, by halving of the interval from 0 to |c|
     low, high = 0.0, math.hypot(g[3], g[6])
     for _halving in range(200):
         middle = 0.5 * (low + high)
@@ -92,7 +105,7 @@ def friction_from_rest(g: Matrix, mu: float) -> tuple[float, float]:
 
 @compiled
 def _solved(a: float, b: float, d: float, x: float, y: float) -> tuple[float, float]:
-    """Return the solution of [[a, b], [b, d]] z = (x, y); if the matrix is singular, the one of least norm."""
+    """Return the solution z of [[a, b], [b, d]] z = (x, y); if the matrix is singular, the solution of least norm."""
     determinant, trace = a * d - b * b, a + d
     if determinant <= _SINGULAR * trace * trace:
         square = max(trace * trace, _LEAST)

@@ -38,12 +38,12 @@ class HuntCrossley(CompliantNormalLaw):
 
     @property
     def force(self) -> Callable[..., float]:
-        """F(x, x') of the class."""
+        """Function of the normal force [N], of indentation x [m] and its rate x' [m/s]: the formula of the class."""
         return _force
 
     @property
     def reach(self) -> float:
-        """Largest gap at which the contact has a force [m]: 0, because it does not pull."""
+        """Largest gap at which this law gives a force [m]: 0, because the law has no adhesion."""
         return 0.0
 
     def is_fulfilled(

@@ -18,14 +18,18 @@ if TYPE_CHECKING:
 
 
 class PainlevePolicy(StrEnum):
-    """What happens if sliding has no contact force (Painleve's paradox), in the order of the engine's numbers."""
+    """What happens if a sliding contact has no contact force (Painleve's paradox).
+
+    With much friction, the contact problem of a sliding contact may have no solution. The order of the members is that
+    of the engine's numbers.
+    """
 
     IMPACT = "impact"
-    """An impact without collision, by the impact law of the contact."""
+    """Velocities jump by an impact of the closed contact, which does not collide, by the contact's impact law."""
     COMPLIANT = "compliant"
-    """An impact without collision and without loss of energy, as by a stiff spring."""
+    """Velocities jump by an impact of the closed contact without loss of energy, as by a stiff spring."""
     REFUSE = "refuse"
-    """The run ends."""
+    """The run ends at this time with `RunFailed`, because the contact force has no solution."""
 
 
 _POLICIES = tuple(PainlevePolicy)

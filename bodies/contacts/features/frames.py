@@ -1,4 +1,4 @@
-"""Directions for the evaluators of contacts: body and world axes, first tangents, parts across an axis."""
+"""Vectors in contacts: change between body and world axes, first tangent of a normal, split along an axis."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ...shapes.placement import turned
 
 @compiled
 def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the place of a point of the body in the world [m]."""
+    """Return the point (x, y, z) of a body frame in world coordinates [m]."""
     return (
         frame[POSITION] + frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
         frame[POSITION + 1] + frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
@@ -23,7 +23,7 @@ def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, 
 
 @compiled
 def vector_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return a vector of the body in world axes."""
+    """Return the components in world axes of a vector (x, y, z) given in body axes."""
     return (
         frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
         frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
@@ -33,7 +33,7 @@ def vector_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float,
 
 @compiled
 def vector_in_body(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return a vector of the world in body axes."""
+    """Return the components in body axes of a vector (x, y, z) given in world axes."""
     return (
         frame[ROTATION] * x + frame[ROTATION + 3] * y + frame[ROTATION + 6] * z,
         frame[ROTATION + 1] * x + frame[ROTATION + 4] * y + frame[ROTATION + 7] * z,
@@ -58,7 +58,7 @@ def across(
     size = math.sqrt(x * x + y * y + z * z)
     if size > 0.0:
         x, y, z = x / size, y / size, z / size
-        # for a vector close to the axis the rest is round-off, which may have a component along the axis
+        # if the vector is nearly parallel to the axis, its part across is round-off and may lean: project again
         rest = x * axis_x + y * axis_y + z * axis_z
         x, y, z = x - rest * axis_x, y - rest * axis_y, z - rest * axis_z
         length = math.sqrt(x * x + y * y + z * z)
@@ -85,7 +85,7 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
     # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits if the normal points down
     square = x * x + y * y
     if square < _ROUND_OFF:
-        # the tangent must not follow round-off: faces that lie on each other keep their tangent while the bodies turn
+        # x and y are round-off: project (1, 0, 0) instead, or the tangent of flat faces on each other would jump
         length = math.sqrt(1.0 - x * x)
         return length, -x * y / length, -x * z / length
     grow = (1.0 - z) / square

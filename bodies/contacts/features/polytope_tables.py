@@ -1,4 +1,4 @@
-"""What the evaluators of polyhedra read: vertices, faces and edges as rows of numbers."""
+"""Tables of vertices, faces and edges of a polyhedron, as arguments of the compiled contact functions."""
 
 from __future__ import annotations
 
@@ -9,29 +9,29 @@ import numpy as np
 from ...shapes.polytope import Polytope
 
 FACE = 5
-"""Floats of a face: outward normal, distance of its plane from the origin, depth of the body behind it."""
+"""Floats in the row of a face: outward normal, distance of its plane from the origin [m], depth of the body [m]."""
 EDGE = 13
-"""Floats of an edge: first end, direction, length, and in either face the direction from the edge into it."""
+"""Floats in the row of an edge: first end [m], unit vector, length [m], unit vectors into its first and second face."""
 START, ALONG, LENGTH, INTO_FIRST, INTO_SECOND = 0, 3, 6, 7, 10
-"""Offsets of these parts in the row of an edge, in the same order."""
+"""Offsets in the row of an edge: first end, unit vector, length, unit vector into the first face, into the second."""
 
 Numbers = tuple[float, ...]
 
 
 def vertex_table(polytope: Polytope) -> Numbers:
-    """Return the coordinates one after the other."""
+    """Return the coordinates of all vertices [m], three for each vertex."""
     return tuple(itertools.chain(*polytope.vertices))
 
 
 def face_table(polytope: Polytope) -> Numbers:
-    """Return the faces; none of a segment."""
+    """Return the rows of all faces, joined; empty for a segment, which has no faces."""
     vertices = np.array(polytope.vertices)
     rows = [(*plane, plane[3] - float(np.min(vertices @ plane[:3]))) for plane in polytope.planes]
     return tuple(itertools.chain(*rows))
 
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:
-    """Return the edges, one row each; without faces the last numbers are 0."""
+    """Return the row of each edge; for a segment, which has no faces, the unit vectors into faces are 0."""
     vertices, edges = np.array(polytope.vertices), np.array(polytope.edges, dtype=int).reshape(-1, 4)
     start, way = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
     length = np.linalg.norm(way, axis=1, keepdims=True)
@@ -46,12 +46,12 @@ def edge_rows(polytope: Polytope) -> list[Numbers]:
 
 
 def end_table(polytope: Polytope) -> Numbers:
-    """Return the numbers of the two vertices of every edge."""
+    """Return the numbers of the two end vertices of each edge, two for each edge."""
     return tuple(float(i) for one, two, *_ in polytope.edges for i in (one, two))
 
 
 def star_of(polytope: Polytope, vertex: int) -> Numbers:
-    """Return the unit vectors along the edges that leave a vertex."""
+    """Return the unit vectors from a vertex along its edges, three components for each edge."""
     points, star = np.array(polytope.vertices), []
     for one, two, *_ in polytope.edges:
         if vertex in (one, two):
@@ -61,7 +61,7 @@ def star_of(polytope: Polytope, vertex: int) -> Numbers:
 
 
 def star_lengths(polytope: Polytope, vertex: int) -> Numbers:
-    """Return the lengths of the same edges [m]."""
+    """Return the lengths of the edges of a vertex [m], in the order of :func:`star_of`."""
     points = np.array(polytope.vertices)
     return tuple(
         float(np.linalg.norm(points[two] - points[one])) for one, two, *_ in polytope.edges if vertex in (one, two)

@@ -1,4 +1,4 @@
-"""A vertex as a sphere, or without a radius, against a swept polyhedron or segment of another body."""
+"""Contact of a sharp or rounded vertex with a rounded polyhedron or a capsule of the other body."""
 
 from __future__ import annotations
 
@@ -23,21 +23,24 @@ from .vertex_face import Nearest, nearest_feature
 from .writing import write_flat, write_principal, write_round
 
 END = 3e-10
-"""So far before its end, in units of the size of the bodies, an edge gives its contact to the vertex, and the vertex
-gives it back after twice that way: neither none of them is closed nor both of them for long."""
+"""Distance from the end of an edge at which its contact passes to the vertex, relative to the size of the bodies.
+
+The contact passes back at twice this distance.  The hysteresis avoids that both contacts are open, or closed for long.
+"""
 OPEN = 100.0
-"""Gap of a contact that another one has, over its way past the end."""
+"""Gap written for a contact that a neighbouring contact replaces, relative to its distance past the end."""
 NEAR = 1e-6
-"""A wider gap, in units of the size, ends nowhere: it is that of a sphere that is part of the body."""
+"""Gap above which a contact is never past its end, relative to the size of the bodies."""
 
 
 @compiled
 def past_star(
     frame: Floats, star: Floats, n_star: float, distance: float, nx: float, ny: float, nz: float, size: float
 ) -> float:
-    """Return how far the nearest point of the other core, along -n from the vertex, is past it along one of its edges.
+    """Return how far the nearest point of the other body's core is past the vertex along one of its edges [m].
 
-    Then that edge is nearer than the vertex, unless the vertex is inside of the other core.
+    The nearest point lies at ``distance`` from the vertex, in the direction -(nx, ny, nz).  If the result is positive,
+    the edge is nearer to the core than the vertex, unless the vertex is inside of the core.
     """
     x, y, z = vector_in_body(frame, nx, ny, nz)
     past = -size
@@ -49,7 +52,7 @@ def past_star(
 
 @compiled
 def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
-    """Return gap and way past the end as they are written."""
+    """Return the gap and the distance past the end that are written to the geometry block [m]."""
     if gap > NEAR * size:
         return gap, min(past, -END * size)
     if past > 0.0:
@@ -73,10 +76,10 @@ def write_vertex_over(
     sweep: float,
     size: float,
 ) -> None:
-    """Write the geometry block of a vertex, with its radius, and what is nearest of the other body.
+    """Write the geometry block of a vertex, with its radius, and the nearest feature of the other body.
 
-    The vertex is the first body's if ``swap`` is 1, else the second's, whose contact two vertices are; ``past`` is how
-    far it is past the end otherwise.
+    The vertex belongs to the first body if ``swap`` is 1, else to the second.  The contact of two vertices is the
+    contact of the second body's vertex.  ``past`` is the distance past the end along the edges of the vertex [m].
     """
     other = b if swap == 1.0 else a
     number, distance, nx, ny, nz, within = found
@@ -84,7 +87,7 @@ def write_vertex_over(
     shared = END * size - within if swap == 1.0 else -math.inf
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
-        # so small a way past the end is written large, that nobody takes the open contact for one that touches
+        # write a large gap for a small distance past the end, so that the contact is not taken for a closed one
         gap, past = math.hypot(distance - sweep - radius, OPEN * shared), max(past, shared)
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
@@ -127,7 +130,7 @@ def _evaluate(
 
 
 write_vertex = compiled(_evaluate)
-"""The evaluator, compiled, so that evaluators of other contacts can call it."""
+"""Compiled function that writes the geometry block of a vertex over a swept core; other contacts call it, too."""
 
 
 def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
@@ -140,7 +143,7 @@ def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
 class SweptVertex(ContactKinematics):
     """A vertex, with its radius, against the nearest face, edge or vertex of a swept core of the other body.
 
-    Two vertices are the contact of the second body's: in that of the first body's they are never closed.
+    Two vertices close only the contact of the second body's vertex, never the contact of the first body's vertex.
 
     Attributes
     ----------
@@ -246,9 +249,10 @@ class SweptVertex(ContactKinematics):
 def write_swept(
     frame: Floats, out: Floats, side: int, number: int, n_faces: float, n_edges: float, edges: Floats, radius: float
 ) -> None:
-    """Write the matrices of a feature: flat face, side of a cylinder about an edge, or sphere about a vertex.
+    """Write the curvature matrices of a face, of the cylinder about an edge, or of the sphere about a vertex.
 
-    ``number`` counts faces first, then edges, then vertices.  Normal and first tangent must be in ``out``.
+    ``number`` counts faces first, then edges, then vertices.  The geometry block ``out`` must already hold the normal
+    and the first tangent (:mod:`nonsmooth.engine.memory.blocks`).
     """
     edge = number - int(n_faces)
     if edge < 0:

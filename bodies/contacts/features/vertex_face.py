@@ -1,4 +1,4 @@
-"""Features of a polyhedron for a point: the face under a vertex, the nearest face, edge or vertex."""
+"""The face of a polyhedron under another body's vertex, and its face, edge or vertex nearest to a point."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
 from .polytope_tables import EDGE, FACE
 
 REACH = 1e-9
-"""A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
+"""Extension of a feature at its ends, relative to the size of the bodies; aligned features do not end by round-off."""
 CLOSED = 1e-7
-"""A corner counts as over a face up to this part of the size past its border.
+"""Distance past a face's border up to which a corner is over it, relative to the size; least sine of crossing edges.
 
-Two edges whose angle has a smaller sine do not cross.  It is one number, so that one of the two always holds: of equal
-faces turned by a smaller angle the corners reach out by less.
+Both rules share one number, so that one of the two contacts exists: if equal faces are turned against each other by a
+smaller angle, their corners extend past the borders by less.
 """
 
 BESIDE = 1e-2
-"""A vertex is next to a face up to this part of the size of the bodies."""
+"""Largest height over a face at which a vertex outside of the polyhedron is next to it, relative to the size."""
 
 DEEP = 1e-6
-"""Bodies overlap where they do by more than this part of their size; less may be the error of a step at rest."""
+"""Least depth of an overlap, relative to the size of the bodies; a smaller depth may be the error of a step at rest."""
 
 
 @compiled
@@ -37,7 +37,7 @@ def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[
 
 @compiled
 def plane_height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
-    """Return the height of a point of the body over the plane of a face."""
+    """Return the height over the plane of a face of a point (x, y, z) in the frame of its body [m]."""
     return faces[face] * x + faces[face + 1] * y + faces[face + 2] * z - faces[face + 3]
 
 
@@ -45,7 +45,7 @@ def plane_height(faces: Floats, face: int, x: float, y: float, z: float) -> floa
 def _least(
     frame: Floats, other: Floats, faces: Floats, face: int, n_vertices: float, vertices: Floats, enough: float
 ) -> float:
-    """Return the least height of the other body over a face, or one below ``enough``."""
+    """Return the least height of the other body's vertices over a face [m]; stop at a height below ``enough``."""
     nx, ny, nz = _normal_in(frame, other, faces, face)
     x, y, z = vector_in_body(
         frame,
@@ -65,7 +65,7 @@ def _least(
 
 @compiled
 def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
-    """Return how far the point under (x, y, z) on a face is past its edges, by the planes of the other faces."""
+    """Return how far the foot of a point on a face is past its edges [m]: largest height over planes of other faces."""
     x, y, z = x - height * faces[face], y - height * faces[face + 1], z - height * faces[face + 2]
     past = -math.inf
     for i in range(int(n_faces)):
@@ -78,14 +78,14 @@ def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float,
 def _past_end(
     faces: Floats, n_faces: float, face: int, height: float, deepest: float, x: float, y: float, z: float
 ) -> float:
-    """Return how far a point is past the end of a face; under its plane only what lies inside the body touches it."""
+    """Return how far a point is past the end of a face [m]; below its plane, a point must also be inside the body."""
     beyond = past_face(faces, n_faces, FACE * face, height, x, y, z)
     return float(max(beyond, deepest)) if height < 0.0 else float(beyond)
 
 
 @compiled
 def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
-    """Return the height of a point of the world over the highest of the planes of the faces: negative inside."""
+    """Return the largest height of a world point over the planes of the faces [m]: negative inside the polyhedron."""
     x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
     highest = -math.inf
     for i in range(int(n_faces)):
@@ -104,11 +104,11 @@ def nearest_face(
     vertex: float,
     size: float,
 ) -> tuple[float, float, float]:
-    """Return face, gap and way past the end of the vertex of a body against the polyhedron in ``frame``.
+    """Return the face under a vertex of the body ``other``, the gap and the distance past the face's end [m].
 
-    The face is the one that best separates the two bodies, so that all vertices are measured against the same; with
-    more than one, which the bodies touch at an edge, it is the one over which the vertex stands.  A vertex inside the
-    polyhedron is measured against the nearest face.  Past the end the gap is a positive number.
+    The face belongs to the polyhedron in ``frame``.  It best separates the two bodies, so that all vertices get the
+    same face.  If several faces separate equally well, as in contact at an edge, it is the face below the vertex.  A
+    vertex inside the polyhedron gets the nearest face.  Past the end the gap is positive.
     """
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])

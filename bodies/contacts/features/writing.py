@@ -1,4 +1,4 @@
-"""Writers of the geometry block: matrices of a surface, surfaces at a distance from a core, bodies far apart."""
+"""Functions that write the geometry block of a contact: curvature matrices, rounded surfaces, wide-open contacts."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .frames import write_tangent
 
 @compiled
 def write_round(out: Floats, side: int, radius: float) -> None:
-    """Write a sphere: slide 1, turn its radius; a vertex with radius 0."""
+    """Write the curvature matrices of a sphere: slide 1, turn its radius [m]; a vertex has the radius 0."""
     slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
     out[slide] = out[slide + 3] = 1.0
     out[turn] = out[turn + 3] = radius
@@ -36,7 +36,7 @@ def write_round(out: Floats, side: int, radius: float) -> None:
 
 @compiled
 def write_flat(out: Floats, side: int) -> None:
-    """Write a plane: slide 0, turn 1."""
+    """Write the curvature matrices of a plane: slide 0, turn 1."""
     slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
     out[slide] = out[slide + 3] = 0.0
     out[turn] = out[turn + 3] = 1.0
@@ -45,7 +45,7 @@ def write_flat(out: Floats, side: int) -> None:
 
 @compiled
 def write_sweep(out: Floats, side: int, radius: float) -> None:
-    """Turn the matrices of a core into those of the surface at a distance from it, which has the same normals.
+    """Change the curvature matrices of a core to those of its rounded surface, at the distance ``radius`` [m] from it.
 
     As the point of the core slides by u and the normal turns by nu, that of the surface slides by u + radius nu.
     """
@@ -67,7 +67,7 @@ def write_principal(
 ) -> None:
     """Write the matrices that are diagonal along and across the unit tangent (x, y, z).
 
-    Normal and first tangent stand in ``out`` already.
+    The geometry block ``out`` must already hold the normal and the first tangent.
 
     - the side of a cylinder, along its axis: slide 0, turn 1 along; slide 1, turn its radius across;
     - an edge, along itself: 0, 1; 1, 0;
@@ -91,14 +91,17 @@ def write_principal(
 
 
 NO_CANDIDATE = (0.0, 0.0, 0.0, 0.0)
-"""Candidate of a contact that has no features at present (:class:`nonsmooth.interfaces.CandidateSearch`)."""
+"""Argument ``candidate`` of a contact that has no pair of features at present: kind 0, no features, no margin.
+
+Its four numbers are explained in :class:`nonsmooth.interfaces.CandidateSearch`.
+"""
 _APART = 1e3
-"""Gap that is written for bodies far apart, whatever their true gap; relative to the size of the larger body."""
+"""Gap written for a contact without a pair of features, relative to the size of the larger body: surely open."""
 
 
 @compiled
 def write_apart(a: Floats, out: Floats, size: float) -> None:
-    """Write the geometry block of bodies that are far apart; ``size`` is the size of the larger body [m]."""
+    """Write the block of a wide-open contact, which has no features; ``size`` is the size of the larger body [m]."""
     for i in range(PAIR):
         out[i] = 0.0
     out[GAP] = out[PAST_END] = _APART * size
@@ -155,7 +158,7 @@ def gap_at_distance(gap: float, past: float, radius: float) -> float:
 
 
 UNSEEN = ("foot_height",)
-"""Parameters of shapes that matter to contacts with planes only."""
+"""Parameters of shapes that `by_side` leaves out, because only contacts with planes use them."""
 
 
 def by_side(first: Shape, second: Shape) -> dict[str, float]:

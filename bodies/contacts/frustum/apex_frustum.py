@@ -1,4 +1,4 @@
-"""The apex of a cone as a sphere, or as a point, against another frustum at a distance."""
+"""Contact of the apex of a cone with another frustum, if one of the two is rounded; a rounded apex is a sphere."""
 
 from __future__ import annotations
 
@@ -41,10 +41,10 @@ def _evaluate(a: Floats, b: Floats, out: Floats, swap: float, first: Floats, sec
     nx, ny, nz = -radial * ex - axial * bx, -radial * ey - axial * by, -radial * ez - axial * bz
     past = past_apex(first, distance, nx * ax + ny * ay + nz * az, size)
     if distance - first[SWEEP] - second[SWEEP] > NEAR * size:
-        # it is a sphere that is part of the body
+        # a wide gap is never past an end: the sphere is a part of the body
         past = min(past, -END * size)
     if swap == 1.0 and second[1] == 0.0:
-        # two apices are the contact of the first body's
+        # two apices touch in the contact of the first body's apex only
         up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[0])
         past = max(past, END * size - (second[SIDE] - up))
     write_two(a, out, swap, first, second, distance, past, (nx, ny, nz), (px, py, pz), 0.0)
@@ -68,7 +68,7 @@ class ApexFrustum(ContactKinematics):
     first : tuple of float
         The body with the apex (:func:`bodies.shapes.frustum.frustum_numbers`).
     second : tuple of float
-        The other.
+        The other body.
     size : float
         Size of the bodies [m].
     """
@@ -82,7 +82,7 @@ class ApexFrustum(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ApexFrustum, ...]:
-        """Return the contacts of the apices; two sharp bodies have others."""
+        """Return the contacts of the apices if a body is rounded; two sharp bodies have contacts of other classes."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         one, two = without_feet(first.frustum), without_feet(second.frustum)
@@ -93,7 +93,7 @@ class ApexFrustum(ContactKinematics):
         return tuple(cls(swap, own, other, size) for swap, own, other in both if own[1] == 0.0)
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {"swap": float(self.swap), "first": self.first, "second": self.second, "size": self.size}
 
     @property

@@ -1,4 +1,4 @@
-"""The apex of a cone as a sphere, or as a point, against a polyhedron or a segment at a distance."""
+"""Contact of the apex of a cone with a polyhedron or a capsule, if one of the two is rounded."""
 
 from __future__ import annotations
 
@@ -26,9 +26,10 @@ from .frustum_writing import size_of_both
 
 @compiled
 def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> float:
-    """Return how far what is nearest to the apex is past it along the side.
+    """Return how far the other body's nearest point is past the apex along the side of the cone [m].
 
-    It is along the outward normal from the apex, whose part along the axis is ``axial``; the side is nearer there.
+    The point lies at ``distance`` [m] from the apex, along a normal with the axial component ``axial``.  If the result
+    is positive, the side is nearer to the point than the apex.
     """
     radial = math.sqrt(max(1.0 - axial * axial, 0.0))
     return float(max(distance * (frustum[SIN] * radial - frustum[COS] * axial), -size) - 2.0 * END * size)
@@ -69,7 +70,7 @@ class ApexSwept(ContactKinematics):
     faces, edges, ends : tuple of float
         The core of the second body (:mod:`bodies.contacts.features.polytope_tables`).
     sweep : float
-        Radius about it [m].
+        Radius about the core of the second body [m].
     size : float
         Size of the bodies [m].
     """
@@ -85,7 +86,7 @@ class ApexSwept(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ApexSwept, ...]:
-        """Return the single contact of a cone; others have no apex."""
+        """Return the single contact of a cone's apex; empty for other frustums, which have no apex."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
         numbers, core = first.frustum, second.core
@@ -95,7 +96,7 @@ class ApexSwept(ContactKinematics):
         return (cls(numbers, face_table(core), edges, end_table(core), second.sweep, size_of_both(first, second)),)
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {
             "first": self.first,
             "n_faces": float(len(self.faces) // FACE),
@@ -114,6 +115,6 @@ class ApexSwept(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Faces, edges and vertices of the second; the last never closed."""
+        """Names of faces, edges and vertices of the second body; in this contact, a vertex never closes."""
         counts = ("face", len(self.faces) // FACE), ("edge", len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
         return tuple(f"apex and {name} {i}" for name, n in counts for i in range(n))

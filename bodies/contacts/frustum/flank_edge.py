@@ -1,4 +1,4 @@
-"""An edge across the side of a cylinder or a cone."""
+"""Contact of an edge of the second body that crosses the side of a cylinder or a cone."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ def evaluate_flank_edge(
     faces: Floats,
     size: float,
 ) -> None:
-    """Write the geometry block of an edge, with a radius about it, across the side."""
+    """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses the side."""
     axes = axes_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
-    # the normals across the edge: cosine (d . e) + sine d_z = 0 for the direction e from the axis
+    # normals of the side perpendicular to the edge: cosine (d . e) + sine d_z = 0, for the direction e from the axis
     across = math.sqrt(dx * dx + dy * dy)
     if across > 0.0:
         fx, fy = dx / across, dy / across
@@ -60,7 +60,7 @@ def evaluate_flank_edge(
         found = cosine * (gx * vx + gy * vy) + sine * vz - reach
         if found > gap:
             gap, ex, ey = found, gx, gy
-    # where the edge is on that side of the axis
+    # place on the edge that lies in the direction e from the axis
     crossing = dy * ex - dx * ey
     s = 0.5 * edge[LENGTH]
     if abs(crossing) > 1e-6:
@@ -71,7 +71,7 @@ def evaluate_flank_edge(
     up = cosine * (pz - gap * nz - frustum[LOW]) - sine * (away - frustum[0])
     over = max(max(-s, s - edge[LENGTH]), max(-up, up - frustum[SIDE]))
     if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
-        # no normal is across both
+        # no normal of the side is perpendicular to the edge
         over = size
     qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
     overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, (qx, qy, qz), (px, py, pz), (cx, cy, cz))
@@ -87,22 +87,22 @@ def evaluate_flank_edge(
 @final
 @dataclass(frozen=True)
 class FlankEdge(ContactKinematics):
-    """Where an edge of the second body crosses the side of the first.
+    """Contact of an edge of the second body that crosses the side of the first.
 
     Attributes
     ----------
     frustum : tuple of float
         The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
     edge : tuple of float
-        The edge, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+        Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
-        Radius about it [m].
+        Radius about the edge [m].
     faces : tuple of float
-        All faces of the second body's core; none of a segment.
+        All faces of the second body's core; empty for a segment.
     size : float
         Size of the bodies [m].
     name : str
-        What it is.
+        Name of the edge.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
@@ -116,7 +116,7 @@ class FlankEdge(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of all edges; a disc has no side."""
+        """Return one contact for each edge; empty for a disc, which has no side."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
         if first.frustum[SIDE] == 0.0:
@@ -125,7 +125,7 @@ class FlankEdge(ContactKinematics):
         return tuple(cls(first.frustum, row, second.sweep, faces, size, f"edge {i}") for i, row in rows)
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {
             "frustum": self.frustum,
             "edge": self.edge,
@@ -142,5 +142,5 @@ class FlankEdge(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return (f"side and {self.name}",)

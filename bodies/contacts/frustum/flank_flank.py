@@ -1,4 +1,4 @@
-"""The sides of two cylinders or cones across each other, in closed form."""
+"""Contact of the sides of two cylinders or cones that cross each other, in closed form."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from .frustum import FLANK, axis_in_world, center_in_world
 from .frustum_writing import overlap_of, past_border, write_side, write_two
 
 PARALLEL = 0.01
-"""Sine of the angle between two sides' lines below which they do not cross; then the rims hold."""
+"""Least sine of the angle between the lines of two crossing sides; below it, contacts of the rims suffice."""
 
 
 @compiled
 def _line(
     frustum: Floats, cx: float, cy: float, cz: float, ax: float, ay: float, az: float, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Return the lower end and the direction of the side's line that has the outward normal n."""
+    """Return lower end [m] and unit vector of the straight line on the side along which the outward normal is n."""
     cosine, sine = frustum[COS], frustum[SIN]
     ex, ey, ez = (nx - sine * ax) / cosine, (ny - sine * ay) / cosine, (nz - sine * az) / cosine
     wide, low = frustum[0], frustum[LOW]
@@ -45,14 +45,14 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     bx, by, bz = axis_in_world(b, second)
     cx, cy, cz = center_in_world(a, first)
     kx, ky, kz = center_in_world(b, second)
-    # n . a = sine of the first, n . b = -sine of the second, and the rest across both axes
+    # n . a = sine of the first, n . b = -sine of the second; the third component is along a x b
     cross_x, cross_y, cross_z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
     square = cross_x * cross_x + cross_y * cross_y + cross_z * cross_z
     dot = ax * bx + ay * by + az * bz
     none = square < 1e-12
     one, two = first[SIN], -second[SIN]
     if none:
-        # of parallel axes any direction across both is as good
+        # parallel axes: any direction perpendicular to both
         cross_x, cross_y, cross_z = tangent_of(ax, ay, az)
         square, dot, one, two = 1.0, 0.0, 0.0, 0.0
     p, q = (one - dot * two) / square, (two - dot * one) / square
@@ -98,7 +98,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
 @final
 @dataclass(frozen=True)
 class FlankFlank(ContactKinematics):
-    """Where the sides of two cylinders or cones cross.
+    """Contact of the sides of two cylinders or cones that cross.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ class FlankFlank(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contact of the sides; a disc has none."""
+        """Return the contact of the sides; empty for a disc, which has no side."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         one, two = first.frustum, second.frustum
@@ -125,7 +125,7 @@ class FlankFlank(ContactKinematics):
         return (cls(one, two, 2.0 * max(first.extent, second.extent)),)
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {"first": self.first, "second": self.second, "size": self.size}
 
     @property
@@ -135,5 +135,5 @@ class FlankFlank(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("side and side",)

@@ -1,4 +1,4 @@
-"""Parts of a frustum: the nearest one to a point, their curvature, how rims, feet and apex protrude.
+"""Caps, rims, side, apex and feet of a frustum: the part nearest to a point, its curvature, and frustums on feet.
 
 A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`; its parts are numbered from the lower cap over
 rim, side and rim to the upper cap.
@@ -94,7 +94,7 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
 
 @compiled
 def least_height(frustum: Floats, height: float, cosine: float) -> float:
-    """Return the least height over a plane of a frustum whose centre and axis have this height and cosine."""
+    """Return the least height of a frustum over a plane [m], from its centre's ``height`` and its axis' ``cosine``."""
     sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
     return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
 
@@ -132,13 +132,13 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
 def tip_past_rim(
     b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
 ) -> float:
-    """Return how far outside of a disc's rim the edges of a vertex cross the plane of the disc [m], plus ``depth``.
+    """Return ``depth`` plus the least distance outside of a disc's rim at which edges of a vertex cross its plane [m].
 
-    A negative result means a contact of the vertex, a positive one a contact of the rim with an edge.  The vertex p,
-    relative to the centre of the disc, lies at ``depth`` behind the plane, against n.  If the vertex came through the
-    disc itself, all its edges cross the plane well inside of the rim.  An edge that crosses nearer to the rim than
-    ``depth`` came in from the side.  Only edges that cross the plane in their half next to the vertex are
-    considered; without such an edge the result is infinite.
+    The vertex p, relative to the centre of the disc, lies behind the plane at ``depth`` [m], in the direction -n.  A
+    negative result means that the vertex touches the disc: it went through the disc, so that all its edges cross the
+    plane inside of the rim by more than ``depth``.  A positive result means that an edge touches the rim from the side.
+    Edges that cross the plane farther from the vertex than their midpoint are ignored.  The result is infinite if no
+    edge crosses the plane.
     """
     (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
@@ -156,16 +156,17 @@ def tip_past_rim(
 
 
 _WAYS = 12
-"""Number of unit vectors, evenly round the axis, that describe the directions of the surface at an apex or a foot.
+"""Number of unit vectors, evenly spaced round the axis, along the surface at an apex or at the tip of a foot.
 
-A face touches the apex or the foot only if none of these vectors points far into the face.
+They replace the edges of a corner: an apex or a foot touches a face only if none of the vectors leads below the face.
 """
 
 
 def set_back(first: Frustum) -> Numbers:
     """Return the numbers of a frustum whose rims are set back by the height of the feet; only the feet protrude.
 
-    A rim that rolls over the edge of a face thereby keeps its height.
+    Contacts of rims with faces and with edges of a mesh both use these numbers.  A rim that rolls from a face over its
+    edge therefore does not jump by the height of the feet.
     """
     own = first.frustum
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])

@@ -1,4 +1,4 @@
-"""Two cylinders, cones or discs: a rim, a foot or the apex of one over a cap of the other, and all other contacts."""
+"""Contacts of two cylinders, cones or discs: a rim, foot or apex over a cap, and the list of all contacts."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from .rim_rim import RimRim
 
 _OTHERS: tuple[type[ContactKinematics], ...] = (FlankFlank, RimFlank, RimRim, ApexFrustum)
 _ON_SIDE = 0.01
-"""Of a body that is on one side of a disc no more than this part of the size is on the other."""
+"""Largest part of a body, relative to its size, beyond a disc, for a body that is on one side of the disc."""
 
 
 def _evaluate(
@@ -71,14 +71,14 @@ def _evaluate(
         overlap = overlap_of(own, first, other, second, gap, size, (px, py, pz), (nx, ny, nz))
     past = past_border(gap, away - wide, 0.0, overlap, size)
     if gap < 0.0 and second[SIDE] == 0.0 and first[SWEEP] + second[SWEEP] > 0.0:
-        # at a distance from a disc on its other side
+        # the body is on the other side of a disc, and apart from it
         past = max(past, size)
     elif gap < 0.0:
         if second[SIDE] > 0.0:
-            # under a cap only what lies inside of the body can touch it
+            # a point below a cap touches it only from inside of the body
             inside, _, _, _ = nearest_part(second, along, away)
         else:
-            # of a disc, what has its point inside, or as near to it as the gap, and is on that side of it
+            # a disc: the other body must contain the disc's point, within the gap, and lie on this side of the disc
             qx, qy, qz = center_in_world(own, first)
             high, far, _, _, _ = across(px + gap * nx - qx, py + gap * ny - qy, pz + gap * nz - qz, ax, ay, az)
             inside, _, _, _ = nearest_part(first, high, far)
@@ -86,13 +86,13 @@ def _evaluate(
             base = up * (bx * (qx - kx) + by * (qy - ky) + bz * (qz - kz) - height)
             inside += gap
             if first[SIDE] == 0.0:
-                # two discs overlap where the one comes through the other
+                # two discs overlap if one passes through the other
                 back = gap / max(lean, FLATTEST)
                 _, far, _, _, _ = across(px + back * ex - kx, py + back * ey - ky, pz + back * ez - kz, bx, by, bz)
                 inside = far - wide
             inside = max(inside, -least_height(first, base, cosine) - _ON_SIDE * size)
         past = max(past, inside - REACH * size)
-    # deep in the body the other cap, or the side, is nearer
+    # if the overlap is deep, the other cap or the side is nearer
     past = max(past, -gap - 0.5 * max(second[HIGH] - second[LOW], 0.1 * size))
     write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz), overlap)
     write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
@@ -102,11 +102,11 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumFrustum(ContactKinematics):
-    """The lowest point of a rim over one cap of another body; a foot or an apex has no radius.
+    """Contact of the lowest point of a rim with one cap of another body; a foot or an apex is a rim of radius 0.
 
-    The others are the sides across each other, rims and apex against the other's side, and rims across rims.  Every one
-    of them has its number for ever; one whose features do not face each other is open.  Where one of the bodies is
-    rounded, an apex is a sphere, with one contact for all parts of the other.
+    The two bodies have further contacts: sides that cross, rims and apex against the other's side, and rims that cross.
+    The features of a contact never change; a contact whose features do not face each other is open.  If one of the
+    bodies is rounded, an apex is a sphere, with one contact for all parts of the other body.
 
     Attributes
     ----------
@@ -117,15 +117,15 @@ class FrustumFrustum(ContactKinematics):
     radius : float
         Radius of the rim [m].
     center : tuple of float
-        Its centre in the body frame [m].
+        Centre of the rim in the body frame [m].
     second : tuple of float
         The body with the cap.
     cap : int
-        0 for the lower, 4 for the upper one.
+        0 for the lower cap, 4 for the upper one.
     size : float
         Size of the bodies [m].
     name : str
-        What it is.
+        Name of the rim, foot or apex.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Frustum)
@@ -174,7 +174,7 @@ class FrustumFrustum(ContactKinematics):
         )
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         x, y, z = self.center
         return {
             "swap": float(self.swap),
@@ -195,6 +195,6 @@ class FrustumFrustum(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         cap = f"cap {'+' if self.cap == HIGH_CAP else '-'}"
         return (f"{cap} and {self.name}" if self.swap else f"{self.name} and {cap}",)

@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc and a polyhedron: a vertex over caps and side, and all other contacts."""
+"""Contacts of a cylinder, cone or disc and a polyhedron: a vertex over caps and side, and the list of all contacts."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from .rim_face import RimFace
 
 @compiled
 def _least(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
-    """Return the least height of the second body's vertices over the plane through a point with the normal n."""
+    """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
     (nx, ny, nz), (x, y, z) = normal, place
     base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
     nx, ny, nz = vector_in_body(b, nx, ny, nz)
@@ -139,20 +139,20 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumPolyhedron(ContactKinematics):
-    """A vertex of the polyhedron over the part of the round body, cap or side, that best separates the bodies.
+    """Contact of a vertex of the polyhedron with the cap or side of the round body that best separates the bodies.
 
-    The others are the edges across the side and the rims, and the rims and feet over the faces.  Every one of them has
-    its number for ever; one whose features do not face each other is open.  So two rims hold what lies on its side, and
-    feet what stands.
+    The two bodies have further contacts: edges across the side and the rims, and rims and feet over the faces.  The
+    features of a contact never change; a contact whose features do not face each other is open.  A body that lies on
+    its side has contacts of its two rims, a standing body has contacts of its feet.
 
     Attributes
     ----------
     frustum : tuple of float
         The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
     vertices : tuple of float
-        All vertices of the second [m].
+        All vertices of the second body [m].
     vertex : int
-        Number of this one.
+        Number of the vertex of this contact.
     star, lengths : tuple of float
         Unit vectors along its edges, and their lengths [m].
     faces : tuple of float
@@ -175,7 +175,7 @@ class FrustumPolyhedron(ContactKinematics):
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
         """Return the contacts of rims and feet over faces, of vertices, and of edges with side and rims.
 
-        Where one of the two is rounded, they are those of :class:`bodies.FrustumSwept`.
+        If one of the two is rounded, return the contacts of :class:`bodies.FrustumSwept`.
         """
         assert isinstance(first, Frustum)
         assert isinstance(second, Polyhedron)
@@ -192,7 +192,7 @@ class FrustumPolyhedron(ContactKinematics):
         return tuple(itertools.chain(RimFace.between(first, second), own, *edges))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {
             "frustum": self.frustum,
             "n_vertices": float(len(self.vertices) // 3),
@@ -213,5 +213,5 @@ class FrustumPolyhedron(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The parts, rims among them, which this contact never has."""
+        """Names of the frustum's parts, each with the vertex; rims serve only for the numbering."""
         return tuple(f"{part} and vertex {self.vertex}" for part in part_names(self.frustum))

@@ -1,7 +1,8 @@
 """A cylinder, a cone or a disc and a body with a smooth support function.
 
-The nearest points are unique, and the part of the frustum that has one is found by trial
-(:mod:`bodies.contacts.frustum.frustum_stops`): a stop on a part is a proof that bodies apart have no other.
+The part of the frustum that is nearest to the smooth body is found by trial.  For each part,
+:mod:`bodies.contacts.frustum.frustum_stops` seeks a stop: a point of the smooth body that lies before the part, and
+whose common normal is a normal of the part.  Both bodies are convex, so that bodies that are apart have one stop only.
 """
 
 from __future__ import annotations
@@ -43,29 +44,36 @@ from .frustum import (
 from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
 
 Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, float, float, float]
-"""The frustum, its rims, a point, the core, its axes and its centre in those of the frustum, the size of both."""
+"""Both bodies in the axes of the frustum, as arguments of the searches.
+
+In this order: frustum, lower and upper rim as cores, a point as a core, core of the smooth body, its axes, three
+coordinates of its centre [m], size of both bodies [m].
+"""
 
 _SHALLOW, _SLIGHT = 1e-6, 1e-8
-"""Overlap, in units of the size, up to which the first stop is taken without a look at the others; of sharp bodies."""
+"""Overlap up to which the first stop is taken as nearest, relative to the size: smooth body, body with ridges."""
 _CLOSE = 1e-12
-"""Distance of the centre from the axis, relative to the size, below which its direction from the axis is undefined."""
+"""Least distance of the smooth body's centre from the frustum's axis, relative to the size of both bodies.
+
+Below it the direction from the axis to the centre is round-off, and the search starts at the first axis instead.
+"""
 _SAMPLES, _PROJECTIONS = 8, 16
-"""Parts of the way between the points of a stop at whose ends a point of both is looked for, and further points."""
+"""Intervals between the points of a stop, whose ends are tried as common points; most points by projection."""
 _HIGHER = 1e-14
 """Least difference of the gaps of two different maxima, relative to the size; a smaller difference is round-off."""
 _NEARBY = 1e-3
-"""How close to a top steps go that tell only where the search begins [rad]."""
+"""Angle to a maximum of the gap up to which steps go uphill, if they only give the start of another search [rad]."""
 _DEEP = 0.9
-"""Gauge of the frustum's point next to the core's centre, from which on bodies overlap more than a little."""
+"""Gauge of the frustum's point nearest to the core's centre, below which the overlap is deep: 0 centre, 1 surface."""
 _ON_SURFACE = 1e-12
 """Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 _TURNS = 8
-"""Directions round the axis from which every part is tried where none was found from that of the centre."""
+"""Directions round the axis from which all parts are tried, if the direction of the core's centre gave no stop."""
 
 
 @compiled
 def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> bool:
-    """Whether the frustum's point lies in the smooth body, whose centre is before the frustum."""
+    """Whether the frustum's point of a stop is inside of the smooth body, with the body's centre on the outer side."""
     g, px, py, pz, nx, ny, nz = found
     px, py, pz = px - g * nx - x, py - g * ny - y, pz - g * nz - z
     if nx * px + ny * py + nz * pz >= 0.0:
@@ -76,11 +84,11 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
 
 @compiled
 def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: Answer) -> bool:
-    """Whether the stop of a cap is proved to be the nearest, of all directions.
+    """Whether the stop of a cap is proved to give the least overlap of all directions.
 
-    Of bodies apart it is.  Of an overlap d two points of the smooth body prove it, the lowest one at the depth d and
-    one at the height d on the way from there to the centre: in any direction one of them is at least d behind one of
-    the rim's, if both are d inside of it.
+    If the bodies are apart, it always is.  If the overlap is d, two points of the smooth body prove it: the lowest
+    point, at the depth d, and the point at the height d on the line from there to the centre.  If both are at least d
+    inside of the rim, then in any direction one of the two is at least d behind a point of the rim.
     """
     g, px, py, _, _, _, up = found
     if g >= 0.0:
@@ -96,9 +104,10 @@ def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found:
 
 @compiled
 def _has_room(frustum: Floats, part: int, found: Answer, near: float) -> bool:
-    """Whether the stop of a cap or the side is proved to be the nearest of an overlap.
+    """Whether the stop of a cap or the side is proved to give the least overlap of all directions.
 
-    A ball round the smooth body's point, whose radius is its depth, is of the frustum: no shorter way takes it out.
+    The proof is a ball round the smooth body's point, with the depth as its radius, that lies inside of the frustum:
+    no shorter translation moves this point out.
     """
     if part == LOW_RIM or part == HIGH_RIM:
         return False
@@ -108,7 +117,7 @@ def _has_room(frustum: Floats, part: int, found: Answer, near: float) -> bool:
 
 @compiled
 def _into(frustum: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the point of the frustum that is nearest to a point of its axes."""
+    """Return the point of the frustum nearest to the point (x, y, z) [m], both in the axes of the frustum."""
     away = math.sqrt(x * x + y * y)
     outside, radial, axial, _ = nearest_part(frustum, z, away)
     if outside <= 0.0:
@@ -121,10 +130,11 @@ def _into(frustum: Floats, x: float, y: float, z: float) -> tuple[float, float, 
 def _share_a_point(
     frustum: Floats, point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer
 ) -> bool:
-    """Return whether a point is known that both bodies have, where a stop says that they overlap.
+    """Return whether a common point of both bodies is found, which confirms the overlap that a stop gives.
 
-    Looked at are the frustum's points next to some of the way between the points of the stop, and then next to the
-    core's centre, next to the core's point nearest to that, and so on.
+    Candidates are the frustum's points nearest to points of the line between both points of the stop.  Then come the
+    frustum's point nearest to the core's centre, the frustum's point nearest to the core's point nearest to it, and so
+    on by turns.
     """
     g, qx, qy, qz, nx, ny, nz = found
     px, py, pz = qx, qy, qz
@@ -161,9 +171,10 @@ def _nearest(
     y: float,
     z: float,
 ) -> tuple[Answer, int]:
-    """Return gap of the cores, the smooth body's point and the normal in the frustum's axes, and the part.
+    """Return the nearest stop, and the part of the frustum to which it belongs.
 
-    The gap is nan where none was found.  One below 0 is told only with a point that both bodies have.
+    The stop holds the gap of the cores [m], the smooth body's point [m] and the normal, in the axes of the frustum.
+    The gap is nan if no stop was found.  A negative gap needs a common point of both bodies as a proof.
     """
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + frustum[0] + frustum[HIGH] - frustum[LOW]
     bodies = frustum, low, high, point, core, turn, x, y, z, size
@@ -183,13 +194,13 @@ def _nearest(
     for start in range(_TURNS + 4):
         if start == 1:
             is_deep = _is_deep(frustum, core, turn, x, y, z)
-        # at first by the centre, then without a start, steep, flat, and last all round
+        # start at the centre's direction; then search without a start, with a steep normal, a flat one, then all round
         tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
         if start > 3:
-            # a stop on the far side is none of bodies that are apart
+            # directions all round the axis: overlapping bodies may have their stop on the far side
             sx, sy = math.cos(2.0 * math.pi * start / _TURNS), math.sin(2.0 * math.pi * start / _TURNS)
         for i in range(9):
-            # the part before which the centre is, and others the nearer first
+            # first the part nearest to the centre, then the others in the order of their distance from this part
             part = guess + ((i + 1) // 2 if i % 2 == 1 else -(i // 2))
             rim = part == LOW_RIM or part == HIGH_RIM
             if part < LOW_CAP or part > HIGH_CAP or (frustum[SIDE] == 0.0 and (part == FLANK or part == HIGH_RIM)):
@@ -198,7 +209,7 @@ def _nearest(
                 continue
             if start == 1:
                 if is_deep:
-                    # bodies that overlap so much have no one stop that a search could prove
+                    # a deep overlap has several stops, so that a search cannot prove the nearest
                     continue
                 found = by_search(frustum, point, core, turn, (x, y, z), (sx, sy), part, size)
             elif part == LOW_CAP or part == HIGH_CAP:
@@ -215,14 +226,14 @@ def _nearest(
                 if not is_sharp and _is_before(core, turn, x, y, z, found):
                     return best, where
         if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, best)):
-            # a tip or a ridge next to an edge or an apex may leave by another top
+            # a tip or a ridge next to an edge or an apex may have a shorter way out at another maximum of the gap
             rim = where == LOW_RIM or where == HIGH_RIM
             if rim and (is_deep or _is_deep(frustum, core, turn, x, y, z)):
                 return best, where
             best, where = _higher(bodies, best, where)
             return best, where
     if is_sharp and not is_deep and best[0] < 0.0:
-        # the way out to another side, where the short one was missed
+        # the shortest way out may have been missed: seek larger gaps
         best, where = _higher(bodies, best, where)
     if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
         best, where = _on_hills(bodies)
@@ -233,7 +244,7 @@ def _nearest(
 
 @compiled
 def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> bool:
-    """Return whether the frustum's point next to the core's centre is so far in that bodies overlap by much."""
+    """Return whether the frustum's point nearest to the core's centre is deep in the core, by the gauge ``_DEEP``."""
     px, py, pz = _into(frustum, x, y, z)
     px, py, pz = back(turn, px - x, py - y, pz - z)
     return bool(gauge(core, px, py, pz) < _DEEP)
@@ -241,7 +252,7 @@ def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: f
 
 @compiled
 def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
-    """Return an answer and its part, or those with a larger gap, unless a ball in the smooth body proves it."""
+    """Return a stop and its part; a stop with a larger gap replaces it unless a ball in the smooth body proves it."""
     frustum, _, _, point, core, turn, x, y, z, size = bodies
     if not no_shorter_way(point, core, turn, x, y, z, best):
         found, part = _on_hills(bodies)
@@ -256,7 +267,7 @@ def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
 
 @compiled
 def _beside_apex(bodies: Bodies) -> Answer:
-    """Return the stop of the side next to where tops over the apex alone lean too far for it, nan if there is none."""
+    """Return the stop of the side, sought from the maxima of the gap over the apex; the gap is nan without a stop."""
     frustum, _, high, _, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
@@ -270,7 +281,7 @@ def _beside_apex(bodies: Bodies) -> Answer:
 
 @compiled
 def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
-    """Return the same by steps, of a rim or the apex."""
+    """Return the best stop of rims and apex, by steps uphill on the gap, and its part; the gap is nan without one."""
     frustum, low, high, point, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_RIM
@@ -368,5 +379,5 @@ class FrustumSmooth(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """From the cap against the axis to the one along it."""
+        """Names of the frustum's parts and the smooth body, from the lower cap to the upper one."""
         return tuple(f"{part} and smooth" for part in part_names(self.first.frustum))

@@ -33,7 +33,7 @@ def write_frustum_ball(
 ) -> tuple[float, float, float, float]:
     """Write the geometry block of a frustum and a ball about a point of the second body.
 
-    Return where in the world the point is, and its distance from the frustum's core [m].
+    Return the point in the world [m], and its distance from the frustum's core [m].
     """
     ax, ay, az = axis_in_world(a, first)
     cx, cy, cz = center_in_world(a, first)
@@ -56,7 +56,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, radius: float, x
 @final
 @dataclass(frozen=True)
 class FrustumSphere(ContactKinematics):
-    """One contact of a sphere with a cap, a rim or the side of a cylinder, a cone or a disc; it does not see the feet.
+    """One contact of a sphere with a cap, a rim or the side of a cylinder, a cone or a disc; feet are ignored.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class FrustumSphere(ContactKinematics):
         return (cls(without_feet(first.frustum), second),)
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {"first": self.first, **self.second.parameters()}
 
     @property
@@ -89,5 +89,5 @@ class FrustumSphere(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """From the cap against the axis to the one along it."""
+        """Names of the frustum's parts, from the lower cap to the upper one, with the other feature."""
         return tuple(f"{part} and sphere" for part in part_names(self.first))

@@ -1,8 +1,8 @@
 """Where a smooth body is nearest to one part of a cylinder, a cone or a disc: gap, point and normal, or nan if nowhere.
 
 On a cap the normal is given.  On the side it has one angle, found by Newton's method on the support function, or for a
-boxy body by halving.  On a rim and at the apex it is that of a flat ellipsoid or of a point.  A stop belongs to its
-part: the point lies before it, and the normal is one of its own.
+boxy body by halving.  A rim is searched as a flat ellipsoid, an apex as a point.  The result, a "stop" of the part,
+is valid if the smooth body's point lies before the part and the common normal is a normal of the part.
 """
 
 from __future__ import annotations
@@ -23,21 +23,26 @@ from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
 
 ON_BORDER = 1e-14
-"""Largest distance of a point past the end of its part, relative to the size, and of a unit normal past its cone."""
+"""Tolerance of a stop, for round-off, in two checks.
+
+It limits how far the point is past the end of its cap or side, relative to the size of both bodies.  It limits by how
+much the unit normal leaves the range of normals of its rim, between side and cap.
+"""
 _NEAR_BORDER = 1e-10
-"""As ``ON_BORDER``, for a result of a search: its error in the gap is only the square of this."""
+"""The tolerance ``ON_BORDER`` for a stop of `by_search`; the error of its gap is only the square of this number."""
 _LEAST_LEAN, _MOST_LEAN, _TURNS = 1e-16, 1e-7, 4
-"""Leans of a normal next to the axis [rad], and how often it is turned to where it goes over the end."""
+"""Least and largest angle of a normal to the axis that is tried at the end of a cap [rad]; directions tried."""
 _STEPS, _HALVINGS = 60, 40
+"""Most Newton steps on the side; most halvings of a Newton step or of an angle."""
 _ROUND_OFF, _SEEN, _CLOSE, _RIGHT = 2e-16, 1e-14, 1e-12, 1e-13
-"""As in :mod:`bodies.contacts.smooth.dual_newton`."""
+"""Tolerances of Newton's method, the same as in :mod:`bodies.contacts.smooth.dual_newton`."""
 
 
 @compiled
 def point_against(
     core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float]:
-    """Return the smooth body's farthest point against n, in the axes of the frustum."""
+    """Return the smooth body's farthest point in the direction -(nx, ny, nz) [m], in the axes of the frustum."""
     mx, my, mz = back(turn, -nx, -ny, -nz)
     s = support_of(core, mx, my, mz)
     px, py, pz = forth(turn, s[1], s[2], s[3])
@@ -46,7 +51,7 @@ def point_against(
 
 @compiled
 def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float) -> Answer:
-    """Return the stop of a cap."""
+    """Return the stop of a cap: gap, point and normal; the gap is nan if the point is not over the cap."""
     up = 1.0 if part == HIGH_CAP else -1.0
     radius = frustum[1] if part == HIGH_CAP else frustum[0]
     px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, up)
@@ -60,10 +65,10 @@ def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: flo
 def _on_end_of_cap(
     frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float
 ) -> Answer:
-    """Return the same where the smooth body is so flat that its lowest point, to round-off, is any next to the end.
+    """Return the stop of a cap for a smooth body so flat that round-off moves its lowest point past the cap's end.
 
-    The farther the normal leans out, the farther in is the lowest point.  Between two leans at which it is on either
-    side of the end, points of the body lie over the end on the way from one to the other.
+    The more the normal leans outwards, the farther inwards is the lowest point.  Two leans are bisected whose lowest
+    points lie on either side of the end; the line between these points has a point of the body over the end.
     """
     found: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
     radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
@@ -82,7 +87,7 @@ def _on_end_of_cap(
             inside = radius * radius - qx * qx - qy * qy
             if inside > 0.0:
                 high = lean
-                # where the way between them is over the end
+                # the point of the line between them that is over the end
                 wx, wy = px - qx, py - qy
                 along, across = qx * wx + qy * wy, wx * wx + wy * wy
                 share = inside / (along + math.sqrt(along * along + across * inside))
@@ -101,7 +106,7 @@ def _on_end_of_cap(
 
 @compiled
 def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
-    """Return whether the point of a stop on the continued side lies before the side itself."""
+    """Return whether a stop of the side, continued beyond its rims, lies between the rims and outside of the axis."""
     g, px, py, pz, nx, ny, _ = found
     cosine, sine = frustum[COS], frustum[SIN]
     away = (nx * px + ny * py) / cosine
@@ -113,7 +118,7 @@ def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
 def on_flank(
     frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, near: float
 ) -> Answer:
-    """Return the stop of the side; begin at the direction (sx, sy)."""
+    """Return the stop of the side, nan as gap if there is none; start at the direction (sx, sy) from the axis."""
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
     length = math.sqrt(sx * sx + sy * sy)
@@ -133,7 +138,7 @@ def on_flank(
 def _on_round_flank(
     frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, near: float
 ) -> Answer:
-    """Return the stop of the continued side, by Newton's method on the angle."""
+    """Return the stop of the side continued beyond its rims, by Newton's method on the angle round the axis."""
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
     size = near / ON_BORDER
@@ -164,7 +169,7 @@ def _on_round_flank(
             before = residual
             step = rate / max(abs(second), _ROUND_OFF * size)
             step = min(max(step, -1.0), 1.0)
-        # the turn by an angle whose tangent is the step
+        # rotate the direction by the angle whose tangent is the step
         ex, ey = lx - step * ly, ly + step * lx
         length = math.sqrt(ex * ex + ey * ey)
         ex, ey = ex / length, ey / length
@@ -182,12 +187,12 @@ def on_rim(
     part: int,
     tilt: float,
 ) -> Answer:
-    """Return the point of a rim, or the apex, that is nearest to the core, with gap and normal; nan if there is none.
+    """Return the stop of a rim or of the apex: gap, smooth body's point and normal; the gap is nan without a stop.
 
-    The search starts on the side ``direction`` of the axis.
-
-    The first normal lies between the normal of the side and the normal of the cap, at the fraction |tilt| of the way.
-    A negative ``tilt`` starts instead with the direction from the rim to the core's centre, if it is between both.
+    The search starts with a normal in the plane of the axis and ``direction``, a vector perpendicular to the axis.  The
+    normal is interpolated between the normal of the side (|tilt| = 0) and the normal of the cap (|tilt| = 1).  If
+    ``tilt`` is negative, the direction from the rim to the core's centre is taken instead, if it lies between these
+    two normals.
     """
     sx, sy = direction
     x, y, z = place
@@ -225,9 +230,10 @@ def by_search(
     part: int,
     size: float,
 ) -> Answer:
-    """Return the stop of a part by searches round the axis, where the others found none.
+    """Return the stop of a part by searches round the axis, if `on_cap`, `on_flank` and `on_rim` found no stop.
 
-    Next to where two parts meet either of them serves: there their gaps are the same to the square of the way.
+    Close to the border of two parts a stop of either part is accepted, because their gaps differ only by the square of
+    the distance to the border.
     """
     sx, sy = direction
     x, y, z = place

@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc and a polyhedron or a segment, at a distance: one of the two has a radius about it."""
+"""Contacts of a cylinder, cone or disc and a polyhedron or capsule, if at least one of the two is rounded."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _evaluate(
 
 
 write_vertex_ball = compiled(_evaluate)
-"""The evaluator, compiled, so that evaluators of other contacts can call it."""
+"""Compiled function that writes the geometry block of a frustum and a rounded vertex; other contacts call it, too."""
 
 
 def check_number(edges: int) -> None:
@@ -69,9 +69,9 @@ def check_number(edges: int) -> None:
 class FrustumSwept(ContactKinematics):
     """A vertex of a polyhedron or an end of a capsule, as a sphere, against the nearest cap, rim or side, or the apex.
 
-    The two touch where their cores are the radii apart.  The other contacts are those of the edges across side and
-    rims, of the rims and feet over the faces, and of the apex, as a sphere.  Every one of them has its number for ever;
-    one whose features are not the nearest any more is past their end.  Vertices do not see the feet.  Corners of
+    The two bodies touch if the distance of their cores is the sum of their radii.  They have further contacts: edges
+    across side and rims, rims and feet over the faces, and the apex, as a sphere.  The features of a contact never
+    change; a contact whose features are not the nearest ones is past their end.  Vertices ignore the feet.  Corners of
     meshes have these contacts, too (:class:`bodies.FrustumMesh`).
 
     Attributes
@@ -79,15 +79,15 @@ class FrustumSwept(ContactKinematics):
     first : tuple of float
         The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
     radius : float
-        Radius about the core of the second [m].
+        Radius about the core of the second body [m].
     place : tuple of float
         The vertex of its core in the body frame [m].
     star : tuple of float
-        Unit vectors along the edges that leave it.
+        Unit vectors along the edges of the vertex.
     size : float
         Size of the bodies [m].
     name : str
-        What the vertex is called.
+        Name of the vertex.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
@@ -114,7 +114,7 @@ class FrustumSwept(ContactKinematics):
         return tuple(itertools.chain(vertices, *others))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         x, y, z = self.place
         return {
             "first": self.first,
@@ -134,5 +134,5 @@ class FrustumSwept(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """From the cap against the axis to the one along it."""
+        """Names of the frustum's parts, from the lower cap to the upper one, with the other feature."""
         return tuple(f"{part} and {self.name}" for part in part_names(self.first))

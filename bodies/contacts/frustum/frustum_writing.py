@@ -1,4 +1,4 @@
-"""Contacts of a frustum with a frustum or an edge: where features end, and the geometry block.
+"""Crossings of a rim or side of a frustum with an edge or another rim: where they end, and their geometry block.
 
 An edge belongs to the second body: a sharp or rounded polyhedron, or a capsule.
 """
@@ -24,23 +24,26 @@ from .frustum import axis_in_world, center_in_world, nearest_part, write_part
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
-"""Sine of the largest angle between a contact normal and the range of normals of its rim or edge.
+"""Sine of the largest angle by which a contact normal may leave the normals of its rim or edge: 14 degrees.
 
-It is not 0, so that a contact is also followed shortly before its normal enters that range.
+A rim or an edge has a fan of outward normals, between the normals of its two adjacent surfaces.  The margin lets a
+contact be followed shortly before its normal enters this fan.
 """
 _INSIDE = 4.0
-"""Least distance of an overlapping crossing from the ends of its features, relative to its depth.
+"""Least distance of an overlapping crossing from the ends of its features, relative to the depth of the overlap.
 
-Closer to an end, an overlap of sharp features is as wide as deep.  The rule holds if no contact point lies in a body.
+Sharp features overlap over a length about equal to the depth, so that a crossing closer to an end may not exist.  The
+rule applies only if both points of the crossing lie outside of the other body.
 """
 
 
 @compiled
 def past_border(gap: float, over: float, astray: float, overlap: float, size: float) -> float:
-    """Return how far features are past their ends, by the way over them and the sine by which the normal leaves.
+    """Return how far a contact of two frustums is past the ends of its features [m], negative before them.
 
-    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.  Where a point of
-    either is inside of the other, by a negative ``overlap``, the features hold up to their ends.
+    ``gap`` is the gap of the cores and ``over`` the distance past the ends of both features [m].  ``astray`` is the
+    sine of the angle by which the contact normal leaves the normals of the features.  A negative ``overlap`` is the
+    depth of a contact point inside the other body [m]; the contact then extends up to the ends of its features.
     """
     past = max(over - REACH * size, size * (astray - ASTRAY))
     if gap < 0.0 and overlap == 0.0:
@@ -50,7 +53,12 @@ def past_border(gap: float, over: float, astray: float, overlap: float, size: fl
 
 @compiled
 def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat: bool) -> float:
-    """Return the sine of the angle from an outward normal to the normals of a rim: upper if ``up`` is 1, else lower."""
+    """Return the sine of the angle by which a contact normal leaves the normals of a rim; negative within them.
+
+    The contact normal points out of the frustum; ``radial`` and ``axial`` are its components away from the axis and
+    along it.  The normals of a rim lie between those of side and cap.  ``up`` is 1 for the upper rim and -1 for the
+    lower one; ``flat`` means a disc, which has no side.
+    """
     if flat:
         return -radial
     return float(max(-radial, -up * (frustum[COS] * axial - frustum[SIN] * radial)))
@@ -60,9 +68,9 @@ def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat:
 def overlap_of(
     one: Floats, first: Floats, other: Floats, second: Floats, gap: float, size: float, p: Point, n: Point
 ) -> float:
-    """Return how deep a point of the one body is in the other, or the other's in the one: negative, or 0.
+    """Return the signed distance of the deeper of two contact points from the other body [m]: negative inside, else 0.
 
-    The point p and the other's, at the gap along n, are those of the cores.
+    p is the contact point on the core of the frustum ``one``; p + gap n is the contact point on the core of ``other``.
     """
     ax, ay, az = axis_in_world(one, first)
     x, y, z = center_in_world(one, first)
@@ -73,7 +81,7 @@ def overlap_of(
     along, away, _, _, _ = across(p[0] - x, p[1] - y, p[2] - z, ax, ay, az)
     found, _, _, _ = nearest_part(second, along, away)
     outside = min(outside, found) - first[SWEEP] - second[SWEEP]
-    # rims are set back by the height of the feet over caps only
+    # a depth up to twice the foot height is allowed: rims are set back by the feet in contacts with faces only
     return outside if outside < -DEEP * size - 2.0 * (first[FEET] + second[FEET]) else 0.0
 
 
@@ -90,10 +98,11 @@ def write_two(
     p: Vector3,
     overlap: float,
 ) -> None:
-    """Write all but the matrices; n goes from the core of the one frustum, on which p lies, to the other's.
+    """Write the geometry block of two frustums, except the curvature matrices.
 
-    The one is the first body, or the second if ``swap`` is 1.  What overlaps, by a negative number, where the features
-    are past their ends is no contact of theirs, but a sign that another one was passed.
+    ``distance`` is the distance of the cores [m] along ``normal``, from the point p on the core of ``one`` to the core
+    of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  A negative ``overlap`` while the features
+    are past their ends is written as the gap: it shows that another contact of the bodies was missed.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = one[SWEEP]
@@ -133,7 +142,7 @@ def write_side(
 
 
 PARALLEL = 0.01
-"""Least sine of the angle at which an edge crosses a rim or a side; if they are nearly parallel, their ends touch."""
+"""Least sine of the angle between an edge and a rim or side that cross; parallel features touch at their ends."""
 
 
 def size_of_both(first: Frustum, second: SweptPolytope) -> float:
@@ -155,9 +164,10 @@ def edge_in_frustum(
 
 @compiled
 def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz: float) -> float:
-    """Return the sine of the angle by which a normal leaves the range of normals against an edge; negative within.
+    """Return the sine of the angle by which a contact normal leaves the normals of an edge; negative within them.
 
-    The normal (nx, ny, nz) is in the axes of the frustum.
+    The contact normal (nx, ny, nz), in the axes of the frustum, points from the frustum to the edge.  The normals of an
+    edge lie between the normals of its two faces.
     """
     ux, uy, uz = vector_in_world(b, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
     vx, vy, vz = vector_in_world(b, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
@@ -167,13 +177,12 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
 
 @compiled
 def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
-    """Return how far a crossing is past its ends [m], negative before them.
+    """Return how far an edge that crosses a rim or a side is past the ends of both [m], negative before the ends.
 
-    ``gap`` is the gap of the cores and ``over`` the distance past the ends of both features [m].  ``sine`` is the sine
-    of the angle between the features, and ``astray`` the sine of the angle by which the normal leaves
-    their normals.  An overlap of sharp features near their ends is as wide as deep, so that the contact ends before
-    them.  If ``overlap`` is negative, a contact point is that deep inside the other body, and the contact extends up to
-    the ends.
+    ``gap`` is the gap of the cores and ``over`` the distance past the ends of edge and rim or side [m].  ``sine`` is
+    the sine of the angle between the two features, ``astray`` the sine of the angle by which the contact normal leaves
+    their normals.  Overlapping features end earlier, by ``_INSIDE`` times the depth.  A negative ``overlap`` is the
+    depth of a contact point inside the other body [m]; the contact then extends up to the ends.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
     if gap < 0.0 and overlap >= -DEEP * size:
@@ -194,7 +203,10 @@ def overlap_at(
     q: Vector3,
     place: Vector3,
 ) -> float:
-    """Return how deep the points of a crossing are inside of the other body [m], negative; 0 if past an end.
+    """Return the signed distance of the deeper contact point of a crossing from the other body [m].
+
+    It is negative inside and 0 outside.  It is also 0 if the crossing is past the end of its edge, rim or side, by a
+    positive ``over`` [m].
 
     p is the point of the frustum, from its centre ``place``, in world axes.  q is the point of the edge, from the same
     centre, in the axes of the frustum.
@@ -206,7 +218,7 @@ def overlap_at(
     outside -= radius + frustum[SWEEP]
     if n_faces > 0.0:
         outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
-    # rims are set back by the height of the feet, but over faces only
+    # a depth up to twice the foot height is allowed: rims are set back by the feet in contacts with faces only
     return float(min(outside + 2.0 * frustum[FEET], 0.0))
 
 
@@ -227,16 +239,18 @@ def write_crossing(
     overlap: float,
     size: float,
 ) -> None:
-    """Write the geometry block of a crossing, except the matrices of the frustum.
+    """Write the geometry block of an edge that crosses a rim or a side, except the matrices of the frustum.
 
-    ``distance`` is the distance of the cores [m], p the point of the frustum in the world.  A crossing moves faster
-    than the bodies, by 1 / sine of its angle.  Its distance past the ends is therefore multiplied by the sine.
+    ``distance`` is the distance of the cores [m], ``past`` the distance past the ends of edge and rim or side [m], p
+    the point on the core of the frustum in the world.  If the angle between both features has a small ``sine``, the
+    point of crossing moves faster than the bodies, by the factor 1 / sine.  The gap past the ends grows with ``sine``
+    times ``past``, so that its rate stays of the order of the bodies' velocities.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = frustum[SWEEP]
     gap = distance - radius - sweep
     if past > 0.0:
-        # past the ends, an overlap does not belong to this crossing, but shows that another contact was missed
+        # past the ends of its features, an overlap of the bodies means that another contact was missed: write its depth
         gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.hypot(gap, max(PARALLEL, sine) * past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)

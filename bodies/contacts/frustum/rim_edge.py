@@ -1,6 +1,7 @@
-"""An edge across a rim of a cylinder, a cone or a disc.
+"""Contact of an edge that crosses a rim of a cylinder, a cone or a disc.
 
-Seen along the edge the rim is an ellipse and the edge a point; they are nearest at the foot of a normal to the ellipse.
+In the view along the edge, the rim is an ellipse and the edge is a point.  The nearest point of the ellipse is the foot
+of a normal to the ellipse through that point.
 """
 
 from __future__ import annotations
@@ -35,17 +36,18 @@ from .frustum_writing import (
 )
 
 _STEEP = 0.5
-"""Cosine of the angle between edge and axis beyond which only the nearer half of the rim is crossed."""
+"""Cosine of the angle between edge and axis above which the edge can cross the nearer half of the rim only."""
 _STEPS = 100
 
 
 @compiled
 def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[float, float, float]:
-    """Return cosine and sine of the foot of a normal to the upper half of an ellipse, and by how much there is none.
+    """Return cosine and sine of the foot of a normal on the upper half of an ellipse, and how far it is from existing.
 
-    The semi-axis along x is not the smaller one.  A point below has a foot on the upper half where the distance is a
-    minimum if it lies within the evolute; the last number, 0 then, is else how far it is not.  The foot is the zero of
-    F = a x sin - b y cos - (a^2 - b^2) sin cos, between bounds of opposite sign, by Newton's method and by halves.
+    The semi-axis along x is at least as long as the one along y.  A point (x, y) in the lower half-plane has such a
+    foot, with a local minimum of the distance, only if it lies within the evolute of the ellipse.  The third number is
+    0 then, else positive.  The foot is the zero of F = a x sin - b y cos - (a^2 - b^2) sin cos, between bounds of
+    opposite sign, by Newton's method and halvings.
     """
     p, q = semi_x * abs(x), semi_y * y
     focal = max(semi_x * semi_x - semi_y * semi_y, 0.0)
@@ -83,10 +85,10 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 @compiled
 def _aside(b: Floats, frustum: Floats, n_faces: float, faces: Floats, p: Vector3, normal: Vector3) -> bool:
-    """Return whether bodies that seem to overlap at a crossing are on the far sides of each other.
+    """Return whether bodies with a negative gap at a crossing lie on the far sides of each other, without an overlap.
 
-    Then neither has the other's point: the frustum's in the world, the edge's in the axes of the frustum.  Of a sharp
-    rim across a sharp edge neither has it as well, so that it tells of deep overlaps only.
+    Then the contact point of each body is outside of the other body.  The same holds for a small overlap of a sharp rim
+    and a sharp edge, so that only deep overlaps can be judged.
     """
     (px, py, pz), (x, y, z) = p, normal
     if height_over(b, n_faces, faces, px, py, pz) <= 0.0:
@@ -108,7 +110,7 @@ def evaluate_rim_edge(
     faces: Floats,
     size: float,
 ) -> None:
-    """Write the geometry block of an edge, with a radius about it, across one half of a rim."""
+    """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses one half of a rim."""
     axes = axes_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
@@ -116,7 +118,7 @@ def evaluate_rim_edge(
     wide, height, up = frustum[0], frustum[LOW], -1.0
     if part == HIGH_RIM:
         wide, height, up = frustum[1], frustum[HIGH], 1.0
-    # g across the edge in the plane of the rim, f along it, h across both, to that side of f where h . f is positive
+    # g: perpendicular to the edge, in the rim's plane; f: the edge's projection; h: perpendicular to g and the edge
     across = math.sqrt(dx * dx + dy * dy)
     fx, fy = (dx / across, dy / across) if across > 0.0 else (1.0, 0.0)
     gx, gy = -fy, fx
@@ -126,7 +128,7 @@ def evaluate_rim_edge(
         hx, hy, hz, short = -hx, -hy, -hz, -short
     along = vx * gx + vy * gy
     over_rim = vx * hx + vy * hy + (vz - height) * hz
-    # the halves have a name of their own while the edge is nearly in the plane of the rim
+    # if the edge is nearly in the plane of the rim, it can cross both halves: take the half of this contact
     side = half
     if short > _STEEP:
         side = half * (1.0 if over_rim >= 0.0 else -1.0)
@@ -134,7 +136,7 @@ def evaluate_rim_edge(
     sine *= side
     ex, ey = cosine * gx + sine * fx, cosine * gy + sine * fy
     tx, ty = -ey, ex
-    # the normal is across the rim's tangent and the edge
+    # the normal is perpendicular to the rim's tangent and to the edge
     nx, ny, nz = ty * dz, -tx * dz, tx * dy - ty * dx
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
     px, py, pz = wide * ex, wide * ey, height
@@ -144,17 +146,17 @@ def evaluate_rim_edge(
     if total == 0.0 and crossing > 1e-6:
         nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
     else:
-        # of cores apart, and where the edge is along the tangent: the way between the two, or out of the frustum
+        # rounded bodies, or an edge along the tangent: the line between both points, or out of the frustum without it
         apart = math.sqrt(wx * wx + wy * wy + wz * wz)
         nx, ny, nz = (wx / apart, wy / apart, wz / apart) if apart > 1e-9 * size else (ex, ey, 0.0)
     if total > 0.0:
-        # at a distance an edge along the tangent touches a rim at one point, too
+        # a rounded edge along the tangent touches the rim at one point, too
         crossing = 1.0
     ahead = nx * wx + ny * wy + nz * wz
     astray, flip = 2.0, 1.0
     for sign in (-1.0, 1.0):
         if total > 0.0 and sign * ahead < 0.0:
-            # with a radius about it an edge lies outside
+            # the normal of rounded bodies points from the rim to the edge
             continue
         radial, axial = sign * (ex * nx + ey * ny), sign * nz
         off = max(-radial, astray_of_edge(b, edge, axes, sign * nx, sign * ny, sign * nz))
@@ -186,7 +188,7 @@ def evaluate_rim_edge(
 @final
 @dataclass(frozen=True)
 class RimEdge(ContactKinematics):
-    """Where an edge of the second body crosses one half of a rim of the first.
+    """Contact of an edge of the second body that crosses one half of a rim of the first.
 
     An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.
 
@@ -199,15 +201,15 @@ class RimEdge(ContactKinematics):
     half : float
         1 for the half of the rim to which the edge runs, or that is nearer to one along the axis, -1 for the other.
     edge : tuple of float
-        The edge, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+        Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
-        Radius about it [m].
+        Radius about the edge [m].
     faces : tuple of float
-        All faces of the second body's core; none of a segment.
+        All faces of the second body's core; empty for a segment.
     size : float
         Size of the bodies [m].
     name : str
-        What it is.
+        Name of the edge.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
@@ -223,7 +225,7 @@ class RimEdge(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of all rims and edges."""
+        """Return the contacts of both halves of each rim with each edge."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
         numbers, faces, size = first.frustum, face_table(second.core), size_of_both(first, second)
@@ -237,12 +239,12 @@ class RimEdge(ContactKinematics):
     def of_rims(
         cls, frustum: Numbers, edge: Numbers, radius: float, faces: Numbers, size: float, name: str
     ) -> tuple[RimEdge, ...]:
-        """Return the contacts of all rims with one edge; a disc has one rim, and an apex is none."""
+        """Return the contacts of both halves of each rim with one edge; a disc has one rim, an apex is not a rim."""
         rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
         return tuple(cls(frustum, rim, half, edge, radius, faces, size, name) for rim in rims for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {
             "frustum": self.frustum,
             "rim": float(self.rim),
@@ -261,5 +263,5 @@ class RimEdge(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return (f"{RIM_NAMES[self.rim]} and {self.name}",)

@@ -1,4 +1,4 @@
-"""A rim or a foot of a cylinder, a cone or a disc, or the apex, over the faces of a polyhedron."""
+"""Contact of a rim, a foot or the apex of a cylinder, cone or disc with the faces of a polyhedron."""
 
 from __future__ import annotations
 
@@ -29,7 +29,10 @@ from .frustum_writing import size_of_both
 def _lowest(
     a: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
 ) -> tuple[float, float, float, float, float, float, float]:
-    """Return the rim's farthest point of the world against n, the way to it from the centre, and its sine."""
+    """Return the rim's lowest point over a plane with ``normal`` [m], the unit vector to it from the centre, a sine.
+
+    The sine is that of the angle between the axis of the rim and the normal.
+    """
     (x, y, z), (ax, ay, az), (nx, ny, nz) = center, axis, normal
     _, sine, ex, ey, ez = across(-nx, -ny, -nz, ax, ay, az)
     px, py, pz = point_in_world(a, x, y, z)
@@ -76,7 +79,7 @@ def _evaluate(
         for j in range(int(n_faces)):
             highest = max(highest, plane_height(faces, FACE * j, px, py, pz))
         if height < 0.0:
-            # under the plane of a face only what lies inside of the body can touch it
+            # a point below a face touches it only from inside of the body
             beyond = max(beyond, highest)
         beyond = max(beyond - margin, -least - 0.5 * faces[f + 4])
         if beyond < past:
@@ -84,7 +87,7 @@ def _evaluate(
     own = frustum[SWEEP]
     gap -= own + sweep
     if past > 0.0:
-        # inside of the body it is no contact of its own, but a sign that they overlap
+        # the point is inside the body without a contact: another contact was missed, so write the depth
         gap = deepest if deepest < -DEEP * size else math.sqrt(gap * gap + past * past)
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
@@ -107,9 +110,10 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class RimFace(ContactKinematics):
-    """The lowest point of a rim over the face that best separates the bodies; a foot or an apex has no radius.
+    """Contact of the lowest point of a rim with the face that best separates the bodies.
 
-    So two rims hold what lies on its side, and feet what stands.
+    A foot or an apex is a rim of radius 0.  A body that lies on its side has contacts of its two rims, a standing body
+    has contacts of its feet.
 
     Attributes
     ----------
@@ -118,15 +122,15 @@ class RimFace(ContactKinematics):
     radius : float
         Radius of the rim [m].
     center : tuple of float
-        Its centre in the body frame [m].
+        Centre of the rim in the body frame [m].
     faces : tuple of float
         The faces of the second body's core (:func:`bodies.contacts.features.polytope_tables.face_table`).
     sweep : float
-        Radius about that core [m].
+        Radius about the core of the second body [m].
     size : float
         Size of the bodies [m].
     name : str
-        What it is.
+        Name of the rim, foot or apex.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
@@ -149,13 +153,13 @@ class RimFace(ContactKinematics):
             return ()
         named = [(*rim, f"rim {i}") for i, rim in enumerate(first.standing_rims) if rim[0] > 0.0]
         if second.sweep + numbers[SWEEP] == 0.0:
-            # at a distance the apex is a sphere, which has a contact of its own
+            # the apex of a rounded cone is a sphere, which has a contact of its own
             named += [(*rim, "apex") for rim in first.standing_rims if rim[0] == 0.0]
         named += [(0.0, foot, f"foot {i}") for i, foot in enumerate(first.feet)]
         return tuple(cls(numbers, radius, at, faces, second.sweep, size, name) for radius, at, name in named)
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of all."""
+        """Return the numbers of rim, frustum and faces by the names of the evaluator's arguments."""
         x, y, z = self.center
         return {
             "frustum": self.frustum,
@@ -176,5 +180,5 @@ class RimFace(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         return tuple(f"{self.name} and face {i}" for i in range(len(self.faces) // FACE))

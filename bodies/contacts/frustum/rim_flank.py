@@ -1,7 +1,7 @@
-"""A rim of one frustum, or its apex, against the side of another.
+"""Contact of a rim of one frustum, or of its apex, with the side of another frustum.
 
-The height over a side is a convex function of the point; round a rim it has up to two minima.  They are found by
-looking at points of the rim, and then by Newton's method between bounds.
+The height of a point over a side is a convex function of the point, which has up to two minima round a rim.  Samples of
+the rim bracket a minimum, then Newton's method between bounds finds it.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world
 from .frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
 
 _STEEP = math.pi / 6.0
-"""Angle between the plane of the rim and the side beyond which only the nearest point of the rim is looked at."""
+"""Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
 _SAMPLES, _STEPS = 12, 60
 _BEYOND = 3e-8
-"""So far past its end, in units of the size, a side at a distance holds a rim."""
+"""Distance past the end of a side up to which a rounded body keeps its contact with a rim, relative to the size."""
 _BENT = 1e-6
-"""Least curvature of the height round the rim for a minimum, in units of the radius."""
+"""Least second derivative of the height by the angle round the rim at a minimum, relative to the radius."""
 
 
 @compiled
 def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: float) -> tuple[float, float, float]:
-    """Return the height over the side of the point middle + g cos + h sin [m], and two derivatives by the angle.
+    """Return the height over the side of the rim's point middle + g cos + h sin [m], and two derivatives by the angle.
 
     All vectors are in the axes of the side.
     """
@@ -53,7 +53,7 @@ def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: floa
 
 @compiled
 def least_round(second: Floats, middle: Vector3, g: Vector3, h: Vector3, low: float, high: float) -> tuple[float, bool]:
-    """Return the angle between bounds at which the height is a minimum, and whether there is one."""
+    """Return the angle between ``low`` and ``high`` with the least height, and whether it is a minimum."""
     gx, gy, gz = g
     step = (high - low) / _SAMPLES
     best, angle = math.inf, low
@@ -76,7 +76,7 @@ def least_round(second: Floats, middle: Vector3, g: Vector3, h: Vector3, low: fl
         angle = after
     _, _, bend = _height(second, middle, g, h, angle)
     size = math.sqrt(gx * gx + gy * gy + gz * gz)
-    # all round there is no end that a minimum could be past
+    # over the whole rim a minimum cannot be past an end
     within = low <= angle <= high or high - low > 1.5 * math.pi
     return angle, within and bend > _BENT * size
 
@@ -96,11 +96,11 @@ def _evaluate(
     mx, my, mz = back(axes, cx - kx, cy - ky, cz - kz)
     ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
     mx, my, mz = mx + height * ax, my + height * ay, mz + height * az
-    # h in the plane of the rim towards the side's axis, g across both
+    # h: in the plane of the rim, along the side's axis; g: perpendicular to h in this plane
     hx, hy, hz = -az * ax, -az * ay, 1.0 - az * az
     length = math.sqrt(hx * hx + hy * hy + hz * hz)
-    # a line of the side lies in the plane of the rim where the rim's axis leans as the side's normal does; the halves
-    # serve axes nearly at right angles as well, where one of them has no minimum
+    # two minima need a line of the side near the plane of the rim. Halves are used for nearly perpendicular axes, too,
+    # where one half has no minimum; for all other poses the whole rim is searched for its single minimum
     lean = math.asin(min(abs(az), 1.0))
     steep = lean > _STEEP and abs(lean - math.asin(second[SIN])) > _STEEP
     if length > 1e-9:
@@ -120,7 +120,7 @@ def _evaluate(
     if radius > 0.0:
         low, high = 0.0, math.pi
         if steep:
-            # all round, from where it is farthest
+            # the whole rim, from the point farthest from the side's axis
             low = math.atan2(mx * hx + my * hy, mx * gx + my * gy)
             high = low + 2.0 * math.pi
         angle, found = least_round(second, (mx, my, mz), (gx, gy, gz), (hx, hy, hz), low, high)
@@ -133,13 +133,13 @@ def _evaluate(
     gap = cosine * (away - second[0]) + sine * (z - second[LOW])
     along = cosine * (z - second[LOW]) - sine * (away - second[0])
     nx, ny, nz = -cosine * ex, -cosine * ey, -sine
-    # the normals of the rim
+    # check that the contact normal is a normal of the rim
     axial = nx * ax + ny * ay + nz * az
     radial = (nx * ox + ny * oy + nz * oz) / radius if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
     astray = astray_of_rim(first, up, radial, axial, first[SIDE] == 0.0)
     over = max(-along, along - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
-        # as far as the other rim takes over, along which the lowest point may go much farther
+        # margin within which the contact of both rims takes over
         over -= _BEYOND * size
     if not found or (steep and half < 0.0):
         over = size
@@ -150,7 +150,7 @@ def _evaluate(
     if over <= 0.0:
         point = (kx + px, ky + py, kz + pz)
         overlap = overlap_of(own, first, other, second, gap, size, point, (wx, wy, wz))
-    # deep in the body a cap is nearer
+    # if the overlap is deep, a cap is nearer
     past = max(past_border(gap, over, astray, overlap, size), -gap - 0.5 * second[0])
     write_two(a, out, swap, first, second, gap, past, (wx, wy, wz), (kx + px, ky + py, kz + pz), overlap)
     write_side(out, swap, first, part, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
@@ -161,7 +161,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class RimFlank(ContactKinematics):
-    """Where one half of a rim, or the apex, of one body touches the side of the other.
+    """Contact of one half of a rim, or of the apex, of one body with the side of the other.
 
     A side that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.
 
@@ -192,7 +192,7 @@ class RimFlank(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of all rims of either with the side of the other, and of the apices of sharp ones."""
+        """Return the contacts of each body's rims, and of the apices of sharp bodies, with the other body's side."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         size = 2.0 * max(first.extent, second.extent)
@@ -210,7 +210,7 @@ class RimFlank(ContactKinematics):
         return tuple(cls(swap, own, rim, half, other, size) for rim, half in rims)
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {
             "swap": float(self.swap),
             "first": self.first,
@@ -227,6 +227,6 @@ class RimFlank(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         rim = RIM_NAMES[self.rim]
         return (f"side and {rim}" if self.swap else f"{rim} and side",)

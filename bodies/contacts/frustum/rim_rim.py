@@ -1,8 +1,8 @@
-"""The rims of two frustums across each other.
+"""Contact of two frustums where their rims cross each other.
 
-The way from a point of one circle to the nearest point of the other is across the second circle; where it is across the
-first as well, the two are nearest.  Such points are found by looking at points of the first circle, and then by
-Newton's method between bounds.
+The line from a point of the first circle to the nearest point of the second circle is perpendicular to the second.  If
+it is perpendicular to the first as well, its ends are the nearest points.  Samples of the first circle bracket such a
+point, then Newton's method between bounds finds it.
 """
 
 from __future__ import annotations
@@ -26,29 +26,40 @@ from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part
 from .frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
 
 _PARALLEL = 0.01
-"""Sine of the angle between tangents below which rims do not cross; then each holds over the other's side and cap."""
+"""Least sine of the angle between the tangents of crossing rims; below it, contacts of a rim over side or cap apply."""
 _BOTH = 1e-9
-"""Angle round the rim, from the line of centres, within which both halves see the same crossing [rad]."""
+"""Angle round the first rim by which its two halves overlap at the line of centres [rad]; no crossing is missed."""
 _ASIDE = 0.01
-"""Least distance, relative to the reach, by which the normal of two rims that are apart lies past a side's normals.
+"""Least offset of the common normal of two rims from the normal of either side, relative to ``REACH`` times the size.
 
-With a smaller distance, the contact of a rim over the side takes the place of the contact of the rims.
+The offset [m] is the distance of the rims times the sine of the angle to the side's normal, for rims that are apart.
+With a smaller offset, the contact of a rim over a side replaces the contact of both rims.
 """
 _LEAN = 0.02
-"""Sine of the largest angle between the normal of overlapping rims and the range of normals of the rims."""
+"""Sine of the largest angle by which the contact normal of overlapping rims may leave the normals of both rims.
+
+The normals of a rim lie between those of its side and its cap.  Outside of them, the bodies do not overlap there.
+"""
 _BESIDE, _NARROWINGS = 20.0, 40
-"""Largest distance from a crossing at which a rim enters the other body, in depths; steps of the search for it."""
+"""Half-length of the piece of a rim that is searched for points inside the other body; number of search steps.
+
+The half-length is measured from the crossing along the rim, relative to the depth over the sine of the angle of the
+rims.
+"""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
+"""Intervals into which half of a rim is sampled, most rounds of sampling, most Newton steps."""
 
 
 @compiled
 def _slope(
     wide: float, radius: float, middle: Vector3, g: Vector3, h: Vector3, angle: float
 ) -> tuple[float, float, float]:
-    """Return the squared distance of a point of one circle from another circle [m^2], and two derivatives.
+    """Return the squared distance of a point of one circle from another circle [m^2], its slope and its curvature.
 
-    The point is middle + radius (g cos + h sin); the other circle has the radius ``wide`` about the third axis.  The
-    first derivative, by the angle, is divided by 2 radius; the second one is the derivative of that quotient.
+    The first circle has the centre ``middle``; its point at ``angle`` is middle + radius (g cos(angle) + h sin(angle)),
+    with the perpendicular unit vectors ``g`` and ``h``.  The other circle lies round the origin in the plane z = 0,
+    with the radius ``wide`` [m].  The slope [m] is the derivative of the squared distance by the angle, over 2
+    ``radius``.  The curvature [m] is the derivative of the slope by the angle.
     """
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
     c, s = math.cos(angle), math.sin(angle)
@@ -66,7 +77,7 @@ def _slope(
 
 @compiled
 def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> bool:
-    """Whether one of the points where the first circle comes through the plane of the second lies in the latter."""
+    """Whether two circles are linked: one of the first's two points in the plane of the second is inside the second."""
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = center, g, h
     size = radius * math.sqrt(gz * gz + hz * hz)
     if abs(cz) >= size:
@@ -83,9 +94,11 @@ def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3)
 
 @compiled
 def _inside(frustum: Floats, radius: float, c: Point, g: Point, h: Point, axis: Point, reach: float) -> float:
-    """Return the least signed distance to a body of the points c + radius (g cos + h sin) of a rim, for small angles.
+    """Return the least signed distance of points of a rim near a crossing from the other body [m], negative inside.
 
-    All of it is told from the centre of the body; beside a crossing the distance has one minimum.
+    The points are c + radius (g cos + h sin), with angles between -``reach`` and ``reach`` [rad].  The centre c, g, h
+    and the unit axis of the other body are relative to this body's centre.  The distance has one minimum near a
+    crossing, so that a search by intervals finds it.
     """
     least, most, found = -reach, reach, math.inf
     for _ in range(_NARROWINGS):
@@ -123,11 +136,11 @@ def _evaluate(
     up_a, up_b = (1.0 if rim_a > 2.0 else -1.0), (1.0 if rim_b > 2.0 else -1.0)
     radius, height = (first[1], first[HIGH]) if rim_a > 2.0 else (first[0], first[LOW])
     wide, level = (second[1], second[HIGH]) if rim_b > 2.0 else (second[0], second[LOW])
-    # the first rim's centre and axis, from the second's, in the axes of the second body
+    # centre of the first rim, from the centre of the second, and axis of the first, in the axes of the second body
     cx, cy, cz = back(axes, ox - kx, oy - ky, oz - kz)
     ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
     cx, cy, cz = cx + height * ax, cy + height * ay, cz + height * az - level
-    # g in the plane of the first rim towards the other's centre, h across
+    # g: unit vector in the plane of the first rim, towards the second rim's centre; h: perpendicular to it
     along = cx * ax + cy * ay + cz * az
     gx, gy, gz = along * ax - cx, along * ay - cy, along * az - cz
     length = math.sqrt(gx * gx + gy * gy + gz * gz)
@@ -147,7 +160,7 @@ def _evaluate(
         angle = begin + chosen * step
         if curved > 0.0 or low + 0.5 * step < angle < high - 0.5 * step:
             break
-        # circles that cross next to the line of centres are farthest on it
+        # circles that cross close to the line of centres have a maximum of the distance on it: refine there
         begin = low if angle < 1.0 else high - step
         step /= _SAMPLES
     least, most = angle - step, angle + step
@@ -170,13 +183,13 @@ def _evaluate(
     away = math.sqrt(x * x + y * y)
     ex, ey = (x / away, y / away) if away > 0.0 else (1.0, 0.0)
     wx, wy, wz = wide * ex - x, wide * ey - y, -z
-    # across both tangents; that of the second is (-ey, ex, 0)
+    # normal: cross product of both tangents; the tangent of the second circle is (-ey, ex, 0)
     nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
     total = first[SWEEP] + second[SWEEP]
     apart = math.sqrt(wx * wx + wy * wy + wz * wz)
     if total > 0.0 and apart > 1e-9 * size:
-        # cores apart touch where tangents are parallel, too
+        # the normal of cores that are apart is the line between their points, also for parallel tangents
         nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
     elif crossing > 1e-6:
         nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
@@ -196,7 +209,7 @@ def _evaluate(
     gap = nx * wx + ny * wy + nz * wz
     past = max(past_border(gap, -size, astray, 0.0, size), size * (_PARALLEL - crossing))
     if total > 0.0:
-        # along sides it is the rims over the other's side that hold
+        # if the normal is close to a side's normal, the contact of a rim over the side applies
         lean = size
         if first[SIDE] > 0.0:
             radial, axial = nx * ux + ny * uy + nz * uz, nx * ax + ny * ay + nz * az
@@ -204,13 +217,13 @@ def _evaluate(
         if second[SIDE] > 0.0:
             lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
         past = max(past, _ASIDE * REACH * size - apart * lean)
-    # no minimum within the half, or one that was not found
+    # there is no minimum within this half of the rim, or Newton's method did not find it
     none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= 1e-6
     if none:
         past = max(past, size)
     if gap < 0.0:
         outside = size
-        # the first rim's centre over the second body's, and the second's over the first's, each in axes of the body
+        # signed distances: the first rim's point from the second body, and the second rim's point from the first body
         if second[SIDE] > 0.0:
             outside, _, _, _ = nearest_part(second, z + level, away)
         dx, dy, dz = height * ax - cx, height * ay - cy, height * az - cz
@@ -221,7 +234,7 @@ def _evaluate(
             other, _, _, _ = nearest_part(first, along, far)
             outside = min(outside, other)
         if REACH * size < outside < size and outside + 0.9 * gap <= REACH * size:
-            # sharp bodies overlap beside the crossing, if they do
+            # if both points are outside, sharp bodies can overlap next to the crossing only
             reach = min(0.5, _BESIDE * -gap / (crossing * min(radius, wide)))
             outside = size
             if second[SIDE] > 0.0:
@@ -237,9 +250,9 @@ def _evaluate(
             and _linked(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
         ):
             outside = gap
-        # bodies that overlap next to the crossing have the normal among those of both rims
+        # bodies overlap next to the crossing only if the contact normal is a normal of both rims
         past = max(past, outside - REACH * size, size * (astray - _LEAN))
-    # deep in each other the rims are not what touches
+    # if the overlap is deep compared with the rims, other features are in contact
     past = max(past, -gap - 0.25 * min(radius, wide))
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z + level)
@@ -257,7 +270,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class RimRim(ContactKinematics):
-    """Where the rims of two bodies cross, on one side of the line of their centres.
+    """Contact at the crossing of a rim of each body, on one side of the line of the rims' centres.
 
     Attributes
     ----------
@@ -282,7 +295,7 @@ class RimRim(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of all rims of the one with all rims of the other; an apex is none."""
+        """Return the contacts of all rims of one body with all rims of the other; an apex is not a rim."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         # flat faces stand on their feet, not on rims in the same plane
@@ -294,7 +307,7 @@ class RimRim(ContactKinematics):
         return tuple(cls(one, i, two, j, half, size) for i in rims[0] for j in rims[1] for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both frustums and the choice of rims and half."""
         return {
             "first": self.first,
             "rim_a": float(self.rim_a),
@@ -311,5 +324,5 @@ class RimRim(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features, a rim of each body."""
         return (f"{RIM_NAMES[self.rim_a]} and {RIM_NAMES[self.rim_b]}",)

@@ -30,7 +30,7 @@ from ..surface.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_nu
 
 @compiled
 def _within(surface: Floats, found: Found) -> float:
-    """Return how far the point that was found is from the nearer end of its edge [m]: 0 at a corner."""
+    """Return the distance of a nearest point on an edge from the nearer end of this edge [m]; 0 at a corner."""
     _, _, kind, number, x, y, z = found
     if kind == ON_CORNER:
         return 0.0
@@ -50,13 +50,13 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats,
 def write_apex(
     a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats, patch: float, size: float, reach: float
 ) -> None:
-    """Write the geometry block of an apex, a sphere, and a patch of the second body, looked for up to a reach [m]."""
+    """Write the geometry block of a round apex and a patch of the second body, searched up to ``reach`` [m]."""
     ax, ay, az = axis_in_world(a, first)
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
     x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
     found = nearest_in_patch(surface, patch, x, y, z, reach)
-    # a single patch is the whole surface, which has no end
+    # if there is one patch only, it is the whole surface, which has no end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     nx, ny, nz = out_of_surface(b, surface, found, past, x, y, z)
     radius = first[SWEEP]
@@ -67,7 +67,7 @@ def write_apex(
     shared = END * size - _within(surface, found)
     past = max(past, shared)
     if past > 0.0:
-        # so small a way past the end is written large, that nobody takes the open contact for one that touches
+        # write a large gap for a small distance past the end, so that the contact is not taken for a closed one
         gap = math.hypot(max(gap, 0.0), max(past, OPEN * shared))
     put(out, NORMAL, -nx, -ny, -nz)
     put(out, POINT_A, px - radius * nx, py - radius * ny, pz - radius * nz)
@@ -110,14 +110,14 @@ class ApexMesh(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ApexMesh, ...]:
-        """Return the contacts of a cone; others have no apex."""
+        """Return the contacts of a cone's apex; empty for other frustums, which have no apex."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
         return cls.of_patches(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
 
     @classmethod
     def of_patches(cls, first: Numbers, second: Features, size: float) -> tuple[ApexMesh, ...]:
-        """Return the contacts of the apex of a frustum, given by its numbers, with all patches, if it has one."""
+        """Return the contacts of a frustum's apex with all patches; empty without an apex. ``first``: its numbers."""
         if first[SIDE] == 0.0 or first[1] > 0.0:
             return ()
         patches = patches_for_ball(second, first[SWEEP])
@@ -126,7 +126,7 @@ class ApexMesh(ContactKinematics):
         return tuple(cls(first, surface, patch, size, counts) for patch in range(patches.count))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         return {"first": self.first, "surface": self.surface, "patch": float(self.patch), "size": self.size}
 
     @property
@@ -136,6 +136,6 @@ class ApexMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces, convex edges and corners by number; the last never closed."""
+        """Names of faces, convex edges and corners, by number; in this contact, a corner never closes."""
         kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
         return tuple(f"apex and {part} {i}" for part, n in kinds for i in range(n))

@@ -1,4 +1,4 @@
-"""A convex edge of a mesh across the side of a cylinder or a cone."""
+"""Contact of a convex edge of a mesh that crosses the side of a cylinder or a cone."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ _cross = compiled(evaluate_flank_edge)
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
-    """Write the geometry block of an edge of a surface across the side."""
+    """Write the geometry block of an edge of a surface that crosses the side of a frustum."""
     _cross(a, b, out, frustum, edge, 0.0, 0.0, edge, size)
     judge_crossing(a, b, out, frustum, edge, surface, size)
 
 
 write_flank = compiled(_evaluate)
-"""The evaluator, compiled, so that evaluators of other contacts can call it."""
+"""Compiled function that writes the geometry block of an edge and the side; other contacts call it, too."""
 
 
 @final
 @dataclass(frozen=True)
 class FlankMesh(ContactKinematics):
-    """The contact of a convex edge of the second body across the side of the first.
+    """Contact of a convex edge of the second body that crosses the side of the first.
 
     Attributes
     ----------
     crossing : FlankEdge
-        The contact of side and edge alone, without the rest of both bodies.
+        The contact of side and edge alone, which does not know the rest of the surface.
     surface : SharedNumbers
         The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
     """
@@ -51,14 +51,14 @@ class FlankMesh(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[FlankMesh, ...]:
-        """Return the contacts of all convex edges."""
+        """Return one contact for each convex edge of the mesh."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
         return cls.of_edges(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
 
     @classmethod
     def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[FlankMesh, ...]:
-        """Return the contacts of all convex edges with a frustum, given by its numbers; a disc has no side."""
+        """Return one contact for each convex edge with a frustum, given by its numbers; empty for a disc."""
         if first[SIDE] == 0.0:
             return ()
         return tuple(
@@ -66,7 +66,7 @@ class FlankMesh(ContactKinematics):
         )
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         own = self.crossing.parameters()
         return {**{key: own[key] for key in ("frustum", "edge", "size")}, "surface": self.surface}
 
@@ -77,5 +77,5 @@ class FlankMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return self.crossing.features

@@ -39,7 +39,7 @@ from ..surface.surface_vertex import ASTRAY
 
 @compiled
 def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
-    """Return height over the plane or cone of a part, way past its ends, and its normal across and along the axis."""
+    """Return height over a cap's plane or the side's cone, distance past its ends [m], radial and axial normal."""
     if part == LOW_CAP:
         return frustum[LOW] - along, away - frustum[0], 0.0, -1.0
     if part == HIGH_CAP:
@@ -52,7 +52,7 @@ def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[fl
 
 @compiled
 def _leaning(b: Floats, n_star: float, star: Floats, nx: float, ny: float, nz: float) -> float:
-    """Return the sine of the angle by which the steepest edge of a corner points down against a normal."""
+    """Return the sine of the angle by which the steepest edge of a corner leads below the plane with normal n."""
     nx, ny, nz = vector_in_body(b, nx, ny, nz)
     down = -1.0
     for i in range(int(n_star)):
@@ -92,11 +92,11 @@ def _evaluate(
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         if height < 0.0 and not flat:
-            # behind a part only what lies inside of the body can touch it
+            # a corner below a cap or the side touches it only from inside of the body
             beyond = max(beyond, deepest)
         beyond = max(beyond - margin, size * (_leaning(b, n_star, star, nx, ny, nz) - ASTRAY))
         if flat and height < -DEEP * size and beyond <= 0.0:
-            # and behind a disc what has come through it, or has it inside
+            # a corner below a disc touches it if it went through the disc, or if the disc is inside of its body
             past_rim = tip_past_rim(
                 b, n_star, star, lengths, (px - cx, py - cy, pz - cz), (nx, ny, nz), -height, frustum[0]
             )
@@ -113,7 +113,7 @@ def _evaluate(
             best, found, gap, past = key, part, height, beyond
     if past > 0.0:
         if deepest < -DEEP * size and not flat:
-            # it is inside and no contact of its own, which is a sign that another one was passed
+            # the corner is inside without a contact of its own: another contact was missed
             found, gap = inner, deepest
         else:
             gap = math.sqrt(gap * gap + past * past)
@@ -129,7 +129,7 @@ def _evaluate(
 
 
 write_corner = compiled(_evaluate)
-"""The evaluator, compiled, so that evaluators of other contacts can call it."""
+"""Compiled function that writes the geometry block of a corner and a frustum; other contacts call it, too."""
 
 
 @final
@@ -137,7 +137,7 @@ write_corner = compiled(_evaluate)
 class FrustumCorner(ContactKinematics):
     """The contact of a corner of the second body with the nearest part of the first, cap or side.
 
-    Parts into which an edge of the corner points are left out.
+    A cap or the side has no contact with the corner if an edge of the corner leads below its surface.
 
     Attributes
     ----------
@@ -167,14 +167,14 @@ class FrustumCorner(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[FrustumCorner, ...]:
-        """Return the contacts of all corners."""
+        """Return one contact for each corner of the second body."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
         return cls.of_corners(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
 
     @classmethod
     def of_corners(cls, first: Numbers, second: Features, size: float) -> tuple[FrustumCorner, ...]:
-        """Return the contacts of all corners with a frustum, given by its numbers."""
+        """Return one contact for each corner of a mesh with a frustum, given by its numbers."""
         surface = surface_numbers(second, patches_for_body(second, 0.0))
         places = second.vertices[list(second.corners)].tolist()
         return tuple(
@@ -183,7 +183,7 @@ class FrustumCorner(ContactKinematics):
         )
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of the frustum and of the corner with its surface."""
         x, y, z = self.place
         return {
             "frustum": self.frustum,
@@ -204,5 +204,5 @@ class FrustumCorner(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The parts, rims among them, which this contact never has."""
+        """Names of the corner with each part of the frustum; the names of rims serve only for the numbering."""
         return tuple(f"{part} and corner {self.corner}" for part in part_names(self.frustum))

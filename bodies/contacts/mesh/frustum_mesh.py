@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc and a triangle mesh, convex or not: a rim over a patch, and all other contacts."""
+"""Contacts of a cylinder, cone or disc and a triangle mesh, convex or not: a rim over a patch, and all others."""
 
 from __future__ import annotations
 
@@ -117,12 +117,12 @@ class FrustumMesh(ContactKinematics):
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
             surface = surface_numbers(second, patches)
-            # others have edges or corners only
+            # patches without faces have edges or corners only, which a rim cannot lie on
             for patch in sorted(set(patches.of_faces)):
                 yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of both bodies by the names of the evaluator's arguments."""
         x, y, z = self.center
         return {
             "frustum": self.frustum,
@@ -142,7 +142,7 @@ class FrustumMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         rim = "rim" if self.up < 0.0 else "upper rim"
         return tuple(f"{rim} and face {i}" for i in range(self.n_faces))
 
@@ -167,7 +167,7 @@ def _rounded_vertices(
 
 
 def _crossings(numbers: Numbers) -> int:
-    """Return how many contacts an edge has with the side and the halves of the rims."""
+    """Return the number of contacts of one edge with the side and the halves of the rims."""
     if numbers[SIDE] == 0.0:
         return 2
     return 5 if numbers[1] > 0.0 else 3

@@ -1,4 +1,4 @@
-"""Which faces, edges and corners of a surface are near a cylinder, a cone or a disc, and may touch it."""
+"""Tests whether a face, edge or corner of a surface is near a cylinder, cone or disc, and may soon touch it."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ FrustumPose: TypeAlias = tuple[float, float, float, float, float, float]
 """Centre [m] and axis of a frustum in the axes of a surface."""
 _HALVINGS = 40
 _PIECES = 16
-"""Parts of an edge, at most, of which each is held against a rim."""
+"""Largest number of pieces of an edge, each of which is compared with a rim."""
 _SHARP = 1e-3
-"""Sine by which normals that meet may leave each other because of round-off."""
+"""Sine of the angle between two normals that is allowed for round-off."""
 
 
 @compiled
 def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
-    """Return where the frustum of the first body is, in the axes of the second."""
+    """Return centre [m] and axis of the first body's frustum in the axes of the second body."""
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     ax, ay, az = vector_in_body(b, ax, ay, az)
@@ -43,7 +43,7 @@ def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
 
 @compiled
 def from_core(frustum: Floats, pose: FrustumPose, x: float, y: float, z: float) -> float:
-    """Return the signed distance of a point from the core [m]."""
+    """Return the signed distance of the point (x, y, z) from the frustum [m], without its rounding."""
     cx, cy, cz, ax, ay, az = pose
     along, away, _, _, _ = across(x - cx, y - cy, z - cz, ax, ay, az)
     return float(nearest_part(frustum, along, away)[0])
@@ -59,7 +59,7 @@ def _from_rim(frustum: Floats, upper: int, pose: FrustumPose, x: float, y: float
 
 @compiled
 def _swing(radial: float, turn: float) -> float:
-    """Return how far the lowest point of a rim may go, in its radii, as a normal with a radial part turns."""
+    """Return a bound of the motion of a rim's lowest point, in radii, as a normal with this radial component turns."""
     return 2.0 if turn >= radial else min(2.0, 0.5 * math.pi * turn / radial)
 
 
@@ -67,7 +67,10 @@ def _swing(radial: float, turn: float) -> float:
 def _lowest(
     frustum: Floats, upper: int, pose: FrustumPose, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the point of a rim that is farthest along a normal, the latter's part across the axis, and its astray."""
+    """Return the rim's farthest point along a normal [m], the normal's radial component, and a sine.
+
+    The sine is that of the angle by which the normal leaves the normals of the rim; negative within them.
+    """
     cx, cy, cz, ax, ay, az = pose
     axial, radial, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, 1.0, 0.0, 0.0)
     height, radius = frustum[LOW + upper], frustum[upper]
@@ -80,16 +83,16 @@ def _lowest(
 def rim_is_near(
     surface: Floats, triangle: int, frustum: Floats, upper: int, pose: FrustumPose, reach: float, turn: float
 ) -> bool:
-    """Return whether the lowest point of a rim over a triangle may touch it after a small move and turn.
+    """Return whether the lowest point of a rim over a triangle may touch it before the next search.
 
     Parameters
     ----------
     surface, triangle : Floats, int
-        The surface, and where the numbers of the triangle stand.
+        The surface, and the index at which the row of the triangle begins.
     frustum, upper, pose : Floats, int, tuple
-        The frustum, 1 for its upper rim, else 0, and where it is.
+        The frustum, 1 for its upper rim or 0 for the lower one, and its pose in the axes of the surface.
     reach, turn : float
-        Distance from the core [m] and angle.
+        Largest distance from the core [m], and largest relative rotation of the bodies until the next search [rad].
     """
     t, f = triangle, int(surface[FACES]) + FACE * int(surface[triangle + 9])
     x, y, z, radial, astray = _lowest(frustum, upper, pose, -surface[f], -surface[f + 1], -surface[f + 2])
@@ -113,9 +116,10 @@ def rim_is_near(
 def _edge_comes_near(
     frustum: Floats, pose: FrustumPose, start: Vector3, direction: Vector3, length: float, reach: float
 ) -> bool:
-    """Return whether a part of an edge may be no farther from the core than a reach [m], which may be negative.
+    """Return whether a point of an edge is within the signed distance ``reach`` [m] of the core.
 
-    The distance from what is convex is convex along a line.
+    ``reach`` may be negative.  The distance from a convex body is a convex function along a line, so that halvings find
+    its minimum.
     """
     (x, y, z), (dx, dy, dz) = start, direction
     cx, cy, cz, ax, ay, az = pose
@@ -138,7 +142,7 @@ def _edge_comes_near(
 
 @compiled
 def edge_normal(surface: Floats, edge: int) -> tuple[float, float, float, float]:
-    """Return the unit vector against the mean of the outward normals of the faces at an edge, and half their angle."""
+    """Return the unit vector opposite to the mean normal of an edge's two faces, and half of the angle between them."""
     dx, dy, dz = surface[edge + 3], surface[edge + 4], surface[edge + 5]
     ux, uy, uz = surface[edge + 7], surface[edge + 8], surface[edge + 9]
     vx, vy, vz = surface[edge + 10], surface[edge + 11], surface[edge + 12]
@@ -155,10 +159,10 @@ def edge_normal(surface: Floats, edge: int) -> tuple[float, float, float, float]
 def edge_is_near(
     surface: Floats, edge: int, frustum: Floats, pose: FrustumPose, reach: float, turn: float, size: float
 ) -> tuple[bool, bool, bool]:
-    """Return whether an edge may touch the side, the lower rim and the upper one after a small move and turn.
+    """Return whether an edge may touch the side, the lower rim and the upper rim before the next search.
 
-    Arguments as of :func:`rim_is_near`; the numbers of the edge stand at ``edge``.  What goes through the frustum is a
-    sign that the bodies overlap and counts, whatever its normals.
+    The arguments are those of :func:`rim_is_near`; the row of the edge begins at index ``edge``.  An edge that goes
+    through the frustum counts for any normals, because the bodies overlap.
     """
     e = edge
     x, y, z, dx, dy, dz, length = (
@@ -197,7 +201,7 @@ def _rim_crosses(
     length: float,
     reach: float,
 ) -> bool:
-    """Return whether an edge may touch a rim where that is farthest along a normal, which may be off by an angle."""
+    """Return whether an edge may touch a rim at its farthest point along a normal, for normals within an angle."""
     (nx, ny, nz), (x, y, z), (dx, dy, dz) = normal, start, along
     px, py, pz, radial, astray = _lowest(frustum, upper, pose, nx, ny, nz)
     if astray > off:
@@ -220,10 +224,10 @@ def _rim_crosses(
 def corner_is_near(
     surface: Floats, corner: int, frustum: Floats, pose: FrustumPose, reach: float, turn: float, size: float
 ) -> bool:
-    """Return whether a corner may touch the frustum after a small move and turn; arguments as of others.
+    """Return whether a corner may touch the frustum before the next search; arguments as in :func:`rim_is_near`.
 
-    At a distance from the core what is nearest lies along none of the corner's edges.  The way there changes by no more
-    than the corner moves.
+    If the corner touches a rounded frustum, none of its edges leads towards the core's nearest point.  The vector to
+    that point changes by at most the displacement of the corner.
     """
     c = int(surface[CORNERS]) + CORNER * corner
     cx, cy, cz, ax, ay, az = pose
@@ -243,7 +247,7 @@ def corner_is_near(
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         slack = turn
         if part == FLANK:
-            # the normal goes round the axis with the corner
+            # the normal turns about the axis as the corner moves
             slack += 2.0 if reach >= away else 0.5 * math.pi * reach / away
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         if abs(height) <= reach and beyond <= reach and steepest(surface, c, -nx, -ny, -nz) <= ASTRAY + slack:

@@ -66,7 +66,10 @@ POINT_ROW = 4
 
 @compiled
 def _add(kind: float, second: float, third: float, out: Floats, n: int, most: int) -> int:
-    """Append a candidate to the ``n`` in ``out``, unless n is larger than ``most``; return their new number."""
+    """Append a candidate to the ``n`` candidates in ``out``, unless n exceeds ``most``; return the new number.
+
+    ``kind``, ``second`` and ``third`` are the three numbers of the candidate: its kind and its two features.
+    """
     if n > most:
         return n
     out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, second, third
@@ -75,7 +78,7 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 
 @compiled
 def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Append a face and a rim to the ``n`` candidates, unless they are there; return the new number of candidates."""
+    """Append a face and a rim to the ``n`` candidates, if not there yet; return the new number of candidates."""
     for i in range(n):
         if out[1 + 3 * i] == RIM and out[2 + 3 * i] == face and out[3 + 3 * i] == upper:
             return n
@@ -84,7 +87,10 @@ def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
 
 @compiled
 def _add_halves(edge: float, rim: int, out: Floats, n: int, most: int) -> int:
-    """Append two candidates, an edge across each half of a rim, to the ``n`` in ``out``; return their new number."""
+    """Append two candidates, an edge of the surface with either half of a rim, to the ``n`` candidates in ``out``.
+
+    Return the new number of candidates.
+    """
     n = _add(ACROSS_BACK, edge, float(rim), out, n, most)
     return int(_add(ACROSS_FRONT, edge, float(rim), out, n, most))
 
@@ -102,7 +108,12 @@ def _member_near(
     n: int,
     most: int,
 ) -> int:
-    """Append the candidates of a triangle, edge or corner, ``member``, to the ``n`` in ``out``; return their number."""
+    """Append the candidates of one triangle, edge or corner of the surface that may soon touch the frustum.
+
+    ``member`` counts triangles first, then edges, then corners.  A feature may touch if it is within ``reach`` [m] of
+    the core and if its normals match after a rotation by ``turn`` [rad].  ``out`` holds ``n`` candidates; return the
+    new number of candidates, at most one more than ``most``.
+    """
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
     if member < n_triangles:
         t = int(surface[TRIANGLES]) + TRIANGLE * member
@@ -143,8 +154,9 @@ def find_near_frustum(
 ) -> None:
     """Find near features: faces under rims, patches under points and apex, corners, edges across side and rims.
 
-    A candidate of a rim names a face, not a patch: if the triangles are small compared with the rim, patches would be
-    as many as faces.  ``turning`` is how far the bodies turn per margin [rad/m]; ``narrow`` is explained in
+    On entry, ``out[0]`` is the distance up to which features are near [m].  A rim has its contacts with faces, not with
+    patches, because patches for a body as large as the rim would hold one face each.  ``turning`` is the largest
+    relative rotation of the bodies until the next search, per metre of ``out[0]`` [rad/m].  ``narrow`` is explained in
     :func:`bodies.contacts.surface.surface_near.room_ahead`.
     """
     reach, limit, n, node = out[0], room_ahead(out[0], narrow, int(most)), 0, 0
@@ -208,7 +220,7 @@ def _evaluate(
         if frustum[SWEEP] > 0.0:
             write_vertex_ball(a, b, out, frustum, 0.0, x, y, z, n, star, size)
         else:
-            # only those of a disc's corners are read, and there are no others
+            # lengths of edges are used for a disc only, and stored for a disc only
             own = block_at(lengths, int(surface[c + 4]) // 3 if frustum[SIDE] == 0.0 else 0)
             write_corner(a, b, out, frustum, x, y, z, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
@@ -223,7 +235,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumPairs(ContactKinematics):
-    """The contact of a feature of a cylinder, cone or disc with a feature of a surface near it at present.
+    """Contact between a feature of a cylinder, cone or disc and a surface's feature, a pair that is near at present.
 
     Attributes
     ----------
@@ -287,12 +299,12 @@ class FrustumPairs(ContactKinematics):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both shapes, and an empty candidate."""
+        """Return the numbers of both shapes, and a candidate without features."""
         return {**self.search.values, "candidate": NO_CANDIDATE, "rims": self.rims, "lengths": self.lengths}
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """What is called for each kind of features."""
+        """The function for the kind of the candidate's features: a closed form or a search."""
         return _evaluate
 
     @property

@@ -1,4 +1,4 @@
-"""What the contacts of a frustum with the edges of a mesh share: whether what seems to overlap does."""
+"""Checks of crossings of a frustum with an edge of a mesh: whether an overlap is real, and whether a face is nearer."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from ..surface.surface_search import THROUGH, depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
 _ASTRAY = 1e-6
-"""Sine of the angle by which the normal of a closed crossing may leave those of the edge: beyond, a face is nearer."""
+"""Sine of the largest angle by which a closed crossing's normal may leave the edge's normals, or a face is nearer."""
 
 
 @compiled
 def _pierced(
     b: Floats, frustum: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float, size: float
 ) -> float:
-    """Return how deep an edge goes through a frustum [m], where it is deepest under the side between the caps, or 0."""
+    """Return the depth of an edge that goes through a frustum, at its deepest point between the caps [m]; else 0."""
     x, y, z, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
     least, low, high = THROUGH * size, 0.0, edge[LENGTH]
     if frustum[SIDE] > 0.0:
@@ -40,7 +40,7 @@ def _pierced(
         square, slope = dx * dx + dy * dy, dz * frustum[SIN] / frustum[COS]
         s = 0.5 * edge[LENGTH]
         if square > slope * slope:
-            # where the distance from the axis changes by the slope
+            # the point at which the distance from the axis changes as the radius of the side
             s = -(x * dx + y * dy) / square
             nearest = math.hypot(x + s * dx, y + s * dy)
             s -= slope * nearest / math.sqrt(square * (square - slope * slope))
@@ -62,11 +62,12 @@ def _pierced(
 def judge_crossing(
     a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
 ) -> None:
-    """Open a crossing, whose block is written, where a face is nearer, or where the bodies do not overlap as it seems.
+    """Correct the geometry block of a crossing by three rules.
 
-    A rim that rolls over an edge changes from the face to the edge where its normal becomes one of the edge's.  And
-    where neither point of what overlaps is inside of the other body, they lie on the far sides of each other.  But an
-    edge that goes through the frustum is a sign that they overlap.
+    The crossing is opened if its normal is not a normal of the edge: a face is nearer, and a rim that rolls over the
+    edge changes contacts there.  It is opened if neither contact point is inside of the other body: the bodies lie on
+    the far sides of each other.  A negative gap is written if the edge goes through the frustum: another contact was
+    missed.
     """
     x, y, z = vector_in_body(b, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
     astray = max(
@@ -109,7 +110,7 @@ def judge_crossing(
 
 
 def edges_of(second: Features) -> Iterator[tuple[Numbers, SharedNumbers, str]]:
-    """Yield row, surface and name of the convex edges of a mesh."""
+    """Yield row, surface and name of each convex edge of a mesh."""
     surface = surface_numbers(second, patches_for_body(second, 0.0))
     for i in range(len(second.edges)):
         yield edge_row(second, i), surface, f"edge {i}"

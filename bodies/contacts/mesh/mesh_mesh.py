@@ -19,7 +19,7 @@ from ..surface.surface_pairs import SurfacePairs
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
 MOST_EACH = 500
-"""Pairs of features of two surfaces up to which each of them is a contact of its own."""
+"""Largest number of pairs of features for which each pair is a contact; for more, only near pairs are contacts."""
 DEPARTURES = MappingProxyType(
     dict.fromkeys(
         ("gap rate", "second-order terms"),
@@ -30,7 +30,7 @@ DEPARTURES = MappingProxyType(
 
 @dataclass(frozen=True)
 class MeshEdges:
-    """A convex edge of either body, the second with a radius about it, and their surfaces.
+    """A convex edge of each body, the surfaces to which the edges belong, and the radius of the second edge.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class MeshEdges:
     surfaces : tuple of SharedNumbers
         The surfaces (:mod:`bodies.contacts.surface.surface_tables`).
     radius : float
-        Radius about the second edge [m].
+        Radius of the cylinder about the second edge [m]; 0 if the second body is not rounded.
     size : float
         Size of the larger body [m].
     names : tuple of str
@@ -70,7 +70,7 @@ class MeshEdges:
                 yield cls((row, other), (own, surface), radius, size, (f"edge {i}", name))
 
     def values(self) -> dict[str, Value]:
-        """Return the parameters of the evaluator."""
+        """Return edges, surfaces, radius and size, by the names of the evaluator's arguments."""
         return {
             "edge_a": self.edges[0],
             "edge_b": self.edges[1],
@@ -82,18 +82,19 @@ class MeshEdges:
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features, an edge of each body."""
         return (f"{self.names[0]} and {self.names[1]}",)
 
 
 @final
 @dataclass(frozen=True)
 class MeshMesh(ContactKinematics):
-    """Where a convex edge of a mesh crosses one of another mesh.
+    """Contact of a convex edge of a mesh that crosses a convex edge of another mesh.
 
-    Every corner over each patch of the other's faces and every pair of convex edges is a contact of its own.  Which of
-    them is one at present is told by what is next to the points alone, so that neither body need be convex.  Where they
-    are hundreds, :class:`bodies.contacts.surface.surface_pairs.SurfacePairs` are those near each other.
+    Two meshes have a contact for every pair of convex edges, and one for every corner over every patch of the other
+    mesh.  Which contacts can close depends only on the surfaces next to the contact points, so that the bodies need not
+    be convex.  If there are hundreds of pairs, near pairs only are contacts
+    (:class:`bodies.contacts.surface.surface_pairs.SurfacePairs`).
 
     Attributes
     ----------
@@ -107,7 +108,7 @@ class MeshMesh(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the pairs of edges, then the corners of the second body, then those of the first."""
+        """Return the contacts of pairs of edges, then of the second body's corners, then of the first's corners."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, TriangleMesh)
         return sharp_contacts(cls, first.features, second.features, (first.extent, second.extent))
@@ -123,21 +124,21 @@ class MeshMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features, an edge of each body."""
         return self.edges.features
 
 
 def sharp_contacts(
     kind: Callable[[MeshEdges], ContactKinematics], one: Features, two: Features, extents: tuple[float, float]
 ) -> tuple[ContactKinematics, ...]:
-    """Return the contacts of two surfaces: of edges, and of the corners of the second, then the first.
+    """Return the contacts of two surfaces: pairs of edges, then the second's corners, then the first's corners.
 
-    Where they are more than :data:`MOST_EACH`, those of the features that are near each other at present.
+    If there are more than :data:`MOST_EACH` pairs, return contacts that a search assigns to near pairs of features.
 
     Parameters
     ----------
     kind : callable
-        What makes a contact of two edges.
+        Function that makes a contact from two edges, such as a class of contacts.
     one, two : Features
         The surfaces.
     extents : tuple of float
@@ -156,5 +157,5 @@ def sharp_contacts(
 
 
 def are_many(contacts: int) -> bool:
-    """Return whether so many contacts of given features are those near each other instead."""
+    """Return whether there are too many pairs of features for a contact each, so that near pairs are searched for."""
     return contacts > MOST_EACH

@@ -20,7 +20,7 @@ from ..surface.surface_smooth import write_surface_smooth
 from ..surface.surface_tables import surface_numbers
 
 POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
-"""The core of a point (:func:`bodies.shapes.smooth.core_numbers`)."""
+"""A point as a core: three semi-axes 0, both powers 2, radius 0 (:func:`bodies.shapes.smooth.core_numbers`)."""
 
 
 def _evaluate_near(
@@ -42,7 +42,7 @@ def _evaluate_near(
 @final
 @dataclass(frozen=True)
 class MeshSmoothNear(PatchNear):
-    """The contact of a smooth body with a patch of a mesh near it at present."""
+    """Contact of a smooth body with one patch of a mesh; a search assigns a patch that is near at present."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SmoothShape)
 
@@ -58,7 +58,7 @@ class MeshSmoothNear(PatchNear):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block: a search over features, with Newton's method on the core."""
+        """A search over the features, with Newton's method on the support function."""
         return _evaluate_near
 
 
@@ -91,7 +91,7 @@ class MeshSmooth(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return one contact for each patch; of many patches for those near the body."""
+        """Return one contact for each patch; of many patches, contacts that a search assigns to near patches."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, SmoothShape)
         own = first.features
@@ -108,7 +108,7 @@ class MeshSmooth(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block: a search over features, with Newton's method on the core."""
+        """A search over the features, with Newton's method on the support function."""
         return _evaluate
 
     @property

@@ -43,7 +43,7 @@ def _evaluate_near(
 @final
 @dataclass(frozen=True)
 class MeshSphereNear(PatchNear):
-    """The contact of a sphere with a patch of a mesh near it at present."""
+    """Contact of a sphere with one patch of a mesh; a search assigns a patch that is near at present."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
 
@@ -58,7 +58,7 @@ class MeshSphereNear(PatchNear):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form."""
+        """The closed form."""
         return _evaluate_near
 
 
@@ -162,7 +162,7 @@ class MeshSphere(ContactKinematics):
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """Function that writes the geometry block, in closed form."""
+        """The closed form."""
         return _evaluate
 
     @property

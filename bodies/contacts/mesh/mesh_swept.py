@@ -1,4 +1,4 @@
-"""A polyhedron, sharp or rounded, or a capsule against a triangle mesh, convex or not."""
+"""Contacts of a polyhedron, sharp or rounded, or a capsule with a triangle mesh, convex or not."""
 
 from __future__ import annotations
 
@@ -25,16 +25,17 @@ from .swept_pairs import SweptPairs, surface_of_core
 @final
 @dataclass(frozen=True)
 class MeshSwept(ContactKinematics):
-    """Where a convex edge of a mesh crosses an edge of a polyhedron, with its radius, or the side of a capsule.
+    """Contact of a convex edge of a mesh with a rounded edge of a polyhedron, or with the side of a capsule.
 
-    The others are the vertices of the second body, as spheres over each patch of the mesh, and the corners of the mesh
-    over faces, edges and vertices of the second body; of a sharp one, as of two meshes (:class:`bodies.MeshMesh`).
-    Where they are hundreds, :class:`bodies.contacts.mesh.swept_pairs.SweptPairs` are those near each other.
+    The two bodies have further contacts: vertices of the second body, as spheres, over each patch of the mesh, and
+    corners of the mesh over faces, edges and vertices of the second body.  A sharp polyhedron has the contacts of two
+    meshes (:class:`bodies.MeshMesh`).  If there are hundreds of pairs, near pairs only are contacts
+    (:class:`bodies.contacts.mesh.swept_pairs.SweptPairs`).
 
     Attributes
     ----------
     edges : MeshEdges
-        The edges.
+        The two edges, their surfaces and the radius.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
@@ -43,7 +44,7 @@ class MeshSwept(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the pairs of edges, then the vertices of the second body, then the corners of the first."""
+        """Return the contacts of pairs of edges, then of the second body's vertices, then of the first's corners."""
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, SweptPolytope)
         own, core = first.features, second.core
@@ -72,5 +73,5 @@ class MeshSwept(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return self.edges.features

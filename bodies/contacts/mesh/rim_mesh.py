@@ -32,24 +32,24 @@ def _evaluate(
     surface: Floats,
     size: float,
 ) -> None:
-    """Write the geometry block of an edge of a surface across one half of a rim."""
+    """Write the geometry block of an edge of a surface that crosses one half of a rim."""
     _cross(a, b, out, frustum, rim, half, edge, 0.0, 0.0, edge, size)
     judge_crossing(a, b, out, frustum, edge, surface, size)
 
 
 write_half_rim = compiled(_evaluate)
-"""The evaluator, compiled, so that evaluators of other contacts can call it."""
+"""Compiled function that writes the geometry block of an edge and one half of a rim; other contacts call it, too."""
 
 
 @final
 @dataclass(frozen=True)
 class RimMesh(ContactKinematics):
-    """The contact of a convex edge of the second body across one half of a rim of the first.
+    """Contact of a convex edge of the second body that crosses a rim of the first body, on one half of the rim.
 
     Attributes
     ----------
     crossing : RimEdge
-        The contact of rim and edge alone, without the rest of both bodies.
+        The contact of rim and edge alone, which does not know the rest of the surface.
     surface : SharedNumbers
         The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
     """
@@ -61,14 +61,14 @@ class RimMesh(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[RimMesh, ...]:
-        """Return the contacts of all rims and convex edges."""
+        """Return the contacts of both halves of each rim with each convex edge."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
         return cls.of_edges(first.frustum, second.features, max(second.features.size, 2.0 * first.extent))
 
     @classmethod
     def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[RimMesh, ...]:
-        """Return the contacts of all rims of a frustum, given by its numbers, with all convex edges."""
+        """Return the contacts of both halves of each rim of a frustum, given by its numbers, with each convex edge."""
         return tuple(
             cls(crossing, surface)
             for row, surface, name in edges_of(second)
@@ -76,7 +76,7 @@ class RimMesh(ContactKinematics):
         )
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both."""
+        """Return the numbers of the frustum, the half of its rim, the edge and the surface."""
         own = self.crossing.parameters()
         return {**{key: own[key] for key in ("frustum", "rim", "half", "edge", "size")}, "surface": self.surface}
 
@@ -87,5 +87,5 @@ class RimMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features, a rim and an edge."""
         return self.crossing.features

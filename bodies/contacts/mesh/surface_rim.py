@@ -1,4 +1,4 @@
-"""A rim of a cylinder, a cone or a disc against a patch of the surface of another body, which need not be convex."""
+"""Gap of a rim of a cylinder, cone or disc over a patch of the surface of another body, convex or not."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ from ..surface.surface_vertex import ASTRAY, over_face, touched_face
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
 RimPose: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
-"""Centre of a rim [m], its axis, and the direction across it that counts for a face along it."""
+"""Centre of a rim [m], its axis, and the direction to its lowest point if it is parallel to a face."""
 
 
 @compiled
 def lowest_on_rim(
     nx: float, ny: float, nz: float, ax: float, ay: float, az: float, fx: float, fy: float, fz: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the parts along and across the axis a of a normal, and its direction across: f where it has none."""
+    """Return axial and radial component of a normal, and its radial unit vector, or f without a radial component."""
     axial, radial, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
     if radial < _FLAT:
         return axial, radial, fx, fy, fz
@@ -51,7 +51,7 @@ def lowest_on_rim(
 
 @compiled
 def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z: float) -> RimPose:
-    """Return where the rim about a point of the first body is, in the axes of the second."""
+    """Return the pose, in the axes of the second body, of the rim whose centre is (x, y, z) in the first body [m]."""
     ax, ay, az = axis_in_world(a, frustum)
     fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
     cx, cy, cz = point_in_world(a, x, y, z)
@@ -65,9 +65,9 @@ def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z:
 def _gap_beyond(
     surface: Floats, frustum: Floats, radius: float, up: float, pose: RimPose, gap: float, x: float, y: float, z: float
 ) -> float:
-    """Return a gap, or a negative one where the body goes through the surface next to a point of its rim."""
+    """Return ``gap`` [m], or a negative depth if the body goes through the surface next to a point of its rim."""
     cx, cy, cz, ax, ay, az, _, _, _ = pose
-    # to the other side of the core, or of the disc
+    # from the rim's point to the opposite side of the core, or of the disc
     onward, far = up * (frustum[LOW] - frustum[HIGH]), frustum[0] + frustum[1] - radius
     ex, ey, ez = (cx - x) / radius, (cy - y) / radius, (cz - z) / radius
     ex, ey, ez = cx + onward * ax + far * ex, cy + onward * ay + far * ey, cz + onward * az + far * ez
@@ -84,10 +84,10 @@ def rim_under(
     up: float,
     pose: RimPose,
 ) -> tuple[int, float, float]:
-    """Return face, gap and way past the end of a rim against a patch of a surface, as of a vertex.
+    """Return face, gap and distance past the end [m] of a rim over a patch of a surface, by the rules for a vertex.
 
-    Over every face it is another point of the rim that counts, the lowest.  Past the end a body that goes through the
-    surface has a negative gap.
+    For every face, the lowest point of the rim over that face takes the place of the vertex.  Past the end, the gap is
+    negative if the body goes through the surface.
 
     Parameters
     ----------
@@ -96,11 +96,11 @@ def rim_under(
     frustum : Floats
         The body with the rim.
     radius : float
-        Of the rim [m].
+        Radius of the rim [m].
     up : float
         1 for the upper rim, else -1.
     pose : tuple of float
-        Where the rim is (:func:`rim_in_surface`).
+        Pose of the rim in the axes of the surface (:func:`rim_in_surface`).
     """
     cx, cy, cz, ax, ay, az, fx, fy, fz = pose
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
@@ -156,9 +156,9 @@ def rim_under(
 def rim_over(
     surface: Floats, face: int, frustum: Floats, radius: float, up: float, pose: RimPose, reach: float
 ) -> tuple[float, float]:
-    """Return gap and way past the end of a rim over one face, as of a patch that has no other.
+    """Return gap and distance past the end [m] of a rim over one face, which is treated as a patch of its own.
 
-    Where no part of the face is nearer than a reach [m], that is the distance and the way past the end.
+    If no part of the face is within ``reach`` [m], gap and distance past the end are ``reach``.
     """
     cx, cy, cz, ax, ay, az, fx, fy, fz = pose
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
@@ -208,7 +208,7 @@ def write_rim(
     gap: float,
     past: float,
 ) -> None:
-    """Write the geometry block of a rim of the first body about a point, by gap and way past the end over a face."""
+    """Write the geometry block of a rim with centre (x, y, z) over a face, with given gap and distance past the end."""
     ax, ay, az = axis_in_world(a, frustum)
     fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
     cx, cy, cz = point_in_world(a, x, y, z)

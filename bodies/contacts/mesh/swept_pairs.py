@@ -48,7 +48,7 @@ from ..surface.surface_tables import (
 
 @compiled
 def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
-    """Return the largest component of a vector along the edges of a corner, in the axes of the surface."""
+    """Return the largest component of the vector (x, y, z) along an edge of a corner, in the axes of the surface."""
     most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
     for _ in range(int(surface[corner + 5])):
         most = max(most, x * surface[star] + y * surface[star + 1] + z * surface[star + 2])
@@ -74,10 +74,11 @@ def corners_over(
     n: int,
     most: int,
 ) -> int:
-    """Append the corners of the surface in ``a`` near a core in ``b`` to the ``n`` candidates; return their number.
+    """Append the corners of the surface in ``a`` that may soon touch a core in ``b``; return the number of candidates.
 
-    If a corner touches, no edge of it leads towards the nearest point of the core.  The component of that direction
-    along an edge changes by no more than the corner moves and the edges turn.
+    A corner touches only if none of its edges leads towards the nearest point of the core.  A corner is a candidate if
+    this can hold before the next search, until which the corner moves by at most ``reach`` [m] and the bodies turn by
+    at most ``turn`` [rad].
 
     Parameters
     ----------
@@ -122,13 +123,13 @@ def corners_over(
 
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
-"""Kinds of candidates, the first of a candidate's three numbers.
+"""Kinds of candidates, the first of a candidate's three numbers; the numbers of its features follow.
 
-In this order: ball about a vertex of the core over a patch, corner of the surface, edges of both bodies.  The numbers
-of the two features follow.
+BALL: a vertex of the rounded body, with its radius, over a patch of the mesh.  UNDER: a corner of the mesh under the
+rounded body.  ACROSS: an edge of the mesh and an edge of the rounded body.
 """
 _ROW = 5
-"""Numbers of a vertex of the core: place, number of its edges, and where the unit vectors along these begin."""
+"""Numbers of a vertex of the core: place (3) [m], number of its edges, index of the unit vectors along its edges."""
 
 
 def _find(
@@ -148,9 +149,11 @@ def _find(
     turning: float,
     narrow: float,
 ) -> None:
-    """Find patches under vertices, corners, and edges across edges.
+    """Find pairs that may soon touch: patches and vertices of the core, corners and the core, edges and edges.
 
-    ``turning`` is as of two surfaces, ``narrow`` of :func:`bodies.contacts.surface.surface_near.room_ahead`.
+    On entry, ``out[0]`` is the distance up to which features are near [m].  ``turning`` is the largest relative
+    rotation of the bodies until the next search, per metre of ``out[0]`` [rad/m].  ``narrow`` is explained in
+    :func:`bodies.contacts.surface.surface_near.room_ahead`.
     """
     reach, limit, n = out[0], room_ahead(out[0], narrow, int(most)), 0
     turn = turning * reach
@@ -201,7 +204,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class SweptPairs(ContactKinematics):
-    """The contact of a feature of a surface with a feature of a rounded core near it at present.
+    """Contact of a feature of a mesh with a feature of a rounded body, a pair that a search found near at present.
 
     Attributes
     ----------
@@ -264,7 +267,7 @@ class SweptPairs(ContactKinematics):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both shapes, and an empty candidate."""
+        """Return the numbers of both shapes, and a candidate without features."""
         return {**self.search.values, "candidate": NO_CANDIDATE, "core": self.surfaces[1], "size": self.size}
 
     @property
@@ -274,12 +277,12 @@ class SweptPairs(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The features of either, by number."""
+        """Numbered names for the features of the body with more features."""
         return tuple(f"feature {i}" for i in range(self.n_features))
 
 
 def _vertices(core: Polytope) -> SharedNumbers:
-    """Return a row of each vertex of a core, and behind all rows the unit vectors along their edges."""
+    """Return one row for each vertex of a core, followed by the unit vectors along the edges of all vertices."""
     stars = [star_of(core, i) for i in range(len(core.vertices))]
     begins = itertools.accumulate((len(star) for star in stars), initial=_ROW * len(stars))
     rows = [(*place, len(star) // 3, begin) for place, star, begin in zip(core.vertices, stars, begins, strict=False)]
@@ -287,7 +290,7 @@ def _vertices(core: Polytope) -> SharedNumbers:
 
 
 def surface_of_core(core: Polytope) -> SharedNumbers:
-    """Return the surface of a core; a segment has none."""
+    """Return the surface of a core; for a segment, which has no faces, a surface without features."""
     if not core.faces:
         return NOTHING
     features = features_of_core(core)

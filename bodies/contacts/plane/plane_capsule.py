@@ -41,5 +41,5 @@ class PlaneCapsule(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-end",)

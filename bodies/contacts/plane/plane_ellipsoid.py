@@ -87,5 +87,5 @@ class PlaneEllipsoid(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-ellipsoid",)

@@ -67,5 +67,5 @@ class PlaneFrustum(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-rim",)

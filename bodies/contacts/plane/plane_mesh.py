@@ -58,5 +58,5 @@ class PlaneMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-vertex",)

@@ -43,5 +43,5 @@ class PlanePolyhedron(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-vertex",)

@@ -69,5 +69,5 @@ class PlaneSmooth(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-smooth",)

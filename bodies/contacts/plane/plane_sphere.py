@@ -39,5 +39,5 @@ class PlaneSphere(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-sphere",)

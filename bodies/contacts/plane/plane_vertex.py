@@ -42,5 +42,5 @@ class PlaneVertex(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("plane-vertex",)

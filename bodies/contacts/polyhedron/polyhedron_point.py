@@ -1,4 +1,4 @@
-"""A vertex against the faces of a polyhedron, whichever of the two is the first body."""
+"""Contacts of a vertex with the faces of a polyhedron; the vertex may belong to the first or the second body."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _evaluate_reversed(
 
 @dataclass(frozen=True)
 class _Tables:
-    """The numbers of a polyhedron and of the body whose vertex it is."""
+    """Tables of a polyhedron's faces and of the vertices of the other body, with the number of one vertex."""
 
     faces: Numbers
     vertices: Numbers
@@ -119,7 +119,7 @@ class PolyhedronPoint(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the single contact of a polyhedron and a point, which for a rounded one is the smallest ball."""
+        """Return the single contact of a polyhedron and a point, a ball of radius 0 for a rounded polyhedron."""
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Point)
         if first.rounding > 0.0:
@@ -139,7 +139,7 @@ class PolyhedronPoint(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         return self.tables.features
 
 
@@ -181,7 +181,7 @@ class PointPolyhedron(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         return self.tables.features
 
 

@@ -1,4 +1,4 @@
-"""Two polyhedra: an edge of one across an edge of the other, and the vertices of either over the other's faces."""
+"""Contacts of two polyhedra: crossings of an edge of each, and the vertices of each over the other's faces."""
 
 from __future__ import annotations
 
@@ -25,18 +25,27 @@ from .polyhedron_point import PointPolyhedron, PolyhedronPoint
 from .swept_swept import MOST_CONTACTS, SweptSwept
 
 _ASTRAY = 0.25
-"""Sine of the angle by which the normal may leave the normals that an edge has: what may soon close is followed."""
+"""Sine of the largest angle by which the contact normal may leave the normals of an edge: 14 degrees.
+
+The normals of an edge lie between those of its two faces. The margin lets a contact be followed before it can close.
+"""
 
 
 _INSIDE = 4.0
-"""Where no point is found inside, edges overlap only where they cross so many depths away from their ends."""
+"""Least distance of the crossing of overlapping edges from their ends, relative to the depth.
+
+It applies if both contact points are outside of the other body: closer to its end, an edge may not overlap at all.
+"""
 _BLUNT = 8.0
-"""Slope, in depths over lengths of an edge, by which bodies that do not overlap may lean over a wedge."""
+"""Factor on depth over edge length, which limits the sine by which a normal may leave the normals of thin wedges.
+
+Edges of thin wedges may lie on either side of each other. Within this limit they count as apart, not as overlapping.
+"""
 
 
 @compiled
 def _astray(frame: Floats, edge: Floats, sign: float, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle by which a vector across an edge, times ``sign``, leaves the normals of the body."""
+    """Return the sine of the angle by which a vector (x, y, z), times ``sign``, leaves the normals of an edge."""
     ux, uy, uz = vector_in_world(frame, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
     vx, vy, vz = vector_in_world(frame, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     one, other = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz
@@ -65,7 +74,7 @@ def _evaluate(
     margin = CLOSED * size
     if sine > 1e-3 * CLOSED:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
-        # where the lines are nearest: (w x f) . n / sine along the first, (w x e) . n / sine along the second
+        # places of the nearest points: (w x f) . n / sine along the first line, (w x e) . n / sine along the second
         s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
         t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6]))
@@ -81,7 +90,7 @@ def _evaluate(
         s, t, over, past = 0.0, 0.0, 0.0, 2.0 * margin
     gap = wx * nx + wy * ny + wz * nz
     overlap = 0.0
-    # a contact may close up to the gap tolerance past its end: there the normal must be that of the edges, too
+    # a contact may close up to the margin past its end, so the normal must be right there, too
     if past <= margin:
         plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
         minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
@@ -90,14 +99,14 @@ def _evaluate(
             plus, minus = minus, plus
         outside = 0.0
         if gap < 0.0 or plus > _ASTRAY:
-            # the bodies overlap where the point of one edge lies in the other body
+            # the overlap is certain if the point of one edge lies in the other body
             px, py, pz = ax + s * ex, ay + s * ey, az + s * ez
             outside = height_over(b, n_faces_b, faces_b, px, py, pz)
             px, py, pz = bx + t * fx, by + t * fy, bz + t * fz
             outside = min(outside, height_over(a, n_faces_a, faces_a, px, py, pz))
         deep = outside < -DEEP * size
         if not deep and gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
-            # edges of thin wedges are as well on the other side of each other
+            # edges of thin wedges may as well lie on the other side of each other: take the positive gap
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
             past = max(past, size * (minus - _ASTRAY))
         else:
@@ -105,7 +114,7 @@ def _evaluate(
             if gap < 0.0 and not deep:
                 past = max(past, over - _INSIDE * gap - margin)
         if deep and past > 0.0:
-            # they overlap elsewhere: no contact of these edges, but a sign that another one was passed
+            # the bodies overlap away from these edges: another contact was missed, so write the depth
             overlap = max(-abs(gap), outside)
     if past > 0.0:
         gap = overlap if overlap < 0.0 else math.sqrt(gap * gap + past * past)
@@ -114,7 +123,7 @@ def _evaluate(
     put(out, POINT_A, ax + s * ex, ay + s * ey, az + s * ez)
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
-    # fixed to a body even where the edge lies in a face and the normal is that of the face but for round-off
+    # the edge as tangent is fixed to a body, also if round-off turns the normal of an edge in a face
     put(out, TANGENT, ex, ey, ez)
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)
@@ -123,22 +132,22 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class PolyhedronPolyhedron(ContactKinematics):
-    """Where an edge of the first polyhedron crosses one of the second.
+    """Contact of an edge of the first polyhedron that crosses an edge of the second.
 
-    Two polyhedra touch with a vertex on a face or with crossing edges, and a face on a face or an edge on a face is
-    several of these at once.  So every vertex over the other's faces and every pair of edges is a contact of its own,
-    whose number is that of the features for ever; a contact whose features do not face each other is open.
+    Two polyhedra touch with a vertex on a face or with crossing edges; a face on a face is several such contacts at
+    once.  So every vertex over the other body's faces, and every pair of edges, is a contact of its own.  Its features
+    never change.  A contact whose features do not face each other is open.
 
     Attributes
     ----------
     edge_a, edge_b : tuple of float
-        The edges, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+        Rows of the edges (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     faces_a, faces_b : tuple of float
-        All faces of either body.
+        Rows of all faces of each body (:data:`bodies.contacts.features.polytope_tables.FACE`).
     number_a, number_b : int
-        Their numbers.
+        Numbers of the edges in their bodies.
     size : float
-        Size of the bodies [m].
+        Size of the larger body [m].
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, Polyhedron)
@@ -170,10 +179,11 @@ class PolyhedronPolyhedron(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the pairs of edges, then the vertices of the second, then those of the first.
+        """Return the contacts of pairs of edges, then of the second body's vertices, then of the first body's vertices.
 
-        Where one of the two is rounded, they are those of :class:`bodies.SweptSwept`; where they are thousands, those
-        near each other (:class:`bodies.contacts.surface.surface_pairs.SurfacePairs`).
+        If one of the two is rounded, return the contacts of :class:`bodies.SweptSwept`.  If there are thousands of
+        pairs, return contacts that a search assigns to near pairs
+        (:class:`bodies.contacts.surface.surface_pairs.SurfacePairs`).
         """
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Polyhedron)
@@ -199,5 +209,5 @@ class PolyhedronPolyhedron(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features, an edge of each body."""
         return (f"edge {self.number_a} and edge {self.number_b}",)

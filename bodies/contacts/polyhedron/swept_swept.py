@@ -1,4 +1,4 @@
-"""Two polyhedra or segments swept by spheres: an edge of one across an edge of the other, and all vertices."""
+"""Contacts of two rounded polyhedra or capsules: crossing edges, and the list of all contacts."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from ..features.vertex_face import height_over
 from ..features.writing import write_principal
 
 MOST_CONTACTS = 4000
-"""Two shapes with more potential contacts are refused."""
+"""Largest number of potential contacts of two shapes; for more, the pair is refused, or near pairs are searched."""
 _PARALLEL = 1e-5
-"""Sine of the angle between two edges below which they do not cross; the spheres at their ends hold all the same."""
+"""Least sine of the angle between crossing edges; contacts of the spheres at their ends suffice below it."""
 _ASTRAY = 0.25
-"""Sine of the angle by which the normal may leave the normals that the edges have where the cores overlap."""
+"""Sine of the largest angle by which the normal may leave the normals of the edges, if the cores overlap."""
 
 
 @compiled
 def _astray(frame: Floats, edge: Floats, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle by which a vector across an edge leaves the outward normals of the body."""
+    """Return the sine of the angle by which a vector (x, y, z) leaves the outward normals of an edge."""
     ux, uy, uz = vector_in_world(frame, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
     vx, vy, vz = vector_in_world(frame, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     return float(max(x * ux + y * uy + z * uz, x * vx + y * vy + z * vz))
@@ -62,7 +62,7 @@ def _evaluate(
     s = t = 0.0
     if sine > 0.01 * _PARALLEL:
         cx, cy, cz = cx / sine, cy / sine, cz / sine
-        # where the lines are nearest: (w x f) . c / sine along the first, (w x e) . c / sine along the second
+        # places of the nearest points: (w x f) . c / sine along the first line, (w x e) . c / sine along the second
         s = (cx * (wy * fz - wz * fy) + cy * (wz * fx - wx * fz) + cz * (wx * fy - wy * fx)) / sine
         t = (cx * (wy * ez - wz * ey) + cy * (wz * ex - wx * ez) + cz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6])) + END * size
@@ -85,7 +85,7 @@ def _evaluate(
             inside = height_over(b, n_faces_b, faces_b, px, py, pz)
         if n_faces_a > 0.0:
             inside = min(inside, height_over(a, n_faces_a, faces_a, qx, qy, qz))
-        # the cores overlap where the point of one edge lies in the other body: the way out is against that to it
+        # the point of one edge lies in the other core: the cores overlap, and the normal is reversed
         if inside < 0.0 and max(_astray(a, edge_a, -nx, -ny, -nz), _astray(b, edge_b, nx, ny, nz)) <= _ASTRAY:
             distance, nx, ny, nz = -distance, -nx, -ny, -nz
     gap = distance - radius_a - radius_b
@@ -104,24 +104,23 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class SweptSwept(ContactKinematics):
-    """Where an edge of the first shape crosses one of the second, each with its radius.
+    """Contact of a rounded edge of the first shape that crosses a rounded edge of the second.
 
-    Shapes with a radius touch where their cores are the radii apart: with a vertex over a face, an edge or a vertex, or
-    with two edges that cross, all of which are a sphere or a cylinder of one against something of the other.  So every
-    vertex and every pair of edges is a contact of its own, whose number is that of the features for ever; a face on a
-    face, or an edge on a face, is several of these at once.  A contact whose features are not the nearest any more is
-    past their end.
+    Rounded shapes touch if the distance of their cores is the sum of their radii.  The nearest points are a vertex over
+    a face, an edge or a vertex, or two edges that cross.  So every vertex and every pair of edges is a contact of its
+    own, whose features never change.  A face on a face, or an edge on a face, is several contacts at once.  A contact
+    whose features are not the nearest ones is past their end.
 
     Attributes
     ----------
     edge_a, edge_b : tuple of float
-        The edges, as :data:`bodies.contacts.features.polytope_tables.EDGE` numbers.
+        Rows of the edges (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     faces_a, faces_b : tuple of float
-        All faces of either core.
+        Rows of all faces of each core; empty for a segment.
     number_a, number_b : int
-        Their numbers.
+        Numbers of the edges in their shapes.
     radius_a, radius_b : float
-        Radii about them [m].
+        Radii about the edges [m].
     size : float
         Size of the bodies [m].
     """
@@ -153,7 +152,7 @@ class SweptSwept(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the pairs of edges, then the vertices of the second, then those of the first."""
+        """Return the contacts of pairs of edges, then of the second body's vertices, then of the first's vertices."""
         assert isinstance(first, SweptPolytope)
         assert isinstance(second, SweptPolytope)
         one, two = first.core, second.core
@@ -180,5 +179,5 @@ class SweptSwept(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return (f"edge {self.number_a} and edge {self.number_b}",)

@@ -65,5 +65,5 @@ class SphereSphere(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("sphere-sphere",)

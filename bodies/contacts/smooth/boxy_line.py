@@ -1,9 +1,9 @@
-"""A boxy body and a straight line, the continuation of an edge: one angle, and no second derivative.
+"""Gap of a boxy body, which has flat places, and an infinite straight line, cylinder or cone: a search for one angle.
 
-The normal n goes round the line, at a right angle or, about the axis of a cone, at another.  With p the body's
-farthest point against it, the derivative of the gap g(n) is that of the normal times p; between two directions where it
-has opposite signs a search halves what is left until the directions are the same to round-off, however flat the body
-is.
+The normal n goes round the line, perpendicular to it or, for a cone, at a fixed angle.  With p the body's farthest
+point in the direction -n, the derivative of the gap g(n) by the angle is dn/d(angle) . p.  Between two angles at which
+it has opposite signs, secants and halvings narrow the interval to round-off.  No second derivative is needed, so that
+the body may be flat.
 """
 
 from __future__ import annotations
@@ -19,30 +19,31 @@ from .boxy_newton import Answer
 from .smooth_core import Axes, back, forth
 
 _LOOKS = 8
-"""Directions of the first look."""
+"""Directions evenly round the line at which the gap is evaluated first."""
 _STEPS = 200
 _CLOSED = 4e-16
-"""Angle between directions that are the same [rad]."""
+"""Angle between two directions below which they differ by round-off only [rad]."""
 
 _ROUND_OFF = 4e-16
-"""Derivative that is none, in units of the size."""
+"""Derivative of the gap by the angle that is zero within round-off, relative to the size of the bodies."""
 _PATIENCE = 3
-"""Steps that leave more than half of the angle, one after the other."""
+"""Largest number of successive secant steps that each leave more than half of the interval; a halving follows."""
 
 
 @compiled
 def across_line(
     core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> Answer:
-    """Return the largest gap between a line through the origin and a boxy core [m], the core's point, and the normal.
+    """Return the largest gap over the directions round a line and a core with flat places [m], core's point and normal.
 
-    All vectors are in the axes of the line's body; the gap is nan if no largest one was found.  With a ``reach`` the
-    line is a cylinder about it; with a ``sine`` as well, a cone whose normals lean along the line.
+    The line goes through the origin.  All vectors are in the axes of the line's body.  The gap is nan if no maximum was
+    found.  A positive ``reach`` replaces the line by a cylinder with this radius.  If ``sine`` is not 0, either, it is
+    replaced by a cone about the line.
 
     Parameters
     ----------
     core : Floats
-        The boxy core; its radius is left out.
+        The core, with flat places; its radius is not used.
     turn : Axes
         Rotation from the axes of the core to those of the line's body.
     place : Vector3
@@ -59,7 +60,7 @@ def across_line(
     x, y, z = place
     spread = math.pi / _LOOKS
     found = _look(core, turn, place, e, n, cosine, sine, 0.0)
-    # uphill from the given direction, and from the best of all where the surface is not outside of the body there
+    # uphill from the given direction; from the best of all directions if no positive gap is found there
     at, low, high, rising, falling, most = 0, 0.0, 0.0, found[7], found[7], found[0]
     way = 1 if found[7] > 0.0 else -1
     for i in range(1, _LOOKS // 2 + 2):
@@ -79,7 +80,7 @@ def across_line(
                 falling = look[7]
             last = look[7]
         low, high = (at - 1) * spread, (at + 1) * spread
-        # two tops between the neighbours: of an overlap the gap has more than one; that uphill from the best look
+        # an overlap may have two maxima between the neighbours: take the one uphill from the best direction
         for _ in range(_LOOKS):
             if rising > 0.0 > falling:
                 break
@@ -102,7 +103,7 @@ def across_line(
     side, slow = 0, 0
     for _ in range(_STEPS):
         width = high - low
-        # where the derivative jumps, as it nearly does at a flat place, the secant does not get on
+        # where the derivative jumps, as it nearly does at a flat place, secants do not converge: halve
         middle = (low * falling - high * rising) / (falling - rising)
         if slow >= _PATIENCE or not (low < middle < high):
             middle, slow = 0.5 * (low + high), 0
@@ -110,7 +111,7 @@ def across_line(
         if abs(found[7]) <= none:
             return found[0] - reach, found[1], found[2], found[3], found[4], found[5], found[6]
         if width <= _CLOSED or middle == low or middle == high:
-            # a flat place turns to the line: over it is a point between those of both sides
+            # a flat place faces the line: interpolate between the points of both sides
             one = _look(core, turn, place, e, n, cosine, sine, low)
             two = _look(core, turn, place, e, n, cosine, sine, high)
             part = min(max(one[7] / (one[7] - two[7]), 0.0), 1.0) if one[7] > two[7] else 0.5
@@ -133,7 +134,7 @@ def across_line(
 def _look(
     core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
 ) -> tuple[float, float, float, float, float, float, float, float]:
-    """Return gap, point, normal and the gap's derivative at an angle."""
+    """Return gap, core's point, normal and the gap's derivative by the angle, at an angle round the line [rad]."""
     (x, y, z), (ex, ey, ez), (nx, ny, nz) = place, e, n
     ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
     c, s = cosine * math.cos(angle), cosine * math.sin(angle)

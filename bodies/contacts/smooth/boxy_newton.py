@@ -1,4 +1,4 @@
-"""Newton's method for a boxy body (:func:`bodies.shapes.support_function.is_boxy`) and another one.
+"""Newton's method for a body with flat places (boxy, :func:`bodies.shapes.support_function.is_boxy`) and a smooth one.
 
 At its flat points the second derivative of a boxy body's support function is infinite, that of its gauge f is not: the
 unknown is the point p of its surface, f(p) = 1, instead of the normal.  There the normal is n = f' / |f'|, the shape
@@ -22,27 +22,27 @@ _STEPS = 200
 _HALVINGS = 40
 _ROUND_OFF = 2e-16
 _SEEN = 1e-14
-"""What evaluations of d differ by for round-off alone, in units of the size."""
+"""Difference of two evaluations of d that is round-off, relative to the size of the bodies."""
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it has met round-off, in units of the size."""
+"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
 _RIGHT = 1e-13
-"""Residual of an answer, in units of the size."""
+"""Largest residual of a solution, relative to the size of the bodies."""
 _ENOUGH = 1e-4
-"""Part of the decrease that a step promises and has to bring."""
+"""Least decrease of the merit by a step, relative to the decrease predicted by its derivative."""
 _LONGEST = 0.5
-"""Longest step, in units of the size of the boxy body."""
+"""Longest step, relative to the size of the boxy body."""
 _FLATTEST = 1e-12
-"""Least curvature that is told, in units of one over the size: the engine divides by that of a body on a plane."""
+"""Least curvature that is written, relative to 1 / size: on a plane, the engine divides by the body's curvature."""
 
 Norm: TypeAlias = tuple[float, float, float, float, float]
-"""Semi-axes and powers of a core; without semi-axes a point."""
+"""Three semi-axes [m] and two powers of a core; with semi-axes 0 it is a point."""
 Point: TypeAlias = tuple[float, float, float]
 Answer: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""Gap, point, normal."""
+"""Gap [m], point (3) [m] and unit normal (3), the result of a search."""
 Place: TypeAlias = tuple[
     float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
 ]
-"""A point of a surface, the normal, two tangents, and K along them: 11, 12, 22."""
+"""Point of a surface [m], normal, two tangents, and elements 11, 12, 22 of the shape operator K along them [1/m]."""
 
 
 @compiled
@@ -67,7 +67,7 @@ def climb_boxy(
 ) -> Answer:
     """Return the gap of a boxy core and one that is not, the point on the former, and the normal from it, in its axes.
 
-    The gap is nan where none was found.
+    The gap is nan if the search fails.
 
     With q the other's farthest point against n and d = q - p, the residual is d along the tangents; a step is
     (1 + (H + g) K) delta = residual with g = n . d.  Half the square of d falls on the way: its least value is the
@@ -76,7 +76,7 @@ def climb_boxy(
     Parameters
     ----------
     core : Floats
-        The boxy core; its radius is left out.
+        The boxy core; its radius is not used.
     other : Floats
         The core of the other, or its semi-axes and powers.
     turn : Axes
@@ -120,7 +120,7 @@ def climb_boxy(
             m21, m22 = h12 * k11 + (h22 + g) * k12, 1.0 + h12 * k12 + (h22 + g) * k22
             determinant = m11 * m22 - m12 * m21
             if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
-                # a stationary point that is no maximum has a way out that is shorter
+                # a stationary point that is not a maximum does not give the shortest way out
                 if residual > _RIGHT * size or determinant <= 0.0 or m11 + m22 <= 0.0:
                     return math.nan, px, py, pz, nx, ny, nz
                 return g, px, py, pz, nx, ny, nz
@@ -141,7 +141,7 @@ def climb_boxy(
                 along, across, promise = along * shorter, across * shorter, promise * shorter
             promise *= _ENOUGH
             if residual <= 1e-6 * size:
-                # less than what the merit shows
+                # the predicted decrease is below the round-off of the merit
                 promise = 0.0
             step_x, step_y, step_z = along * tx + across * ux, along * ty + across * uy, along * tz + across * uz
         px, py, pz = lx + step_x, ly + step_y, lz + step_z
@@ -152,7 +152,7 @@ def climb_boxy(
 def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: float, z: float) -> None:
     """Write slide K and turn 1, without the radius, at the point (x, y, z) of a boxy core's surface, in its own axes.
 
-    Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
+    The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     s = place_on(core, x, y, z)
     tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])

@@ -1,4 +1,4 @@
-"""Newton's method for two boxy bodies: the unknowns are a point on either surface.
+"""Newton's method for two bodies with flat places (boxy): the unknowns are a point on each surface.
 
 With d from the first point to the second and the normals n and m, the residuals are d and m along the tangents of n:
 the line between the points is along n, and the normals are opposite.  Neither has a second derivative of a support
@@ -19,11 +19,11 @@ _STEPS = 100
 _HALVINGS = 30
 _ROUND_OFF = 2e-16
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it has met round-off, in units of the size."""
+"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
 _RIGHT = 1e-13
-"""Residual of an answer, in units of the size."""
+"""Largest residual of a solution, relative to the size of the bodies."""
 _LONGEST = 0.3
-"""Longest step, in units of the size of either body."""
+"""Longest step of a point, relative to the size of its body."""
 
 
 @compiled
@@ -57,7 +57,7 @@ def meet(
     x, y, z : float
         The second core's centre from the first's [m].
     start, other : Point
-        Directions from either centre to the points to begin with, both in the axes of the first.
+        Directions from each centre to the point at which the search starts, both in the axes of the first core.
     """
     extent_a, extent_b = max(first[0], first[1], first[2]), max(second[0], second[1], second[2])
     size = abs(x) + abs(y) + abs(z) + extent_a + extent_b
@@ -76,7 +76,7 @@ def meet(
         r, t = tx * dx + ty * dy + tz * dz, ux * dx + uy * dy + uz * dz
         v, w = tx * o[3] + ty * o[4] + tz * o[5], ux * o[3] + uy * o[4] + uz * o[5]
         facing = nx * o[3] + ny * o[4] + nz * o[5]
-        # normals that do not face each other have no small difference
+        # a large residual for normals that do not face each other
         apart = weight * (v * v + w * w if facing < 0.0 else 2.0 - v * v - w * w)
         found = r * r + t * t + weight * apart
         if found > merit and halvings < _HALVINGS and found > (_CLOSE * size) ** 2:

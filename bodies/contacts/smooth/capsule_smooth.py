@@ -1,4 +1,4 @@
-"""A capsule and a smooth body."""
+"""Contact of a capsule and a smooth body."""
 
 from __future__ import annotations
 
@@ -50,5 +50,5 @@ class CapsuleSmooth(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Side and ends."""
+        """Names of the side and the ends of the capsule, each with the smooth body."""
         return "side and smooth", "low end and smooth", "high end and smooth"

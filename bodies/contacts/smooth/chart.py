@@ -23,17 +23,17 @@ from .boxy_newton import Norm, Point
 from .smooth_core import RADIUS, Axes, back, bend
 
 _FLATTEST = 1e-12
-"""Least curvature that is told, in units of one over the size: the engine divides by that of a body on a plane."""
+"""Least curvature that is written, relative to 1 / size: on a plane, the engine divides by the body's curvature."""
 
 Symmetric: TypeAlias = tuple[float, float, float]
-"""11, 12 and 22 of a symmetric matrix."""
+"""Elements 11, 12 and 22 of a symmetric matrix."""
 Chart: TypeAlias = tuple[Point, Point, Point, Point, Symmetric, Symmetric, Point, Point, Point]
 """Point, outward normal, two tangents, S [1/m] and U along them, w, and its derivatives for eps along either."""
 
 
 @compiled
 def _part(one: float, two: float, power: float) -> tuple[float, float, float]:
-    """Return a vector with the norm 1 of a power of 2 and more, and the norm that it had."""
+    """Return a vector of two components divided by its norm of a power of 2 or more, and this norm."""
     larger, smaller = max(abs(one), abs(two)), min(abs(one), abs(two))
     if larger == 0.0:
         return 1.0, 0.0, 0.0
@@ -48,7 +48,7 @@ def _dual(one: float, power: float) -> float:
 
 @compiled
 def start_of(core: Norm, nx: float, ny: float, nz: float) -> Point:
-    """Return the vector w of a normal, a unit vector."""
+    """Return the chart's vector w for a unit normal."""
     a, b, c, p, q = core
     if p == 2.0 and q == 2.0:
         return nx, ny, nz
@@ -148,7 +148,7 @@ def _of_ellipsoid(a: float, b: float, c: float, length: float, x: float, y: floa
 def write_chart(out: Floats, side: int, core: Floats, axes: Axes, nx: float, ny: float, nz: float) -> None:
     """Write slide and turn of a core at its outward normal, in its own axes.
 
-    Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
+    The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     norm, size = (core[0], core[1], core[2], core[3], core[4]), max(core[0], core[1], core[2])
     w = start_of(norm, nx, ny, nz)

@@ -18,11 +18,11 @@ _STEPS = 40
 _HALVINGS = 10
 _ROUND_OFF = 2e-16
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it has met round-off, in units of the size."""
+"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
 _RIGHT = 1e-13
-"""Residual of an answer, in units of the size."""
+"""Largest residual of a solution, relative to the size of the bodies."""
 _LONGEST = 0.3
-"""Longest step, in units of the smaller body."""
+"""Longest step, relative to the size of the smaller body."""
 
 
 @compiled
@@ -42,14 +42,14 @@ def meet_in_charts(
     nx, ny, nz : float
         The normal to begin with, of any length.
     parts : int
-        Steps of the powers from those of ellipsoids to their own where the direct way fails; 0 for none.
+        Steps from ellipsoids to the cores' own powers, if the direct search fails; 0 for no further search.
     """
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
     nx, ny, nz = nx / length, ny / length, nz / length
     found: Answer = _climb(first, second, turn, x, y, z, nx, ny, nz)
     if found[0] == found[0]:
         return found
-    # from ellipsoids on, little by little
+    # solve for ellipsoids first and change their powers step by step, each solution as the next start
     for i in range(parts + 1 if parts > 0 else 0):
         part = i / parts
         one, two = _between(first, part), _between(second, part)
@@ -61,7 +61,7 @@ def meet_in_charts(
 
 @compiled
 def _between(core: Norm, part: float) -> Norm:
-    """Return a core on the way from the ellipsoid with its semi-axes; an exponent is 2 - 2 / p."""
+    """Return the core between an ellipsoid (``part`` 0) and ``core`` (``part`` 1); 1 / p and 1 / q are interpolated."""
     a, b, c, p, q = core
     return a, b, c, 1.0 / (0.5 + part * (1.0 / p - 0.5)), 1.0 / (0.5 + part * (1.0 / q - 0.5))
 
@@ -70,7 +70,7 @@ def _between(core: Norm, part: float) -> Norm:
 def _climb(
     first: Norm, second: Norm, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> Answer:
-    """Return gap, point and normal of the largest gap; the search starts from the points of the unit normal given."""
+    """Return the largest gap [m], first core's point and normal; start at both cores' points with the normal n."""
     extent_a, extent_b = max(first[0], max(first[1], first[2])), max(second[0], max(second[1], second[2]))
     size = abs(x) + abs(y) + abs(z) + extent_a + extent_b
     weight = max(extent_a, extent_b)
@@ -92,7 +92,7 @@ def _climb(
         r1, r2 = t[0] * dx + t[1] * dy + t[2] * dz, u[0] * dx + u[1] * dy + u[2] * dz
         v1, v2 = t[0] * mx + t[1] * my + t[2] * mz, u[0] * mx + u[1] * my + u[2] * mz
         facing = n[0] * mx + n[1] * my + n[2] * mz
-        # normals that do not face each other have no small difference
+        # a large residual for normals that do not face each other
         apart = weight * (v1 * v1 + v2 * v2 if facing < 0.0 else 2.0 - v1 * v1 - v2 * v2)
         found = r1 * r1 + r2 * r2 + weight * apart
         if found > merit and halvings < _HALVINGS and found > (_CLOSE * size) ** 2:

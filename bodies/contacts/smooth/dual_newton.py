@@ -2,8 +2,8 @@
 
 The gap is the largest value of g(n) = n . X - h_A(n) - h_B(-n) over the unit vectors n, with X from centre to centre.
 With the support points, d = p_B - p_A, the gradient of g on the sphere is r = d - g n and the second derivative
--(H_A + H_B + g), so that a step is (H_A + H_B + g) delta = r.  Bodies apart have one maximum; of those that overlap a
-little it is the one near the line of centres.
+-(H_A + H_B + g), so that a step is (H_A + H_B + g) delta = r.  Bodies that are apart have one maximum; if they overlap
+a little, it is the one near the line of centres.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from .smooth_core import Axes, back, bend, forth
 _STEPS = 100
 _HALVINGS = 40
 _WIDEST = 1.0
-"""Longest step before it is brought back to the sphere."""
+"""Longest step in the tangent plane of the unit sphere, before it is projected back to the sphere."""
 _ROUND_OFF = 2e-16
 _SEEN = 1e-14
-"""What evaluations of g differ by for round-off alone, in units of the size."""
+"""Difference of two evaluations of g that is round-off, relative to the size of the bodies."""
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it has met round-off, in units of the size."""
+"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
 _RIGHT = 1e-13
-"""Residual of an answer, in units of the size."""
+"""Largest residual of a solution, relative to the size of the bodies."""
 _SADDLE = 0.3
-"""Turn off a direction in which g is no maximum [rad]."""
+"""Angle by which the search leaves a stationary direction that is not a maximum of g [rad]."""
 
 
 @compiled
@@ -42,13 +42,13 @@ def climb(
     Parameters
     ----------
     first, second : Floats
-        The cores; their radii are left out.
+        The cores; their radii are not used.
     turn : Axes
         Rotation from the axes of the second core to those of the first.
     place : Vector3
         The second core's centre from the first's [m].
     axis : Vector3
-        A unit vector to which n stays at right angles; zero if it need not.
+        A unit vector to which n stays perpendicular, such as an edge; zero if n is free.
     start : Vector3
         Start of n, of any length; as a rule along the line of centres.
     """
@@ -63,7 +63,7 @@ def climb(
     nx, ny, nz = nx / length, ny / length, nz / length
     size = abs(x) + abs(y) + abs(z) + max(first[0], first[1], first[2]) + max(second[0], second[1], second[2])
     g, before = -math.inf, math.inf
-    # what the last step started from
+    # direction and step of the last iteration
     lx, ly, lz, sx, sy, sz = nx, ny, nz, 0.0, 0.0, 0.0
     halvings = 0
     for _ in range(_STEPS):
@@ -109,7 +109,7 @@ def climb(
                     return math.nan, nx, ny, nz
                 if low >= -_CLOSE * size:
                     return g, nx, ny, nz
-                # a stationary point that is no maximum: leave it along the direction in which g grows
+                # a stationary point that is not a maximum: leave it along the direction in which g grows most
                 over, under = 0.0, _SADDLE
                 before = math.inf
             else:

@@ -1,4 +1,4 @@
-"""A proof that two bodies that overlap have no shorter way out: balls inside of both, at the points of an answer.
+"""Proof that an overlap is the shortest way out of two smooth bodies, by balls inside of both at the contact points.
 
 A ball inside of a body has no wider gap than the body itself, in any direction n.  Of two balls that touch the bodies'
 surfaces from within at the points of a stationary answer -d, their gap along n is largest along the answer's normal,
@@ -27,7 +27,7 @@ def no_shorter_way(
     Parameters
     ----------
     first, second : Floats
-        The cores; their radii are left out.
+        The cores; their radii are not used.
     turn : Axes
         Rotation from the axes of the second core to those of the first.
     x, y, z : float
@@ -47,7 +47,7 @@ def no_shorter_way(
 
 @compiled
 def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
-    """Return a radius up to ``most`` of a ball in a core that touches its surface at a point with the normal n."""
+    """Return the radius [m], at most ``most``, of a ball in a core that touches its surface at a point of normal n."""
     a, b, c = core[0], core[1], core[2]
     height = nx * x + ny * y + nz * z
     if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
@@ -64,7 +64,7 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
         r, w = low_x + low_y, low_z
     s, t = (high_s, high_t) if k >= 2.0 else (low_s, low_t)
     if min(min(r, w), min(s, t)) == 0.0:
-        # next to a sharp place
+        # close to a sharp place there is no ball
         return 0.0
     bend = 1.0 - 2.0 / k
     along = (j - 1.0) * (high_s ** (bend + 1.0) / (a * a) + high_t ** (bend + 1.0) / (b * b))

@@ -1,4 +1,4 @@
-"""A polyhedron and a smooth body."""
+"""Contact of a polyhedron and a smooth body."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class PolyhedronSmooth(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Faces, edges and vertices."""
+        """Names of faces, edges and vertices of the polyhedron, each with the smooth body."""
         polytope = self.first.core
         parts = (("face", polytope.faces), ("edge", polytope.edges), ("vertex", polytope.vertices))
         return tuple(f"{kind} {i} and smooth" for kind, part in parts for i in range(len(part)))

@@ -1,9 +1,10 @@
-"""A polytope and a body with a smooth support function.
+"""Gap of a convex polyhedron or segment and a body with a smooth support function.
 
-The signed distance of a point to a convex body is a convex function, so that over the polytope it has one least value.
-A walk over faces, edges and vertices goes there: on every feature it takes the least value on its plane or line, by
-Newton's method on the support function, and leaves to the feature where the way there meets its border, or to a
-neighbour in which the distance still falls.  Every stop is lower than the one before, and the last one is a proof.
+The signed distance of a point from a convex body is a convex function, so that it has one minimum over the polytope.  A
+walk over faces, edges and vertices leads there.  On each feature it takes the minimum over the feature's plane or line,
+by Newton's method on the support function.  If this minimum lies outside of the feature, the walk continues on the
+border that it crosses; if the distance still falls into a neighbour, on that neighbour.  Every stop has a smaller
+distance than the one before.  A stop inside of its feature, without a better neighbour, is the minimum.
 """
 
 from __future__ import annotations
@@ -30,7 +31,11 @@ from .smooth_newton import widest_from, write_surface
 Numbers = tuple[float, ...]
 
 COUNTS, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = 6, 9, 10, 11, 12, 13, 14
-"""Indices in the header: of the numbers of vertices, edges and faces; then of the offsets of the six lists by name."""
+"""Indices in the head of a polytope's numbers.
+
+``COUNTS``: number of vertices, followed by the numbers of edges and faces.  The others: offset of the list of that
+name.
+"""
 EDGE, FACE = 4, 6
 """Length of the row of an edge and of the row of a face, respectively.
 
@@ -43,10 +48,11 @@ _HEADER = 15
 def polyhedron_numbers(polytope: Polytope, radius: float = 0.0) -> Numbers:
     """Numbers of a polyhedron, with a radius about it [m].
 
-    They begin like the numbers of a point (:func:`bodies.shapes.smooth.core_numbers`), because a vertex counts as a
-    point: three semi-axes 0, two powers, the radius. Then come the numbers of vertices, edges and faces, and the
-    offsets of the parts. The parts are in the frame of the body: vertices, edges, faces, loops (vertices, each with the
-    edge that leaves it), stars (for every vertex, beginning and length of its list of edges), and these lists.
+    They begin like the numbers of a point (:func:`bodies.shapes.smooth.core_numbers`), because searches treat a vertex
+    as a point: three semi-axes 0, two powers, the radius.  Then come the numbers of vertices, edges and faces, and the
+    offsets of the six lists.  The lists are, in the frame of the body: vertices, edges, faces, loops (the vertices of a
+    face, each with the edge that leaves it), stars (for every vertex, beginning and length of its list of edges), and
+    these lists of edges.
     """
     return _numbers(polytope.vertices, polytope.faces, polytope.planes, polytope.edges, radius)
 
@@ -80,13 +86,13 @@ def _numbers(
 
 
 _HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
-"""Kinds of features; nowhere else to go."""
+"""Kinds of features to which the walk goes next; ``_HERE``: it ends on the present feature."""
 _ON_BORDER = 1e-14
-"""How far a point may be over a border, in units of the size, and a normal over that of its cone."""
+"""Tolerance for round-off: of a point past a border, relative to the size, and of a unit normal past its range."""
 _SHALLOW = 1e-6
-"""Overlap of the cores, in units of the size, up to which it is not asked for a proof."""
+"""Overlap of the cores, relative to the size, up to which the first stop is taken as nearest without a proof."""
 _ROUND = 8
-"""Directions round a segment from which its side is looked at."""
+"""Directions round a segment from which the search on its side starts, if the segment is deep in the body."""
 
 Point: TypeAlias = tuple[float, float, float]
 Stop: TypeAlias = tuple[float, float, float, float, int, int, Point]
@@ -114,7 +120,7 @@ def _edge(hull: Floats, i: int) -> tuple[float, float, float, float]:
 def _point_along(
     core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float]:
-    """Return the smooth body's farthest point against n, in the axes of the polytope."""
+    """Return the smooth body's farthest point in the direction -(nx, ny, nz) [m], in the axes of the polytope."""
     mx, my, mz = back(turn, -nx, -ny, -nz)
     s = support_of(core, mx, my, mz)
     px, py, pz = forth(turn, s[1], s[2], s[3])
@@ -125,7 +131,7 @@ def _point_along(
 def _exit(
     hull: Floats, face: int, near: float, fx: float, fy: float, fz: float, tx: float, ty: float, tz: float
 ) -> int:
-    """Return the edge over which the way from the point f of a face to t in its plane leaves it; -1 if none."""
+    """Return the edge of a face that the line from its point f to the point t of its plane crosses, or -1."""
     at = int(hull[FACES]) + FACE * face
     nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
     loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
@@ -147,7 +153,7 @@ def _exit(
 
 @compiled
 def _best_face(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> int:
-    """Return the face that the smooth body is farthest off, -1 without faces."""
+    """Return the face over whose plane the smooth body is highest, or -1 for a segment."""
     best, widest = -1, -math.inf
     for i in range(int(hull[COUNTS + 2])):
         at = int(hull[FACES]) + FACE * i
@@ -233,11 +239,11 @@ def _middle(hull: Floats, face: int) -> Point:
 
 @compiled
 def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> Nearest:
-    """Return gap of the cores, normal, number of the feature (faces first, then edges, then vertices), and a point.
+    """Return the gap of the cores [m], the normal, the polytope's nearest feature and a point of this feature.
 
-    The point is that of the edge or the vertex.
-
-    All in the frame of the polytope; (x, y, z) is the centre of the core.  The gap is nan where none was found.
+    The number of the feature counts faces first, then edges, then vertices.  On an edge or a vertex, the point is the
+    polytope's nearest point.  All vectors are in the frame of the polytope; (x, y, z) is the centre of the smooth
+    body's core.  The gap is nan if no nearest feature was found.
     """
     n_edges, n_faces = int(hull[COUNTS + 1]), int(hull[COUNTS + 2])
     vx, vy, vz = _vertex(hull, 0)
@@ -248,7 +254,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
         kind, number = _FACE, _best_face(hull, core, turn, x, y, z)
         way = _middle(hull, number)
     best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, way
-    # on edges and vertices Newton's method begins at the line to the centre
+    # on edges and vertices Newton's method starts with the direction to the smooth body's centre
     for _ in range(n_edges + 4):
         if kind == _FACE:
             g, nx, ny, nz, after, where, way = _look_at_face(hull, core, turn, x, y, z, near, number, way)
@@ -262,9 +268,9 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
             g, nx, ny, nz, after, where, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
         if after == _HERE and g >= -_SHALLOW * size:
             return g, nx, ny, nz, _feature(hull, kind, number), way
-        # a plane that the centre has passed is no face that the body is before
+        # a stop counts only if the smooth body's centre is on its outer side
         if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
-            # the point of the polytope lies in the smooth body: they do overlap
+            # the polytope's point lies in the smooth body, which proves the overlap
             px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
             px, py, pz = back(turn, px - g * nx - x, py - g * ny - y, pz - g * nz - z)
             if gauge(core, px, py, pz) < 1.0:
@@ -276,7 +282,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
     found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     on_segment = way
     if n_faces == 0:
-        # a segment, by a search along it
+        # a segment: search along it
         vx, vy, vz = _vertex(hull, 0)
         ex, ey, ez, length = _edge(hull, 0)
         found, s = along_segment(core, turn, x - vx, y - vy, z - vz, ex, ey, ez, length)
@@ -288,7 +294,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
     if best == best and not g > best:
         return best, bx, by, bz, feature, base
     if g != g and found[0] == found[0]:
-        # a point of the segment in the smooth body: they do overlap
+        # a point of the segment lies in the smooth body, which proves the overlap
         return found[0], found[4], found[5], found[6], number, on_segment
     if g != g and n_faces == 0:
         end: Nearest = _deep_segment(hull, core, turn, x, y, z, size)
@@ -298,7 +304,10 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
 
 @compiled
 def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, size: float) -> Nearest:
-    """Return gap, normal, feature and point for a segment deep in the body, from its ends and all round its side."""
+    """Return gap, normal, feature and point as `_nearest` does, for a segment deep in the smooth body.
+
+    Searches start uphill from both ends, and from ``_ROUND`` directions round the segment.
+    """
     best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
     for end in range(2):
         vx, vy, vz = _vertex(hull, end)
@@ -325,9 +334,10 @@ def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z:
 
 @compiled
 def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float) -> Nearest:
-    """Return gap, normal, feature and point for an overlap in which planes and lines through the smooth body mislead.
+    """Return gap, normal, feature and point as `_nearest` does, by a trial of all features of the polytope.
 
-    Of all features that are a stop that of the widest gap; Newton's method begins in the middle of their normals.
+    It serves for overlaps in which the walk fails.  Of all features on which the walk would end, it takes the one with
+    the largest gap.  On each feature, Newton's method starts from the mean of its outward normals.
     """
     best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
     for kind in (_FACE, _EDGE, _VERTEX):
@@ -348,7 +358,7 @@ def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
 
 @compiled
 def _outward_of_edge(hull: Floats, number: int, x: float, y: float, z: float) -> Point:
-    """Return a normal between those of the faces, without faces the way to (x, y, z)."""
+    """Return the sum of the normals of an edge's two faces; for a segment, the vector from its start to (x, y, z)."""
     at = int(hull[EDGES]) + EDGE * number
     if hull[at + 2] < 0.0:
         vx, vy, vz = _vertex(hull, int(hull[at]))
@@ -382,9 +392,10 @@ def _feature(hull: Floats, kind: int, number: int) -> int:
 
 
 def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
-    """Write the geometry block of a polytope (:mod:`bodies.contacts.smooth.polytope_smooth`) and a core.
+    """Write the geometry block of a polytope and a smooth body.
 
-    The gap is nan if no feature can be proved to be the nearest.
+    ``first`` holds the numbers of the polytope (:func:`polyhedron_numbers`), ``second`` the numbers of the smooth body
+    (:func:`bodies.shapes.smooth.core_numbers`).  The gap is nan if no feature can be proved to be the nearest.
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
@@ -394,7 +405,7 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
     n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
     if feature >= n_faces and not is_round(second):
-        # along a flat place the normal says little of the point
+        # on a flat place of the smooth body the normal does not determine the point: use the polytope's point
         px, py, pz = base[0] + g * nx, base[1] + g * ny, base[2] + g * nz
     out[GAP] = g - first[RADIUS] - second[RADIUS]
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)

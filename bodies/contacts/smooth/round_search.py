@@ -1,10 +1,12 @@
-"""Where a smooth body is nearest to a circle or a segment, by the place on it alone: slow, and not to be led astray.
+"""Gap of a smooth body and a circle or a segment, by searches for the place on it: slow, but without failures.
 
-The distance of a point from a convex body is a convex function of the point.  Round a circle it falls where the normal
-has a part along the way, so that a search between angles at which it falls and rises halves what is left.  It needs no
-radius of curvature of the circle across its normal, which goes through all sizes next to the circle's axis, where
-Newton's method on the normal does not get on.  Of bodies that overlap, the largest of the gaps along all directions is
-gone up to by steps.  There the circle's point is again found by its place on the circle.
+The unknown is the angle round the circle, or the place along the segment.  The distance of this point from the smooth
+body falls or rises along the circle by the tangential component of the normal.  Between two angles at which it falls
+and rises, secants and halvings narrow the interval.  The search needs no radius of curvature of the circle.  Close to
+the axis of the circle this radius varies without bound, so that Newton's method on the normal does not converge there.
+
+If the bodies overlap, steps uphill lead to the direction with the largest gap.  The circle's point is then again found
+by a search along the circle.
 """
 
 from __future__ import annotations
@@ -24,21 +26,25 @@ from .smooth_newton import widest_of_round
 from .smooth_starts import Start, gap_along, settle, starts_of, uphill
 
 _FIRST = 1e-3
-"""First step round the circle; the others are twice as long [rad]."""
+"""First step round the circle [rad]; each further step is twice as long as the one before."""
 _LOOKS, _STEPS, _PATIENCE = 16, 120, 3
+"""Angles round the circle that are sampled; most steps of a search; most successive slow secants before a halving."""
 _SAME = 4e-16
-"""Angle between directions that are the same, and a slope that is none."""
+"""Angle [rad] below which two directions are equal, and slope that is zero, within round-off."""
 _ACROSS = 1e-9
-"""Slope of an answer, from which the gap errs by the square."""
+"""Largest slope at a solution; the error of its gap is of the order of the square of the slope."""
 _TOP, _OVER = 1e-9, 1e-11
-"""How close steps go to a top [rad], and how far the point there is off the surface, in units of the size."""
+"""Angle to a maximum up to which steps go uphill [rad]; largest relative distance of its point from the surface."""
 _GOLDEN = 0.3819660112501051
-"""Part of an interval at which a search for a least value looks, from either end."""
+"""Fraction of an interval, from either end, at which a golden-section search for a minimum evaluates."""
 _NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
-"""Steps, residual in units of the size, and angle between normal and axis up to which they are made [rad]."""
+"""Limits of Newton's method next to the axis.
+
+Largest number of steps; residual of a solution, relative to the size; largest angle between normal and axis [rad].
+"""
 
 Look: TypeAlias = tuple[float, Answer]
-"""Slope of the distance round the circle, over the radius, and gap, point and normal."""
+"""Derivative of the distance by the angle round the circle, over the radius, and the stop: gap, point, normal."""
 
 
 @compiled
@@ -53,10 +59,10 @@ def _look(point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float,
 def round_circle(
     point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, radius: float, sx: float, sy: float
 ) -> Answer:
-    """Return gap, point and normal of a smooth body where the distance from a circle has a least value.
+    """Return gap, smooth body's point and normal at the least distance of a circle from the body.
 
-    The circle is about the origin and the third axis; the normal points out of its disc.  The gap is nan where no such
-    angle was found.
+    The centre of the circle is the origin, its axis the third axis.  The normal points out of its disc.  The gap is nan
+    if no such point was found.
 
     Parameters
     ----------
@@ -67,15 +73,15 @@ def round_circle(
     x, y, z : float
         The core's centre [m].
     radius : float
-        That of the circle [m].
+        Radius of the circle [m].
     sx, sy : float
-        The direction in the plane of the circle to begin with, of any length.
+        Direction in the plane of the circle at which the search starts, of any length.
     """
     begin = math.atan2(sy, sx)
     none: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     look: Look = _look(point, core, turn, x, y, z, radius, begin)
     slope, reached = look
-    # downhill from there, and then in every part of the circle
+    # downhill from the start; if that fails, in every interval of the circle
     way = -math.copysign(1.0, slope)
     low, falling, step = begin, slope, _FIRST
     if abs(slope) > _SAME:
@@ -121,13 +127,17 @@ def _between(
     falling: float,
     rising: float,
 ) -> Answer:
-    """Return what is found between an angle at which the distance falls on the way to another and that one."""
+    """Return the stop at the least distance between two angles of the circle.
+
+    At ``low`` the distance falls towards ``high``, at ``high`` it falls towards ``low``; ``falling`` and ``rising`` are
+    the slopes there.
+    """
     x, y, z = place
     side, slow = 0, 0
     look: Look = _look(point, core, turn, x, y, z, radius, high)
     for _ in range(_STEPS):
         width = abs(high - low)
-        # by secants, each of which may leave more than half of the angle only so often
+        # secants; after several that leave more than half of the interval, a halving
         middle = (low * rising - high * falling) / (rising - falling)
         if slow >= _PATIENCE or not (min(low, high) < middle < max(low, high)):
             middle, slow = 0.5 * (low + high), 0
@@ -146,7 +156,7 @@ def _between(
         slow = slow + 1 if abs(high - low) > 0.5 * width else 0
     found = look[1]
     if not abs(look[0]) <= _ACROSS:
-        # a circle deep in the body, where the nearest point of the surface jumps
+        # the circle is deep in the body, and the nearest point of the surface jumps: no solution
         return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
     return found
 
@@ -155,11 +165,11 @@ def _between(
 def next_to_axis(
     core: Floats, turn: Axes, x: float, y: float, z: float, radius: float, sx: float, sy: float, up: float
 ) -> Answer:
-    """Return the same as :func:`round_circle` where the normal is nearly the axis, of a body with radii of curvature.
+    """Return the result of :func:`round_circle` for a normal that is nearly the axis of the circle, by Newton's method.
 
-    The unknowns are the angle between normal and axis, at first 0, and the angle round the axis.  In these Newton's
-    method meets no large numbers; of bodies that overlap the distance of a point has no such use.  The axis is to be
-    taken upward if ``up`` is 1, else -1.
+    It needs a body with radii of curvature.  The unknowns are the angle between normal and axis, at first 0, and the
+    angle round the axis.  With these unknowns the equations stay regular at the axis, and it also finds overlaps.  The
+    normal is along the axis if ``up`` is 1, against it if ``up`` is -1.
     """
     tilt, angle = 0.0, math.atan2(sy, sx)
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + radius
@@ -198,7 +208,7 @@ def next_to_axis(
 def along_segment(
     core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, ez: float, length: float
 ) -> tuple[Answer, float]:
-    """Return gap, point and normal of a smooth body where it is nearest to a segment, and how far along that is [m].
+    """Return gap, smooth body's point and normal at the least distance from a segment, and the place on it [m].
 
     The segment goes from the origin along the unit vector e.  The other arguments are those of :func:`round_circle`.
     """
@@ -207,7 +217,7 @@ def along_segment(
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     place = 0.0
     for i in range(_STEPS):
-        # both ends first, then halves
+        # both ends first, then the middle of the remaining interval
         s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
         cx, cy, cz = x - s * ex, y - s * ey, z - s * ez
         g, px, py, pz, nx, ny, nz = widest_of_round(point, core, turn, cx, cy, cz, cx, cy, cz)
@@ -217,7 +227,7 @@ def along_segment(
             break
         if i > 1 and (abs(ahead) <= _SAME or s == low or s == high):
             if g < 0.0 and abs(ahead) > _ACROSS:
-                # a segment deep in the body, where the nearest point of the surface jumps
+                # the segment is deep in the body, and the nearest point of the surface jumps: no solution
                 best = math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
             break
         if ahead > 0.0:
@@ -229,7 +239,7 @@ def along_segment(
 
 @compiled
 def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, up: float, lean: Point) -> Answer:
-    """Return gap, point and normal of a smooth body and a circle that overlap, along the direction with the largest.
+    """Return gap, smooth body's point and normal for an overlapping circle, along the direction of the largest gap.
 
     Parameters
     ----------
@@ -238,9 +248,9 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
     core, turn, x, y, z : Floats, Axes, float
         As in :func:`round_circle`.
     up : float
-        1 or -1, the side of the circle to which normals may lean; 0 for any.
+        1 or -1, the side of the circle's plane on which normals are allowed; 0 for both sides.
     lean : tuple of float
-        Cosine and sine of the normal to which they may lean on the other side, and the size of both bodies [m].
+        Radial and axial component of the last normal that is allowed on the other side, and size of both bodies [m].
     """
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     for start in starts_of(circle, core, turn, x, y, z):
@@ -248,13 +258,13 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
         found: Answer = widest_of_round(circle, core, turn, x, y, z, top[1], top[2], top[3])
         if not found[0] >= top[0] - _TOP * lean[2]:
             settled = settle(circle, core, turn, x, y, z, top)
-            # of two tops as high as each other but for round-off it may go from the one to the other
+            # if two maxima differ by round-off only, the ellipsoid method may go from one to the other
             if _leans_so(settled, up, lean) or not _leans_so(top, up, lean):
                 top = settled
             found = _along(circle, top)
         top = found[0], found[4], found[5], found[6]
         if not _leans_so(top, up, lean):
-            # next to a sharp place the gap hardly feels by how much the normal leans too far
+            # close to a sharp place the gap hardly depends on the normal: try the last allowed normal
             away = math.sqrt(top[1] * top[1] + top[2] * top[2])
             if away == 0.0:
                 continue
@@ -272,14 +282,14 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
 
 @compiled
 def _leans_so(top: Start, up: float, lean: Point) -> bool:
-    """Return whether the normal of a top leans to where it may; arguments as in :func:`up_hills`."""
+    """Return whether the normal of a maximum is among the allowed normals; arguments as in :func:`up_hills`."""
     _, nx, ny, nz = top
     return bool(up == 0.0 or up * (lean[0] * nz - lean[1] * math.sqrt(nx * nx + ny * ny)) >= -_TOP)
 
 
 @compiled
 def _along(circle: Floats, top: Start) -> Answer:
-    """Return gap, point and normal of a top, from the circle's farthest point along it."""
+    """Return gap, point and normal of a maximum of the gap, from the circle's farthest point along its direction."""
     g, nx, ny, nz = top
     a = support_of(circle, nx, ny, nz)
     return g, a[1] + g * nx, a[2] + g * ny, a[3] + g * nz, nx, ny, nz
@@ -289,11 +299,12 @@ def _along(circle: Floats, top: Start) -> Answer:
 def _facing(
     circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer
 ) -> tuple[Answer, float]:
-    """Return an answer with the points that face each other, and how far that of the body is off its surface [m].
+    """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
 
-    Where the body is sharp, the gap is sure to round-off and the normal is not: the circle's farthest point along it
-    turns with its part across the axis, which may be next to nothing.  From the circle's points the body is behind a
-    plane; the right one is that over which the surface is nearest.
+    Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
+    nearly the axis, its radial component is round-off, and so is the direction of the circle's farthest point.  The
+    right point of the circle is the one from which the point at the gap along the normal lies on the surface of the
+    body.
     """
     g, px, py, pz, nx, ny, nz = found
     extent, radius = max(core[0], core[1], core[2]), circle[0]
@@ -306,7 +317,7 @@ def _facing(
     qx, qy, _ = forth(turn, b[1], b[2], b[3])
     qx, qy = x + qx - g * nx, y + qy - g * ny
     cx, cy = px - g * nx, py - g * ny
-    # from the circle's point to the one next to the body's, and as far to either side
+    # search from the circle's point nearest to the body's point, to both sides as far as the present point
     middle = math.atan2(qy, qx)
     wide = abs(math.atan2(cx * qy - cy * qx, cx * qx + cy * qy)) if cx * cx + cy * cy > 0.0 else 0.0
     low, high = middle - wide - _FIRST, middle + wide + _FIRST
@@ -331,6 +342,6 @@ def _facing(
 
 @compiled
 def _over(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
-    """Return what the gauge of a point is off 1."""
+    """Return the difference of a point's gauge from 1, which is 0 on the surface of the core."""
     bx, by, bz = back(turn, x, y, z)
     return float(abs(gauge(core, bx, by, bz) - 1.0))

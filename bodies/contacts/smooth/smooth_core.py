@@ -1,6 +1,7 @@
-"""What the pairs of smooth bodies see of a body: a core with a smooth support function, and a radius about it.
+"""Rotations and second derivatives for contacts of smooth bodies.
 
-A core is the tuple of :func:`bodies.shapes.smooth.core_numbers`.
+A smooth body is a core with a smooth support function, rounded by a radius.  The core is the tuple of
+:func:`bodies.shapes.smooth.core_numbers`.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ RADIUS = 5
 
 @compiled
 def bend(s: Support, x: float, y: float, z: float, u: float, v: float, w: float) -> float:
-    """Return (x, y, z) . H (u, v, w) with the second derivative H of a support function."""
+    """Return (x, y, z) . H (u, v, w) with the second derivative H of a support function [m]."""
     return (
         x * (s[4] * u + s[9] * v + s[8] * w)
         + y * (s[9] * u + s[5] * v + s[7] * w)
@@ -33,7 +34,7 @@ def bend(s: Support, x: float, y: float, z: float, u: float, v: float, w: float)
 
 @compiled
 def axes_in_world(frame: Floats, core: Floats) -> Axes:
-    """Return the axes of a core in the world, as columns."""
+    """Return the axes of a smooth body's core in the world, as columns."""
     f, c = frame, core
     return (
         f[3] * c[9] + f[4] * c[12] + f[5] * c[15],
@@ -50,9 +51,10 @@ def axes_in_world(frame: Floats, core: Floats) -> Axes:
 
 @compiled
 def unit_axes_in_world(frame: Floats, core: Floats) -> Axes:
-    """Return the axes of a core in the world as columns of length 1.
+    """Return the axes of a smooth body's core in the world, as columns of length 1.
 
-    Within a step the length L of a quaternion differs from 1, and axes from its matrix have the length L^2.
+    Within a time step, a body's quaternion is not normalised.  If its length is L, the columns of its rotation matrix
+    have the length L^2.
     """
     found = axes_in_world(frame, core)
     x, y, z = found[0], found[1], found[2]
@@ -105,7 +107,7 @@ def between_axes(a: Axes, b: Axes) -> Axes:
 
 @compiled
 def forth(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the vector turned by a rotation."""
+    """Return the vector (x, y, z) turned by a rotation."""
     return (
         axes[0] * x + axes[1] * y + axes[2] * z,
         axes[3] * x + axes[4] * y + axes[5] * z,
@@ -115,7 +117,7 @@ def forth(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float
 
 @compiled
 def back(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the vector turned by the inverse of a rotation."""
+    """Return the vector (x, y, z) turned by the inverse of a rotation."""
     return (
         axes[0] * x + axes[3] * y + axes[6] * z,
         axes[1] * x + axes[4] * y + axes[7] * z,
@@ -125,9 +127,11 @@ def back(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]
 
 @compiled
 def write_core(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: float, z: float) -> None:
-    """Write slide 1 and turn, the second derivative of the support function at the core's own direction (x, y, z).
+    """Write the curvature matrices of a smooth body: slide 1, and turn, the matrix of its radii of curvature [m].
 
-    Normal and first tangent stand in ``out`` already; ``axes`` are those of the core in the world.
+    Turn is the second derivative of the support function at the normal (x, y, z), in the axes of the core, plus the
+    radius.  The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the
+    world.
     """
     s = support_of(core, x, y, z)
     tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])

@@ -1,4 +1,9 @@
-"""The gap of two cores of any kind: by normals where both have radii of curvature, else by points of the boxy one."""
+"""The gap of two smooth bodies of any kind, and the curvature of their surfaces.
+
+Cores are of three kinds, by their powers (:mod:`bodies.shapes.support_function`): round cores have radii of curvature
+everywhere, boxy cores have flat places, mixed cores have flat and sharp places.  Round cores are searched by their
+normals, boxy cores by their points, mixed cores by charts.
+"""
 
 from __future__ import annotations
 
@@ -20,26 +25,33 @@ from .smooth_core import Axes, back, forth, write_core
 from .smooth_starts import gap_along, settle, starts_of, uphill
 
 _DEEP = 1e-2
-"""Overlap, in units of the least semi-axis, that is no doubt the shortest way out."""
+"""Overlap up to which a solution is taken as the shortest way out without a proof, relative to the least semi-axis."""
 
 _TOUCHING = 1e-12
-"""Overlap, in units of the distance of the centres, that is not asked for a proof."""
+"""Overlap up to which no common point is needed as a proof, relative to the distance of the centres."""
 
 _TOPS = 4
 """Directions with large gaps from which the search begins, before the twelve axes of both bodies."""
 _THIN = 4.0
 _BURIED = 0.5
-"""Ratio of semi-axes, and overlap in units of the least one, from which on these axes are looked at in any case."""
+"""Limits beyond which the search also starts along the axes of both bodies, although a solution was found.
+
+In this order: largest semi-axis over least semi-axis; overlap over least semi-axis.
+"""
 _NEARBY, _NEXT_TO = 0.05, 1e-6
-"""How close to a top the search begins where a first one failed, and a second [rad]."""
+"""Angle to a maximum of the gap from which Newton's method starts after one failure, and after two [rad]."""
 _FEW_PARTS, _PARTS = 4, 24
-"""Steps of the powers on the way from ellipsoids where all direct ways fail."""
+"""Numbers of steps in which powers are changed from ellipsoids to the cores, tried in turn if direct searches fail."""
 _ON_AXIS, _SUNK = 1e-5, 0.2
-"""How far from the axis of a circle a top may be found that is on it [rad], and overlaps up to which no other is."""
+"""Rules for a maximum of the gap on the axis of a circle.
+
+A maximum within the first number [rad] of the axis is on the axis.  The second is the largest overlap, relative to the
+least semi-axis, for which the rule applies.
+"""
 _SAMPLES = 8
-"""Parts of the way between the points of an answer at whose ends a point of both is looked for."""
+"""Intervals between the two points of a solution, at whose ends a common point of both bodies is sought."""
 _NOWHERE = 1e-300
-"""Gauge of a centre, which is 0, to divide by."""
+"""Least gauge, which replaces the gauge 0 of a centre in a division."""
 _ON_SURFACE = 1e-12
 """Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 
@@ -48,14 +60,15 @@ _ON_SURFACE = 1e-12
 def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
     """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
 
-    The gap is nan where none was found.  One above 0 is the only one; one below is told only with a point that both
-    bodies have.  Thin bodies that overlap, or nearly touch, have ways out that are longer than another: where the first
-    answer is none, or cannot be proved to be the shortest, the search begins from directions with a large gap as well.
+    The gap is nan if no solution was found.  A positive gap is unique.  A negative gap is returned only with a common
+    point of both bodies as a proof.  Thin bodies that overlap have several locally shortest ways out.  If the first
+    search fails, or its solution is not proved to be the shortest, the search also starts from directions with a large
+    gap.
 
     Parameters
     ----------
     first, second : Floats
-        The cores; their radii are left out.
+        The cores; their radii are not used.
     turn : Axes
         Rotation from the axes of the second core to those of the first.
     x, y, z : float
@@ -89,7 +102,7 @@ def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: flo
             seen, sx, sy, sz = starts[attempt]
             found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
             if not found[0] >= seen:
-                # Newton's method left the hill, or found no top
+                # Newton's method went to a smaller maximum, or did not converge
                 _, sx, sy, sz = uphill(first, second, turn, x, y, z, starts[attempt], _NEARBY)
                 found = _from_start(first, second, turn, x, y, z, sx, sy, sz)
         overlap = overlap or _share_a_point(first, second, turn, x, y, z, found)
@@ -120,9 +133,9 @@ def _is_thin(first: Floats, second: Floats) -> bool:
 
 @compiled
 def _share_a_point(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> bool:
-    """Return whether a point is known that both bodies have, where an answer says that they overlap.
+    """Return whether a common point of both bodies is found, which confirms the overlap of a solution.
 
-    Looked at are the points of the answer, some between them, and the line of centres.
+    Candidates are the two points of the solution, points between them, and the line of centres.
     """
     g, qx, qy, qz, nx, ny, nz = found
     if g >= -_TOUCHING * (abs(x) + abs(y) + abs(z)):
@@ -134,7 +147,7 @@ def _share_a_point(first: Floats, second: Floats, turn: Axes, x: float, y: float
         bx, by, bz = back(turn, px - x, py - y, pz - z)
         if gauge(second, bx, by, bz) <= 1.0 + _ON_SURFACE and gauge(first, px, py, pz) <= 1.0 + _ON_SURFACE:
             return True
-    # on the line of centres either body has a part next to its own
+    # on the line of centres, each body covers the piece next to its own centre
     ax, ay, az = back(turn, -x, -y, -z)
     one, two = max(gauge_of(first, x, y, z), _NOWHERE), max(gauge_of(second, ax, ay, az), _NOWHERE)
     return bool(1.0 / one + 1.0 / two >= 1.0)
@@ -157,7 +170,7 @@ def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z
     g, nx, ny, nz = climb(one, two, turn, (x, y, z), (0.0, 0.0, 0.0), (x, y, z))
     found = (g, x, y, z, nx, ny, nz)
     if g == g:
-        # from the normal of the ellipsoids with their semi-axes
+        # start from the normal of ellipsoids with the same semi-axes
         found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
     return found
 
@@ -184,11 +197,10 @@ def _from_start(
 def _in_charts(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return gap, point and normal of the largest gap if a core is flat in one direction and sharp in another.
+    """Return the largest gap, second core's point and normal, if a core is flat in one direction and sharp in another.
 
-    The search starts from the normal of the ellipsoids with the same semi-axes.
-
-    The gap to a circle that is largest along the axis is that to its middle, and none of the circle's own.
+    The search starts from the normal of ellipsoids with the same semi-axes.  If the first core is a circle (the rim of
+    a frustum), a maximum along the circle's axis gives nan: it is the gap to the middle of the disc, not to the rim.
     """
     one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
     found: Answer = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
@@ -221,7 +233,10 @@ def _in_charts(
 def _by_parts(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float, parts: int
 ) -> Answer:
-    """Return gap, point and normal; a failed search is repeated with powers changed in ``parts`` steps from 2."""
+    """Return gap, second core's point and normal; the search starts in the direction (sx, sy, sz).
+
+    If it fails, it is repeated with ellipsoids whose powers are changed in ``parts`` steps from 2 to the cores' own.
+    """
     one, two = (
         (first[0], first[1], first[2], first[3], first[4]),
         (second[0], second[1], second[2], second[3], second[4]),
@@ -234,7 +249,7 @@ def _by_parts(
 def widest_of_round(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return gap, point and normal of the largest gap if the first core is not boxy; it may be a point or flat."""
+    """Return the largest gap, second core's point and normal; the first core is round, a point or a circle."""
     if is_mixed(second) or is_boxy(second):
         if is_mixed(second):
             found: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz)
@@ -254,7 +269,7 @@ def widest_of_round(
 def _from_boxy(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return gap, point and normal of the largest gap, by the points of the second core, which is boxy."""
+    """Return the largest gap, second core's point and normal, by a search over points of the second, boxy core."""
     ax, ay, az = back(turn, -x, -y, -z)
     sx, sy, sz = back(turn, -sx, -sy, -sz)
     g, px, py, pz, nx, ny, nz = climb_boxy(second, first, opposite(turn), ax, ay, az, sx, sy, sz)
@@ -267,9 +282,10 @@ def _from_boxy(
 def _by_cuts(
     point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return gap, point and normal for a point outside, if Newton's method did not converge.
+    """Return gap, point and normal of a core and a point outside of it, for searches in which Newton's method fails.
 
-    At a pole with a power just under 2 the curvatures jump from those of a round place to 0.
+    Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
+    small distance.  The ellipsoid method needs no curvatures.
     """
     bx, by, bz = back(turn, -x, -y, -z)
     length = math.sqrt(sx * sx + sy * sy + sz * sz)
@@ -295,7 +311,10 @@ def opposite(turn: Axes) -> Axes:
 def _both(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return gap, point of the first core and normal of two boxy cores; the search starts with one an ellipsoid."""
+    """Return the gap of two cores with flat places, the first core's point and the normal.
+
+    The search first replaces the second core by an ellipsoid, then the first, and starts from the normal so found.
+    """
     other = second[0], second[1], second[2], 2.0, 2.0
     g, _, _, _, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
     found: Answer = _from(first, second, turn, x, y, z, nx, ny, nz)
@@ -319,7 +338,7 @@ def _both(
 def _from(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> Answer:
-    """Begin with the points of a normal, of any length."""
+    """Return the gap of two boxy cores, the first's point and the normal; start at their points with the normal n."""
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
     nx, ny, nz = nx / length, ny / length, nz / length
     mx, my, mz = back(turn, -nx, -ny, -nz)
@@ -331,7 +350,7 @@ def _from(
 
 @compiled
 def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
-    """Return gap, the core's point and the normal of a point or a line at the origin, and a core of any kind."""
+    """Return gap, core's point and normal for a core of any kind and the origin, or the line along ``axis`` there."""
     (x, y, z), (along_x, along_y, along_z), (start_x, start_y, start_z) = place, axis, start
     if is_round(core):
         g, nx, ny, nz = climb(hull, core, turn, place, axis, start)
@@ -355,7 +374,7 @@ def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Ve
 
 @compiled
 def write_surface(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3, p: Vector3) -> None:
-    """Write slide and turn of a core of any kind at its point p with the outward normal n, both in its own axes."""
+    """Write the curvature matrices of a core of any kind at its point p with outward normal, both in its own axes."""
     (nx, ny, nz), (px, py, pz) = normal, p
     if is_mixed(core):
         write_chart(out, side, core, axes, nx, ny, nz)

@@ -1,4 +1,4 @@
-"""Two bodies with smooth support functions."""
+"""Contact of two bodies with smooth support functions."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from .smooth_newton import widest, write_surface
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
-    """Write the geometry block of two cores, the tuples of :mod:`bodies.contacts.smooth.smooth_core`; one is no point.
+    """Write the geometry block of two smooth bodies, given as cores; at most one of them is a point.
 
-    The gap is nan where Newton's method does not end with a residual of round-off.
+    The gap is nan if Newton's method fails.
     """
     axes_a, axes_b = unit_axes_in_world(a, first), unit_axes_in_world(b, second)
     ax, ay, az = point_in_world(a, first[6], first[7], first[8])
@@ -56,9 +56,9 @@ class SmoothSmooth(ContactKinematics):
     Attributes
     ----------
     first : SmoothShape
-        The one.
+        The smooth shape of the first body.
     second : SmoothShape
-        The other.
+        The smooth shape of the second body.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SmoothShape, SmoothShape)
@@ -73,7 +73,7 @@ class SmoothSmooth(ContactKinematics):
         Raises
         ------
         InvalidInput
-            If one is known by its farthest points only and the other is flat one way and sharp the other.
+            One shape is given by its farthest points only, and the other has both flat and sharp places.
         """
         assert isinstance(first, SmoothShape)
         assert isinstance(second, SmoothShape)
@@ -98,5 +98,5 @@ class SmoothSmooth(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The only pair."""
+        """Name of the only pair of features."""
         return ("smooth-smooth",)

@@ -17,13 +17,13 @@ from ..features.frames import tangent_of
 from .smooth_core import Axes, back, forth
 
 _LONGEST, _MOVES = 0.2, 100
-"""First step uphill [rad], and the most steps."""
+"""First step uphill [rad]; largest number of steps."""
 _NEAR = 0.95
-"""Cosine of the angle between directions of which the better one stands for both."""
+"""Cosine of the angle within which two directions are the same start; the one with the larger gap is kept."""
 Start: TypeAlias = tuple[float, float, float, float]
-"""A gap, and the unit vector along which it is."""
+"""A gap [m], and the unit vector along which it is measured."""
 Starts: TypeAlias = tuple[Start, Start, Start, Start]
-"""Four of them, in no order."""
+"""Four starts, in no order."""
 
 
 @compiled
@@ -41,7 +41,7 @@ def gap_along(
 def uphill(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, start: Start, least: float
 ) -> Start:
-    """Return a direction with a larger gap than any other at an angle of about ``least`` from it, by steps from one."""
+    """Return a local maximum of the gap [m] and its direction, to about ``least`` [rad], by steps from ``start``."""
     g, nx, ny, nz = start
     step = _LONGEST
     for _ in range(_MOVES):
@@ -66,12 +66,12 @@ def uphill(
 
 @compiled
 def starts_of(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Starts:
-    """Return four directions apart from each other with the largest gaps that were seen.
+    """Return four directions that are not close to each other, with the largest gaps of all directions tried.
 
     Parameters
     ----------
     first, second : Floats
-        The cores; their radii are left out.
+        The cores; their radii are not used.
     turn : Axes
         Rotation from the axes of the second core to those of the first.
     x, y, z : float
@@ -95,7 +95,7 @@ def starts_of(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: 
 
 @compiled
 def _with(kept: Starts, new: Start) -> Starts:
-    """Return those kept with a new one in the place of one near it, or else of the worst, if it is better."""
+    """Return the kept starts; a new one with a larger gap replaces a kept one close to it, or else the worst one."""
     one, two, three, four = kept
     if _is_near(one, new):
         place = 0
@@ -124,9 +124,13 @@ def _is_near(one: Start, two: Start) -> bool:
 
 
 _CUTS, _WIDE = 400, 0.1
-"""Most cuts of the ellipsoid method, and radius of its first ellipse, a circle [rad]."""
+"""Largest number of ellipses in a run of the ellipsoid method; radius of its first ellipse, which is a circle [rad]."""
 _ELLIPSES = 8
-"""Largest number of runs of the ellipsoid method: as long as its answer is far from its start, it runs again."""
+"""Largest number of runs of the ellipsoid method.
+
+A run starts from the direction that the run before found, as long as a run turns the direction by more than about half
+of ``_WIDE``.
+"""
 _HIGHER = 1e-16
 """The ellipsoid method ends if the gap can grow by less than this, relative to the size of the bodies."""
 
@@ -169,9 +173,10 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
 def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
     """Return the largest gap near a direction and that direction, by the ellipsoid method, also on narrow ridges.
 
-    Directions are points of the plane that touches the unit sphere at the start.  The gap can be larger than at the
-    middle of an ellipse in one half of it only; the smallest ellipse round that half is the next one.  If the answer is
-    far from the start, the method starts again from the answer.
+    Directions are points of the plane that touches the unit sphere at the start.  An ellipse in this plane holds the
+    maximum.  The gradient of the gap at its centre shows in which half of the ellipse the gap can be larger.  The next
+    ellipse is the smallest one round that half.  If the direction found is far from the start, the method starts again
+    from it.
 
     Parameters
     ----------

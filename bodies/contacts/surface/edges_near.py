@@ -1,4 +1,4 @@
-"""Which edges of two bodies are near each other and may touch, by the trees of their surfaces."""
+"""Search, by trees of boxes, for pairs of edges of two bodies that are near each other and may touch."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .surface_tables import EDGE, EDGES, MEMBERS, N_EDGES, N_NODES, N_TRIANGLES,
 from .surface_vertex import ASTRAY
 
 _ALONG = 1e-3
-"""Sine of the angle between edges below which nothing is said of their normals."""
+"""Sine of the angle between two edges below which their common normal is too inexact to exclude the pair."""
 
 
 @compiled
 def _passes_box(
     surface: Floats, at: int, px: float, py: float, pz: float, dx: float, dy: float, dz: float, reach: float
 ) -> bool:
-    """Return whether a line from p by d is nearer to the box of a node than a reach [m] along each axis."""
+    """Return whether the segment from p to p + d meets the box of a node, enlarged by ``reach`` [m] to all sides."""
     low, high = 0.0, 1.0
     for i in range(3):
         p, d = (px, dx) if i == 0 else (py, dy) if i == 1 else (pz, dz)
@@ -40,7 +40,7 @@ def _passes_box(
 
 @compiled
 def _square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
-    """Return the square of the distance of two segments: along e by up to p, and from w along f by up to q."""
+    """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q."""
     (wx, wy, wz), (ex, ey, ez), (fx, fy, fz) = w, e, f
     across = ex * fx + ey * fy + ez * fz
     along_e, along_f = wx * ex + wy * ey + wz * ez, wx * fx + wy * fy + wz * fz
@@ -54,7 +54,7 @@ def _square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> 
 
 @compiled
 def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, turn: float) -> bool:
-    """Return whether the normals of two edges face each other, or may after a small turn."""
+    """Return whether the normals of two edges face each other, or may do so after a rotation by ``turn`` [rad]."""
     ex, ey, ez = vector_in_world(a, surface_a[one + 3], surface_a[one + 4], surface_a[one + 5])
     fx, fy, fz = vector_in_world(b, surface_b[two + 3], surface_b[two + 4], surface_b[two + 5])
     x, y, z = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
@@ -64,7 +64,7 @@ def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Flo
     x, y, z = x / sine, y / sine, z / sine
     plus = max(edge_astray(a, surface_a, one, 1.0, x, y, z), edge_astray(b, surface_b, two, -1.0, x, y, z))
     minus = max(edge_astray(a, surface_a, one, -1.0, x, y, z), edge_astray(b, surface_b, two, 1.0, x, y, z))
-    # the normal turns with either edge, the faster the less they cross
+    # the common normal turns with both edges, by a factor up to 1 / sine faster
     return bool(min(plus, minus) <= ASTRAY + turn * (1.0 + 2.0 / sine))
 
 
@@ -83,9 +83,10 @@ def edges_across(
     n: int,
     most: int,
 ) -> int:
-    """Write the edges of the surface of the first body near one of the second; return how many candidates there are.
+    """Append pairs of near edges of the first body's surface and one edge of the second body; return the new number.
 
-    Arguments as of :func:`edges_near`; the numbers of that edge stand at ``two``, and its own is the third of these.
+    The row of the second body's edge begins at index ``two``; its number is the third number of the candidates.  The
+    other arguments are those of :func:`edges_near`.
     """
     first, members = int(surface[N_TRIANGLES]), int(surface[MEMBERS])
     px, py, pz = seen_from(a, b, edges[two], edges[two + 1], edges[two + 2])
@@ -126,9 +127,9 @@ def edges_near(
     n: int,
     most: int,
 ) -> int:
-    """Write the edges of both bodies that are near each other behind ``n``; return how many candidates there are.
+    """Append the pairs of near edges of both bodies to the ``n`` candidates; return the new number of candidates.
 
-    Arguments as of :func:`bodies.contacts.surface.surface_near.corners_near`.
+    The arguments are those of :func:`bodies.contacts.surface.surface_near.corners_near`.
     """
     first, members, node = int(surface_b[N_TRIANGLES]), int(surface_b[MEMBERS]), 0
     while node < int(surface_b[N_NODES]) and n <= most:

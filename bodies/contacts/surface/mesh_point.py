@@ -1,4 +1,4 @@
-"""A vertex against a patch of a triangle mesh, whichever of the two is the first body."""
+"""Contacts of a vertex with a patch of a triangle mesh; the vertex may belong to the first or the second body."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
 from .surface_vertex import face_under
 
 Corner = tuple[tuple[float, float, float], Numbers, str]
-"""Place of a vertex, unit vectors along its edges, one after the other, and what it is called."""
+"""Place of a vertex [m], unit vectors along its edges, one after the other, and its name."""
 
 
 def _evaluate(
@@ -58,7 +58,7 @@ def write_over_first(
 ) -> None:
     """Write the geometry block of a vertex of the second body over a patch of the first.
 
-    Arguments as of :func:`bodies.contacts.surface.surface_vertex.face_under`.
+    The arguments are those of :func:`bodies.contacts.surface.surface_vertex.face_under`.
     """
     face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
     f = int(surface[FACES]) + FACE * face
@@ -104,7 +104,7 @@ def write_over_second(
     reach: float,
     radius: float,
 ) -> None:
-    """Write the same of a vertex of the first body, with a radius about it [m], over a patch of the second."""
+    """Write the geometry block of a vertex of the first body, rounded by ``radius`` [m], over a patch of the second."""
     face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
     f = int(surface[FACES]) + FACE * face
     gap = gap_at_distance(gap, past, radius)
@@ -205,21 +205,21 @@ class MeshPoint(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         return self.vertex.features
 
 
 @final
 @dataclass(frozen=True)
 class PointMesh(ContactKinematics):
-    """A vertex of the first body, with a radius about it or without, against a patch of the surface of the second.
+    """A sharp or rounded vertex of the first body against a patch of the surface of the second.
 
     Attributes
     ----------
     vertex : _Vertex
         The vertex and the patch.
     radius : float
-        The radius [m].
+        Radius of the sphere about the vertex [m]; 0 for a sharp vertex.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Point, TriangleMesh)
@@ -252,7 +252,7 @@ class PointMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The faces."""
+        """Names of the faces, with the other feature."""
         return self.vertex.features
 
 

@@ -1,4 +1,4 @@
-"""A round body against a surface of many patches, of which those near it are contacts."""
+"""Base class for contacts of a sphere or smooth body with a surface of many patches; near patches only are contacts."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from .surface_tables import N_PATCHES, surface_numbers
 MOST_EACH = 8
 """Largest number of patches of a surface for which each patch is a contact of its own, without a search."""
 NEAR = 1.0
-"""Kind of all candidates here, the first of the three numbers; the number of the patch and 0 follow."""
+"""First of the three numbers of a candidate, its kind; the second is the number of a patch, the third is 0."""
 
 
 def _find(
     a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, x_b: float, y_b: float, z_b: float
 ) -> None:
-    """Find the patches with a feature near the ball that holds the second body."""
+    """Find the patches with a feature near the ball that encloses the second body."""
     x, y, z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, x - a[POSITION], y - a[POSITION + 1], z - a[POSITION + 2])
     most = int(surface[N_PATCHES])
@@ -36,22 +36,22 @@ def _find(
 
 
 def are_many(patches: Patches) -> bool:
-    """Return whether so many patches are searched for, rather than each a contact."""
+    """Return whether there are too many patches for a contact each, so that near patches are searched for."""
     return patches.count > MOST_EACH
 
 
 @dataclass(frozen=True)
 class PatchNear(ContactKinematics, ABC):
-    """The contact of a round body with a patch of a surface near it at present.
+    """Contact of a sphere or smooth body with one patch of a surface; a search assigns a patch that is near at present.
 
-    The evaluator takes the patch from the second number of the candidate.
+    The evaluator's argument ``candidate`` holds the number of the patch as its second number.
 
     Attributes
     ----------
     search : CandidateSearch
         Search for patches near the body.
     values : mapping
-        The parameters of the evaluator but for the candidate.
+        The parameters of the evaluator, except ``candidate``.
     n_features : int
         Number of features of the surface.
     number : int
@@ -71,16 +71,16 @@ class PatchNear(ContactKinematics, ABC):
         ball: tuple[float, float, float, float],
         values: Mapping[str, Value],
     ) -> tuple[Self, ...]:
-        """Return as many contacts as a surface has patches.
+        """Return contacts with near patches, one for each patch of the surface, because all patches can be near.
 
         Parameters
         ----------
         own, patches : Features, Patches
             The surface, and how it is divided.
         ball : tuple of float
-            Centre, in its body frame, and radius of a ball that holds the second body [m].
+            Centre, in the second body's frame, and radius of a ball that encloses the second body [m].
         values : mapping
-            The parameters of the evaluator but for candidate, surface and size.
+            The parameters of the evaluator, except ``candidate``, ``surface`` and ``size``.
         """
         surface = surface_numbers(own, patches)
         x, y, z, extent = ball
@@ -99,7 +99,7 @@ class PatchNear(ContactKinematics, ABC):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return the parameters of the evaluator, with an empty candidate."""
+        """Return the parameters of the evaluator, with a candidate without a patch."""
         return {**self.values, "candidate": NO_CANDIDATE}
 
     @property

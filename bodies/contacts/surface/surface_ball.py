@@ -35,7 +35,7 @@ def out_of_surface(
 def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: int, number: int) -> None:
     """Write the matrices of a face, an edge or a corner, and its number (faces first, then edges, then corners).
 
-    Normal and first tangent must be in ``out``.
+    The geometry block ``out`` must already hold the normal and the first tangent.
     """
     out[FEATURE] = float(number)
     if kind == ON_FACE:
@@ -66,12 +66,15 @@ def write_ball(
     size: float,
     reach: float,
 ) -> None:
-    """Write the geometry block of a ball of the second body and a patch of the first, looked for up to a reach [m]."""
+    """Write the geometry block of a ball of the second body and a patch of the first body.
+
+    Features of the patch are searched up to the distance ``reach`` from the ball's centre [m].
+    """
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
     found = nearest_in_patch(surface, patch, x, y, z, reach)
     distance, kind, number = found[0], found[2], found[3]
-    # a single patch is the whole surface, which has no end
+    # if there is one patch only, it is the whole surface: the contact point can never be past its end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     nx, ny, nz = out_of_surface(a, surface, found, past, x, y, z)
     if n_star > 0.0:

@@ -1,4 +1,4 @@
-"""A convex edge of one body across one of another, neither of which need be convex."""
+"""Contact of convex edges of two bodies that cross each other; the bodies need not be convex."""
 
 from __future__ import annotations
 
@@ -16,16 +16,22 @@ from .surface_search import depth_inside
 from .surface_vertex import ASTRAY
 
 _PARALLEL = 0.01
-"""Sine of the angle between two edges below which they do not cross; then the vertices hold all the same."""
+"""Least sine of the angle between crossing edges; contacts of the vertices suffice for edges closer to parallel."""
 _PARALLEL_ROUNDED = 1e-5
-"""The same of edges with a radius, whose distance counts, not their normal; what vertices hold is nearer by less."""
+"""Least sine of the angle between crossing edges if one is rounded.
+
+It can be smaller than for sharp edges, because the normal is the line between the edges, which stays accurate.
+"""
 _NEAR_ENDS = 4.0
-"""Where no point is found inside, edges overlap only where they cross so many depths away from their ends."""
+"""Least distance of the crossing of overlapping edges from their ends, relative to the depth.
+
+It applies if no contact point is inside of the other body: closer to its end, an edge may not overlap at all.
+"""
 
 
 @compiled
 def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle by which a vector across the edge there, times ``sign``, leaves its normals."""
+    """Return the sine of the angle by which (x, y, z), times ``sign``, leaves the normals of the edge at ``at``."""
     x, y, z = vector_in_body(frame, sign * x, sign * y, sign * z)
     one = x * edge[at + 7] + y * edge[at + 8] + z * edge[at + 9]
     return float(max(one, x * edge[at + 10] + y * edge[at + 11] + z * edge[at + 12]))
@@ -33,7 +39,7 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
 
 @compiled
 def _depth(frame: Floats, surface: Floats, x: float, y: float, z: float) -> float:
-    """Return how far a point of the world is inside of a body [m]."""
+    """Return the depth of a world point inside of a body [m]; 0 outside."""
     x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
     return float(depth_inside(surface, x, y, z))
 
@@ -49,7 +55,7 @@ def evaluate_edges(
     radius: float,
     size: float,
 ) -> None:
-    """Write the geometry block of two edges; arguments as of :func:`write_edges`."""
+    """Write the geometry block of two edges, with their rows at index 0; other arguments as in :func:`write_edges`."""
     write_edges(a, b, out, edge_a, 0, edge_b, 0, surface_a, surface_b, radius, size)
 
 
@@ -67,11 +73,12 @@ def write_edges(
     radius: float,
     size: float,
 ) -> None:
-    """Write the geometry block where the lines of two edges, the second with a radius about it, are nearest.
+    """Write the geometry block of two edges at the nearest points of their lines; the second edge has a radius [m].
 
-    The normal is the one of the two across both edges that is nearer to the normals that the edges have.  Where it
-    leaves them, or the lines are nearest past an end, the contact is open, with a positive gap unless one of the
-    points is inside of the other body.  The numbers of the edges stand at ``at_a`` and ``at_b``.
+    The normal is perpendicular to both edges, with the sign for which it is nearer to the normals of the edges.  The
+    contact is open if the normal is not among these normals, or if a nearest point is past the end of its edge.  Then
+    the gap is positive, unless one of the points is inside of the other body.  The rows of the edges begin at the
+    indices ``at_a`` and ``at_b``.
     """
     ax, ay, az = point_in_world(a, edge_a[at_a], edge_a[at_a + 1], edge_a[at_a + 2])
     bx, by, bz = point_in_world(b, edge_b[at_b], edge_b[at_b + 1], edge_b[at_b + 2])
@@ -85,7 +92,7 @@ def write_edges(
     s, t, over, past = 0.0, 0.0, 0.0, size * parallel
     if sine > 1e-3 * parallel:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
-        # (w x f) . n / sine along the first, (w x e) . n / sine along the second
+        # places of the nearest points: (w x f) . n / sine along the first line, (w x e) . n / sine along the second
         s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
         t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[at_a + 6]), max(-t, t - edge_b[at_b + 6]))
@@ -111,7 +118,7 @@ def write_edges(
     if gap < 0.0 and depth <= DEEP * size:
         past = max(past, over - _NEAR_ENDS * gap - margin)
     if past > 0.0:
-        # what is inside and no contact of these edges is a sign that another one was passed
+        # an overlap without a contact of these edges: another contact was missed, so write the depth
         apart = abs(gap) - radius
         gap = -depth - radius if depth > DEEP * size else math.sqrt(apart * apart + past * past)
     else:

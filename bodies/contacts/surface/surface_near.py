@@ -1,4 +1,4 @@
-"""Which patches of a surface are near a point, and which corners of another surface may touch them, by their trees."""
+"""Search, by trees of boxes, for patches of a surface near a point, and for corners of another surface near them."""
 
 from __future__ import annotations
 
@@ -36,20 +36,23 @@ In this order: corner of the second body over a patch of the first, corner of th
 two edges.  The numbers of patch and corner, or of the edges of the first and the second body, follow.
 """
 FEW = 64
-"""Candidates that are enough to look ahead for: all of them are evaluated at every step, so that less far is faster."""
+"""Largest number of candidates that a search beyond the margin ``narrow`` may list.
+
+All candidates are evaluated at every step, so that more of them cost more than another search.
+"""
 NARROW = 1e-2
-"""Part of the smaller extent from which it is not narrow any more to look ahead."""
+"""Margin up to which a search may fill all contacts with candidates, relative to the extent of the smaller body."""
 
 
 @compiled
 def room_ahead(reach: float, narrow: float, most: int) -> int:
-    """Return how many candidates are listed up to a reach: all that have room where it is narrow [m]."""
+    """Return the largest number of candidates: ``most`` up to the reach ``narrow`` [m], beyond it at most `FEW`."""
     return most if reach <= narrow else min(most, FEW)
 
 
 @compiled
 def seen_from(frame: Floats, other: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return a point of the other body in the axes of a frame [m]."""
+    """Return a point (x, y, z) of the body ``other`` in the axes of the body ``frame`` [m]."""
     x, y, z = point_in_world(other, x, y, z)
     x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
     return x, y, z
@@ -57,7 +60,7 @@ def seen_from(frame: Floats, other: Floats, x: float, y: float, z: float) -> tup
 
 @compiled
 def _is_near(surface: Floats, x: float, y: float, z: float, reach: float) -> bool:
-    """Return whether some leaf of a surface may be nearer to a point than a reach [m]."""
+    """Return whether the box of a leaf of a surface is within ``reach`` [m] of a point."""
     node = 0
     while node < int(surface[N_NODES]):
         at = int(surface[NODES]) + NODE * node
@@ -72,7 +75,7 @@ def _is_near(surface: Floats, x: float, y: float, z: float, reach: float) -> boo
 
 @compiled
 def _patch_of(surface: Floats, member: int) -> float:
-    """Return the patch of a member of the tree."""
+    """Return the patch of a feature by its number in the tree: triangles, then convex edges, then corners."""
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
     if member < n_triangles:
         t = int(surface[TRIANGLES]) + TRIANGLE * member
@@ -84,7 +87,7 @@ def _patch_of(surface: Floats, member: int) -> float:
 
 @compiled
 def _add_patch(patch: float, kind: float, third: float, first: int, out: Floats, n: int) -> int:
-    """Write a candidate of a patch behind ``n``, unless it is among those from ``first`` on; return their number."""
+    """Append a patch to the ``n`` candidates, unless candidates from ``first`` on hold it; return the new number."""
     for known in range(first, n):
         if out[2 + 3 * known] == patch:
             return n
@@ -105,18 +108,18 @@ def patches_near(
     n: int,
     most: int,
 ) -> int:
-    """Write the patches with a leaf no farther from a point than a reach [m] as candidates; return their number.
+    """Append the patches with a leaf within ``reach`` [m] of a point to the candidates; return the new number.
 
     Parameters
     ----------
     surface : Floats
         Numbers of the surface.
     x, y, z, reach : float
-        The point in its axes, and how far from it [m].
+        The point in the axes of the surface, and the largest distance from it [m].
     kind, third : float
-        The first and the third number of these candidates; the second is that of the patch.
+        The first and the third number of these candidates; the second is the number of the patch.
     out, n, most : Floats, int
-        As of :func:`corners_near`.
+        As in :func:`corners_near`.
     """
     members, first, node = int(surface[MEMBERS]), n, 0
     while node < int(surface[N_NODES]) and n <= most:
@@ -134,7 +137,7 @@ def patches_near(
 
 @compiled
 def is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, at: int, reach: float) -> bool:
-    """Return whether something in a node of the other body may be nearer to a surface than a reach [m]."""
+    """Return whether a node of the other body's tree may be within ``reach`` [m] of a surface."""
     dx, dy, dz = parts[at + 3] - parts[at], parts[at + 4] - parts[at + 1], parts[at + 5] - parts[at + 2]
     x, y, z = seen_from(frame, other, parts[at] + 0.5 * dx, parts[at + 1] + 0.5 * dy, parts[at + 2] + 0.5 * dz)
     return bool(_is_near(surface, x, y, z, 0.5 * math.sqrt(dx * dx + dy * dy + dz * dz) + reach))
@@ -156,9 +159,11 @@ def patches_under(
     n: int,
     most: int,
 ) -> int:
-    """Write the patches of the faces no farther from a vertex than a reach that it may stand over after a small turn.
+    """Append the patches of faces that a vertex of the other body may soon touch; return the new number of candidates.
 
-    Arguments as of :func:`corners_near` and :func:`patches_near`; place and star are those of the other body's vertex.
+    The faces are within ``reach`` [m] of the vertex, and no edge of it leads below them after a rotation by ``turn``.
+    ``place`` is the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other
+    arguments are those of :func:`corners_near` and :func:`patches_near`.
     """
     x, y, z = seen_from(frame, other, place[0], place[1], place[2])
     members, first, node = int(surface[MEMBERS]), n, 0
@@ -194,24 +199,24 @@ def corners_near(
     n: int,
     most: int,
 ) -> int:
-    """Write the corners of the other body near patches of the surface in ``frame`` behind ``n``; return their number.
+    """Append pairs of a corner of the other body and a near patch of the surface in ``frame``; return the new number.
 
     Parameters
     ----------
     frame, other : Floats
         Frame blocks.
     surface, corners : Floats
-        Numbers of either body's surface.
+        Numbers of the surface in ``frame`` and of the surface of the other body.
     reach : float
-        How far from each other [m].
+        Largest distance of corner and patch [m].
     turn : float
-        How far the bodies may turn until they are looked for again [rad].
+        Largest relative rotation of the bodies until the next search [rad].
     kind : float
         The first number of these candidates.
     out : Floats
-        Three numbers of each, from the second place on.
+        Three numbers of each candidate, from index 1 on.
     n, most : int
-        How many there are, and more of which are not counted.
+        Number of candidates so far, and the number after which the search stops.
     """
     first = int(corners[N_TRIANGLES]) + int(corners[N_EDGES])
     members, node = int(corners[MEMBERS]), 0

@@ -1,4 +1,4 @@
-"""Two surfaces with so many features that only those near each other are contacts: found anew as the bodies move."""
+"""Contacts of two surfaces with very many features: a search assigns near pairs of features as the bodies move."""
 
 from __future__ import annotations
 
@@ -24,11 +24,14 @@ from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near
 from .surface_tables import CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
 
 MOST_NEAR = 256
-"""Pairs of features of two bodies that may be near each other at once."""
+"""Largest number of pairs of features of two bodies that may be near each other at a time."""
 
 
 def _find(a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Floats, most: float, turning: float) -> None:
-    """Find corners over patches, and edges across edges; ``turning`` is how far bodies turn per margin [rad/m]."""
+    """Find near pairs of corners and patches, and of edges.
+
+    ``turning`` is the largest relative rotation of the bodies until the next search, per metre of ``out[0]`` [rad/m].
+    """
     reach, limit, n = out[0], int(most), 0
     turn = turning * reach
     n = corners_near(a, b, surface_a, surface_b, reach, turn, OVER_FIRST, out, n, limit)
@@ -120,7 +123,7 @@ class SurfacePairs(ContactKinematics):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return the surfaces, the size, and no features."""
+        """Return the surfaces, the size, and a candidate without features."""
         first, second = self.surfaces
         return {"candidate": NO_CANDIDATE, "surface_a": first, "surface_b": second, "size": self.size}
 

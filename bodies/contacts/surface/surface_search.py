@@ -1,4 +1,4 @@
-"""Where a surface that need not be convex is nearest to a point, by a tree of boxes."""
+"""Nearest feature of a surface, convex or not, to a point, by a tree of bounding boxes."""
 
 from __future__ import annotations
 
@@ -31,22 +31,24 @@ from .surface_tables import (
 )
 
 FAR = 1e150
-"""A reach without end [m]."""
+"""Distance for a search without limit [m]."""
 ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
-"""Kinds of features."""
+"""Kinds of features of a surface."""
 
 THROUGH = 1e-3
-"""A line goes through a body, or a triangle, whose ends or edges are so far from it, in units of the size: much farther
-than bodies get into each other before their contacts are found."""
+"""Least distance of a line's ends from a triangle's plane, and of the line from its edges, for a line that pierces it.
+
+It is relative to the size of the surface, and much larger than overlaps before contacts are found.
+"""
 
 Point: TypeAlias = tuple[float, float, float]
 Found: TypeAlias = tuple[float, float, int, int, float, float, float]
-"""Signed distance, way past the end of the feature [m], kind and number of the feature, and its nearest point."""
+"""Signed distance [m], distance past the end of the feature [m], kind and number of the feature, its nearest point."""
 
 
 @compiled
 def box_square(surface: Floats, at: int, x: float, y: float, z: float) -> float:
-    """Return the square of the distance of a point from the box of a node."""
+    """Return the square of the distance of a point from the box of the node at index ``at`` [m^2]."""
     dx = max(max(surface[at] - x, x - surface[at + 3]), 0.0)
     dy = max(max(surface[at + 1] - y, y - surface[at + 4]), 0.0)
     dz = max(max(surface[at + 2] - z, z - surface[at + 5]), 0.0)
@@ -55,13 +57,13 @@ def box_square(surface: Floats, at: int, x: float, y: float, z: float) -> float:
 
 @compiled
 def face_height(surface: Floats, face: int, x: float, y: float, z: float) -> float:
-    """Return the height of a point over the plane of the face whose numbers stand there."""
+    """Return the height of a point over the plane of the face whose row begins at index ``face`` [m]."""
     return float(surface[face] * x + surface[face + 1] * y + surface[face + 2] * z - surface[face + 3])
 
 
 @compiled
 def over_ends(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float]:
-    """Return how far a point over the plane of a triangle is past its edges, and past those at which its face ends."""
+    """Return how far a point over a triangle's plane is past its edges, and past those on its face's border [m]."""
     over, ends = -math.inf, -math.inf
     for i in range(3):
         e = triangle + 10 + 4 * i
@@ -74,7 +76,7 @@ def over_ends(surface: Floats, triangle: int, x: float, y: float, z: float) -> t
 
 @compiled
 def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float, float, int]:
-    """Return the point of a triangle that is nearest, and 0 if it is inside, 1 to 3 on an edge, 4 to 6 at a vertex.
+    """Return a triangle's point nearest to (x, y, z), and 0 if it is inside, 1 to 3 on an edge, 4 to 6 at a vertex.
 
     By the regions of C. Ericson, "Real-Time Collision Detection" (Morgan Kaufmann, 2005), section 5.1.5.
     """
@@ -111,13 +113,16 @@ def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) ->
 
 @compiled
 def has_patch(surface: Floats, at: int, patch: float) -> bool:
-    """Return whether a node may have members of a patch, or of any patch if ``patch`` is negative."""
+    """Return whether the tree node at index ``at`` may hold features of a patch, of any patch if ``patch`` < 0."""
     return patch < 0.0 or surface[N_PATCHES] > BITS or (int(surface[at + 9]) >> int(patch)) & 1 == 1
 
 
 @compiled
 def first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> int:
-    """Return a leaf whose members of a patch are near a point: with what is found there most others can be left out."""
+    """Return the leaf of the tree, with features of a patch, in which the search for the nearest feature starts.
+
+    Its box is near the point (x, y, z), so that the distance found there excludes most other leaves.
+    """
     nodes, node = int(surface[NODES]), 0
     while surface[nodes + NODE * node + 8] == 0.0:
         left = node + 1
@@ -132,7 +137,7 @@ def first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> i
 def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
     """Return how far a point is inside of the body [m], 0 outside.
 
-    The side is that of the normal at the nearest point, on edges and at vertices the mean by angles:
+    The sign comes from the normal at the nearest point; on edges and at vertices, from normals weighted by angles:
     J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE Transactions
     on Visualization and Computer Graphics 11 (2005) 243-253.
     """
@@ -164,7 +169,7 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
 
 @compiled
 def pierced(surface: Floats, px: float, py: float, pz: float, qx: float, qy: float, qz: float) -> float:
-    """Return how far the nearer end of a straight line is from the plane of a triangle that it goes through, or 0."""
+    """Return the distance of a line's nearer end from the plane of a triangle that the line pierces [m]; 0 if none."""
     nodes, members, margin = int(surface[NODES]), int(surface[MEMBERS]), THROUGH * surface[SIZE]
     node = 0
     while node < int(surface[N_NODES]):

@@ -1,8 +1,8 @@
-"""A surface that need not be convex and a body with a smooth support function.
+"""Gap of a surface, convex or not, and a body with a smooth support function.
 
-On the plane of every face, the line of every convex edge and at every corner the signed distance of the smooth body has
-one least value, with the normal in which it is the largest: by the support function on planes, by Newton's method on it
-elsewhere.  It belongs to a contact where the point is on the feature and the normal is one of its own.
+The smooth body has one nearest point to the plane of each face, to the line of each convex edge and to each corner.
+For a plane it follows from the support function, for lines and corners from Newton's method on it.  It belongs to a
+contact if the point lies on the feature, and if the common normal is a normal of the feature.
 """
 
 from __future__ import annotations
@@ -56,14 +56,14 @@ from .surface_tables import (
 )
 
 _SAME = 1e-15
-"""Difference of distances that is round-off, in units of the size."""
+"""Difference of two distances that is round-off, relative to the size of the bodies."""
 Aim: TypeAlias = tuple[float, float, float, float]
-"""A unit normal, and the least height along it over the origin of a point of the body."""
+"""Supporting plane of the smooth body: unit normal, and height over the origin of the body's lowest point [m]."""
 
 
 @compiled
 def _extent(core: Floats) -> float:
-    """Return a bound of the distance of the farthest point from the centre, with flat places the corner of a box."""
+    """Return a bound of the distance of the body's farthest point from its centre [m], by a box for boxy cores."""
     if is_round(core) and core[3] != OF_FUNCTION:
         return float(max(core[0], core[1], core[2]) + core[RADIUS])
     return math.sqrt(core[0] * core[0] + core[1] * core[1] + core[2] * core[2])
@@ -71,7 +71,7 @@ def _extent(core: Floats) -> float:
 
 @compiled
 def _point_against(core: Floats, turn: Axes, center: Point, normal: Point) -> Point:
-    """Return the farthest point of the core against a normal, in the axes of the surface."""
+    """Return the core's farthest point in the direction opposite to a normal [m], in the axes of the surface."""
     mx, my, mz = back(turn, -normal[0], -normal[1], -normal[2])
     s = support_of(core, mx, my, mz)
     px, py, pz = forth(turn, s[1], s[2], s[3])
@@ -80,7 +80,10 @@ def _point_against(core: Floats, turn: Axes, center: Point, normal: Point) -> Po
 
 @compiled
 def _least(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
-    """Return a distance that the body keeps at least from what is nowhere nearer than this vector to its centre."""
+    """Return a lower bound of the smooth body's distance from a convex feature [m].
+
+    The vector (x, y, z) leads from the feature's nearest point to the centre of the body.
+    """
     apart = math.sqrt(x * x + y * y + z * z)
     if apart == 0.0:
         return -math.inf
@@ -92,7 +95,7 @@ def _least(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
 def _on_face(
     surface: Floats, member: int, core: Floats, turn: Axes, center: Point
 ) -> tuple[float, float, float, float, float]:
-    """Return distance of the core from the plane of a triangle, distance past its face, and normal."""
+    """Return distance of the core from a triangle's plane [m], distance past the border of its face [m], and normal."""
     t = int(surface[TRIANGLES]) + TRIANGLE * member
     f = int(surface[FACES]) + FACE * int(surface[t + 9])
     nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
@@ -104,7 +107,7 @@ def _on_face(
         qx, qy, qz, _ = in_triangle(surface, t, fx, fy, fz)
         past = math.sqrt((fx - qx) * (fx - qx) + (fy - qy) * (fy - qy) + (fz - qz) * (fz - qz))
     past = max(past, -surface[SIZE])
-    # a body whose centre is under the plane is not over the face
+    # if the body's centre is below the plane, the body is past the end of the face
     return height, max(past, surface[f + 3] - nx * center[0] - ny * center[1] - nz * center[2]), nx, ny, nz
 
 
@@ -112,7 +115,7 @@ def _on_face(
 def _on_edge(
     surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, center: Point, size: float
 ) -> tuple[float, float, float, float, float]:
-    """Return distance of the core from an edge, nan if none was found, distance past the edge, and normal."""
+    """Return distance of the core from an edge's line [m], or nan; distance past the edge's ends [m]; normal."""
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
     g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (ex, ey, ez), (wx, wy, wz))
@@ -128,7 +131,10 @@ def _on_edge(
 def _on_corner(
     surface: Floats, c: int, core: Floats, point: Floats, turn: Axes, center: Point, size: float
 ) -> tuple[float, float, float, float, float]:
-    """Return distance of the core from a corner, distance past the corner, and normal."""
+    """Return distance of the core from a corner [m], distance past the end of the contact [m], and normal.
+
+    The contact is past its end, by a positive number, if an edge of the corner is nearer to the core than the corner.
+    """
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
     g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (0.0, 0.0, 0.0), (wx, wy, wz))
     past, star = -(nx * wx + ny * wy + nz * wz), int(surface[STARS]) + int(surface[c + 4])
@@ -140,13 +146,13 @@ def _on_corner(
 
 @compiled
 def _above(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a lower bound of the distance of the body from a point of the surface, by a plane under the body."""
+    """Return a lower bound of the smooth body's distance from the point at index ``at`` [m], by its plane ``aim``."""
     return float(aim[3] - aim[0] * surface[at] - aim[1] * surface[at + 1] - aim[2] * surface[at + 2])
 
 
 @compiled
 def _above_box(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a lower bound of the distance of the body from the box of a node, by a plane under the body."""
+    """Return a lower bound of the smooth body's distance from the box of a node [m], by its plane ``aim``."""
     x = surface[at + 3] if aim[0] > 0.0 else surface[at]
     y = surface[at + 4] if aim[1] > 0.0 else surface[at + 1]
     z = surface[at + 5] if aim[2] > 0.0 else surface[at + 2]
@@ -165,9 +171,10 @@ def _look_at(
     best: float,
     aim: Aim,
 ) -> tuple[float, float, float, float, float, float]:
-    """Return distance of the core, way past the end and normal of a member of the tree, and the least it can have.
+    """Return distance of the core from a feature [m], distance past its end [m], normal, lower bound of the distance.
 
-    The distance is infinite of one of another patch or that cannot be nearer than ``best``, nan where none was found.
+    ``member`` numbers the features of the tree: triangles, then convex edges, then corners.  The distance is infinite
+    if the feature belongs to another patch or cannot be nearer than ``best``.  It is nan if the search failed.
     """
     x, y, z = center
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
@@ -208,7 +215,7 @@ def _look_at(
 
 @compiled
 def _aim(surface: Floats, core: Floats, turn: Axes, center: Point, normal: Point) -> Aim:
-    """Return a normal and the height along it that the body keeps, with what features in one plane differ by."""
+    """Return the supporting plane of the body with a normal, raised by the round-off of features in one plane."""
     px, py, pz = _point_against(core, turn, center, normal)
     level = normal[0] * px + normal[1] * py + normal[2] * pz - core[RADIUS]
     none = _SAME * (abs(px) + abs(py) + abs(pz) + surface[SIZE])
@@ -219,11 +226,11 @@ def _aim(surface: Floats, core: Floats, turn: Axes, center: Point, normal: Point
 def _nearest(
     surface: Floats, patch: float, core: Floats, point: Floats, turn: Axes, center: Point, reach: float
 ) -> tuple[float, float, int, int, float, float, float]:
-    """Return distance of the core, way past the end, kind and number of the feature of a patch, and the normal.
+    """Return distance of the core [m], distance past the end [m], kind and number of a patch's feature, and normal.
 
-    Of the features that may be touched it is the nearest; without one, that with the least distance and way past its
-    end together; where none is nearer than a reach [m], that is the gap and the way past the end.  The distance is nan
-    where a feature that may be nearer was not found.
+    The feature is the nearest one that can touch.  If no feature can touch, it has the least root of squared gap plus
+    squared distance past its end.  If no feature is nearer than ``reach`` [m], gap and distance past the end are
+    ``reach``.  The distance is nan if the search failed for a feature that may be nearer.
     """
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     x, y, z = center
@@ -232,7 +239,7 @@ def _nearest(
     best, missed, found = reach, math.inf, 0
     distance, past, bx, by, bz = reach + core[RADIUS], reach, 0.0, 0.0, 1.0
     aim: Aim = (0.0, 0.0, 0.0, -math.inf)
-    # the feature nearest to the centre, then faces, which cost least: they rule out most of the others
+    # first the feature nearest to the centre, then faces, which cost least: they exclude most of the others
     _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z, reach + size)
     if kind != ON_FACE:
         found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
@@ -260,7 +267,7 @@ def _nearest(
                     continue
                 gap = g - core[RADIUS]
                 key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
-                # where a face meets its edge their distances are the same to round-off: there it is the face
+                # on the border of a face, the face and its edge have the same distance within round-off: take the face
                 alike = key < best + same and beyond <= 0.0
                 if key < best - same or (alike and (past > 0.0 or member < found)):
                     best, distance, past, found, bx, by, bz = key, g, beyond, member, nx, ny, nz
@@ -280,9 +287,9 @@ def _nearest(
 def write_surface_smooth(
     a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, point: Floats, reach: float
 ) -> None:
-    """Write the geometry block of a patch of a surface and a core; the gap is nan where none was found.
+    """Write the geometry block of a patch of a surface and a smooth body; the gap is nan if the search failed.
 
-    Features are looked for up to a reach [m].
+    ``reach`` is the largest distance of features that are searched [m].
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])
@@ -294,7 +301,7 @@ def write_surface_smooth(
         gap = math.sqrt(gap * gap + past * past)
         depth = depth_inside(surface, x, y, z)
         if depth > 0.0:
-            # it is farther inside than any contact, which is a sign that one was passed
+            # the centre is inside without a contact: one was missed, so write a large overlap
             gap = -depth - _extent(second)
     px, py, pz = _point_against(second, turn, (x, y, z), (nx, ny, nz))
     if kind == ON_EDGE and not is_round(second):
@@ -303,7 +310,7 @@ def write_surface_smooth(
         wx, wy, wz = x - surface[e], y - surface[e + 1], z - surface[e + 2]
         _, px, py, pz, _, _, _ = across_line(second, turn, (wx, wy, wz), (ex, ey, ez), (nx, ny, nz), 1.0, 0.0, 0.0)
         px, py, pz = px + surface[e], py + surface[e + 1], pz + surface[e + 2]
-    # the patch of a surface that has one only does not end
+    # if there is one patch only, it is the whole surface, which has no end
     out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
     out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(a, px, py, pz)

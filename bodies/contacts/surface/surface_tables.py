@@ -1,4 +1,4 @@
-"""What the evaluators of surfaces that need not be convex read: one row of numbers, with a tree of boxes."""
+"""Tables of a surface, convex or not, as one array for compiled functions: features, and a tree of bounding boxes."""
 
 from __future__ import annotations
 
@@ -21,29 +21,38 @@ Numbers = tuple[float, ...]
 SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CORNERS, STARS, N_FACES, N_PATCHES = (
     range(13)
 )
-"""Indices of the size [m], of the numbers of parts and of the offsets of parts in the numbers of a surface."""
-NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
-"""Length of the row of each part, and its numbers in order:
+"""Indices in the head of a surface's numbers.
 
-- a node: lowest and highest coordinates, the next node if this one is left out, the index of its list of
-  members, and their number, 0 except in leaves, and the patches of all members below, as the bits of a number;
-- a face: outward normal, distance of its plane from the origin, patch;
-- a triangle: vertices, face, for every edge the outward normal in the plane and its distance from the origin, whether
-  its face ends there, then the vectors that point out of the body at the three edges and at the three vertices;
-- an edge: first end, direction, length, in either face the direction from the edge into it, patch;
-- a corner: place, patch, where its star of unit vectors along its edges begins, and their number.
+``SIZE`` is the index of the size [m].  Names that begin with ``N_`` are indices of a number of rows or of patches.  The
+others are indices of the offset at which the rows of that name begin.
+"""
+NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
+"""Number of floats in the row of each kind.  The rows hold, in this order:
+
+- node of the tree: lowest corner of its box (3) and highest corner (3) [m]; number of the node that follows its whole
+  branch; index of its list of members; number of its members, 0 unless it is a leaf; patches in its branch, as bits;
+- face: outward normal (3), distance of its plane from the origin [m], patch;
+- triangle: vertices (9) [m]; face; for each edge the outward normal in the plane (3) and its distance from the origin
+  [m]; for each edge 1 if the face ends there, else 0; outward vectors at the edges (9) and at the vertices (9);
+- edge: first end (3) [m], unit vector along it (3), length [m], unit vectors from it into its two faces (6), patch;
+- corner: place (3) [m], patch, index of the unit vectors along its edges, number of its edges.
+
+Members of a node are features by number: triangles first, then convex edges, then corners.
 """
 NOTHING = SharedNumbers((0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(4 * [0.0])))
 """The surface of a body without volume: no point is inside of it."""
 BITS = 52
-"""Number of bits that a float stores exactly; with more patches, every node is treated as having all of them."""
+"""Largest number of patches whose bits a float stores exactly, one bit for each patch.
+
+With more patches, a node of the tree does not know its patches, and a search visits it for every patch.
+"""
 _LEAF = 4
-"""Members of a leaf, at most."""
+"""Largest number of features in a leaf of the tree."""
 
 
 @lru_cache(maxsize=4)
 def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
-    """Return the numbers of a surface whose features are divided into patches."""
+    """Return the numbers of a surface whose features are divided into patches: head, rows, unit vectors at corners."""
     triangles = _triangles(features)
     edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float)])
     lengths = np.array([len(star) for star in features.stars], dtype=int)
@@ -78,7 +87,7 @@ def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
 
 
 def edge_rows(features: Features) -> Vector:
-    """Return first end, direction, length, and in either face the direction into it, of all convex edges, [n, 13]."""
+    """Return the rows of all convex edges without their patches, shape [n, 13]; numbers as in ``EDGE``."""
     edges = np.array(features.edges, dtype=int).reshape(-1, 4)
     start, way = features.vertices[edges[:, 0]], features.vertices[edges[:, 1]] - features.vertices[edges[:, 0]]
     length = np.linalg.norm(way, axis=1, keepdims=True)
@@ -88,7 +97,7 @@ def edge_rows(features: Features) -> Vector:
 
 
 def edge_row(features: Features, number: int) -> Numbers:
-    """Return first end, direction, length, and in either face the direction from the edge into it."""
+    """Return the row of a convex edge without its patch, 13 numbers as in ``EDGE``."""
     one, two, left, right = features.edges[number]
     start, end = features.vertices[one].tolist(), features.vertices[two].tolist()
     way = [y - x for x, y in zip(start, end, strict=True)]
@@ -103,13 +112,13 @@ def _cross(a: Sequence[float], b: Sequence[float]) -> Numbers:
 
 
 def star_of(features: Features, number: int) -> list[float]:
-    """Return the unit vectors along the edges of a corner, one after the other."""
+    """Return the unit vectors from a corner along its edges, three components for each edge."""
     ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]
     return [float(x) for x in (ways / np.linalg.norm(ways, axis=1)[:, None]).ravel()]
 
 
 def star_lengths(features: Features, number: int) -> list[float]:
-    """Return the lengths of the edges of a corner [m]."""
+    """Return the lengths of the edges of a corner [m], in the order of :func:`star_of`."""
     ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]
     return [float(x) for x in np.linalg.norm(ways, axis=1)]
 
@@ -121,7 +130,7 @@ def _triangles(features: Features) -> Vector:
     along /= np.linalg.norm(along, axis=2)[:, :, None]
     out = np.cross(along, normals[:, None])
     heights = np.einsum("nij,nij->ni", out, corners)
-    # out of the body at an edge: between both normals; at a vertex: by the angles of its triangles
+    # outward vectors: at an edge the sum of both normals, at a vertex the normals weighted by the triangles' angles
     pairs = neighbours(features.triangles)
     at_edges = np.repeat(normals, 3, axis=0)
     between = at_edges[pairs[:, 0]] + at_edges[pairs[:, 1]]
@@ -144,7 +153,7 @@ def _triangles(features: Features) -> Vector:
 def _branch(
     low: Vector, high: Vector, bits: Integers, own: Integers, members: list[int], nodes: list[list[float]]
 ) -> None:
-    """Append the nodes of a tree over the boxes ``own``, the first one before what is in it."""
+    """Append the nodes of a tree over the boxes ``own``: a node first, then its branch, depth first."""
     box = [*np.min(low[own], axis=0).tolist(), *np.max(high[own], axis=0).tolist()]
     node = [*box, 0.0, float(len(members)), 0.0, float(np.bitwise_or.reduce(bits[own]))]
     nodes.append(node)

@@ -1,4 +1,4 @@
-"""A vertex of one body against a patch of the surface of another, which need not be convex."""
+"""Gap of a vertex of one body over a patch of the surface of another body, convex or not."""
 
 from __future__ import annotations
 
@@ -33,12 +33,15 @@ from .surface_tables import (
 )
 
 ASTRAY = 0.25
-"""Sine of the angle by which edges may point into a face from the vertex above it: what may soon touch is followed."""
+"""Sine of the angle by which the edges of a vertex may lead below a face that it touches: 14 degrees.
+
+Exactly, no edge may lead below the face.  The margin lets a contact be followed before it can close.
+"""
 
 
 @compiled
 def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats, begin: int) -> float:
-    """Return the sine of the angle by which the steepest edge of a vertex of the other body points down to a face."""
+    """Return the sine of the angle by which the steepest edge of the other body's vertex leads below a face."""
     nx, ny, nz = vector_in_world(frame, surface[face], surface[face + 1], surface[face + 2])
     nx, ny, nz = vector_in_body(other, nx, ny, nz)
     down = -1.0
@@ -52,10 +55,12 @@ def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: fl
 def over_face(
     surface: Floats, triangle: int, height: float, lean: float, margin: float, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
-    """Return how far a point is past a triangle, past its face, past what it may touch of it, and its square distance.
+    """Return three distances past ends [m] of a point over a triangle, and its squared distance [m^2].
 
-    ``lean`` is how far the normal is past those of the point's body.  The third is in the plane of the face for points
-    above it, so that faces about the same corner differ.
+    They are the distance past the triangle, past the border of its face, and past the part that the point may touch.
+    ``lean`` is the angle by which an edge of the point's body leads below the face, as a length [m]; no distance is
+    smaller.  The third is measured in the plane of the face for points above it, so that faces about the same corner
+    differ.
     """
     over, ends = over_ends(surface, triangle, x, y, z)
     over, ends = max(over - margin, lean), max(ends - margin, lean)
@@ -83,17 +88,17 @@ def touched_face(
     y: float,
     z: float,
 ) -> tuple[int, float, float]:
-    """Return face, gap and way past the end, of the nearest face and the one that a point is least deep under.
+    """Return face, gap and distance past the end for a point, from two faces: the nearest, and the least deep above it.
 
     Parameters
     ----------
     surface : Floats
         The surface.
     found, key, height, apart, past : int and float
-        The nearest face, the square of its distance and way past its end together, height over it, distance from it,
-        and way past its end [m].
+        The nearest face; the sum of the squares of its distance and of the distance past its end [m^2]; height over
+        it, distance from it, and distance past its end [m].
     inner, under, inner_past : int and float
-        The face that the point is under, -1 for none, how deep, and the way past its end [m].
+        The face above a point inside, or -1; depth below it, and distance past its end [m].
     x, y, z : float
         The point [m].
     """
@@ -127,12 +132,12 @@ def face_under(
     begin: int,
     reach: float,
 ) -> tuple[int, float, float]:
-    """Return face, gap and way past the end of a vertex of the other body against a patch of the surface in ``frame``.
+    """Return face, gap and distance past the end [m] for a vertex of the other body and a patch in ``frame``.
 
-    A face may be touched that the vertex stands over with no edge pointing into it.  Under a face is what is inside of
-    the body and has no other face nearer.  Past the end the gap is a positive number, unless the vertex is inside.
-    The unit vectors along the vertex's edges stand in ``star`` from ``begin`` on.  Where no face is nearer than a reach
-    [m], that is the distance and the way past the end.
+    A vertex can touch a face that it is over, if none of its edges leads below the face.  A vertex inside the body
+    belongs to the nearest face.  Past the end the gap is positive, unless the vertex is inside.  ``star`` holds unit
+    vectors along the vertex's edges, from index ``begin`` on.  If no face is within ``reach`` [m], gap and distance
+    past the end are ``reach``.
     """
     px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
     x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])

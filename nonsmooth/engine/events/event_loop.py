@@ -51,7 +51,10 @@ from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point
 from nonsmooth.engine.numerics.vectors import length
 
 _VANISHED = 1e-9
-"""Normal force, relative to its value at the start of the step, below which a reached static bound is a lift-off."""
+"""Limit of the normal force at a static friction bound, relative to the force at the start of the step.
+
+The bound vanishes with the normal force. If friction reaches the bound at a smaller force, the event is a lift-off.
+"""
 
 
 @kernel("Cause(ContactRecord)")
@@ -83,29 +86,29 @@ def cause_at_start(ws: Workspace, which: int) -> Cause:
     # the only guard of an open contact is its gap
     if contact.mode == Mode.OPEN:
         return _cause_of_closing(contact)
-    # negative: the contact point is past the end of an edge or a face.
-    # at_end is the value at the end of the last step, which is the start of this one
+    # each guard's at_end is its value at the end of the last step, which is the start of this one.
+    # a negative end guard means that the contact point is past the end of an edge or a face
     if end_of(ws, contact).at_end < 0.0:
         return Cause.FEATURE_END
-    # else the force of a closed contact has the wrong sign, or exceeds the bound of friction
+    # a contact that is not past its end has a negative normal guard (a pulling force), or a negative friction guard
     pulls = normal_of(ws, contact).at_end < 0.0
     return Cause.LIFT_OFF if pulls else Cause.STICK_TO_SLIP
 
 
 _SPACINGS = 4.0 * 2.0**-52
-"""Times closer than this part of the time are not told apart."""
+"""Least difference of two times, relative to the time: a smaller difference is round-off."""
 
 
 @kernel("i8(ws, f8)")
 def _commit(ws: Workspace, h: float) -> int:
-    """Take over the step of ``h`` with its samples; return how many courses end."""
+    """Accept the step of ``h`` [s] with its samples. Number of bodies whose own steps (multirate) end."""
     record_samples(ws, h)
     return _take_over(ws, h)
 
 
 @kernel("i8(ws, f8)")
 def _take_over(ws: Workspace, h: float) -> int:
-    """Take over the step of ``h``: state, time, constraints; return how many courses end."""
+    """Accept the step of ``h`` [s]: state, time, constraints. Number of bodies whose own steps (multirate) end."""
     for i in range(ws.model.n_y):
         ws.island.y[i] = ws.step.y_new[i]
     ws.island.time += h
@@ -122,7 +125,7 @@ def _take_over(ws: Workspace, h: float) -> int:
 
 @kernel("Status(ws, Status)")
 def _up_to_end(ws: Workspace, status: Status) -> Status:
-    """Let a step that failed be tried once more, up to the end of the run: what lies behind need not have a value."""
+    """Repeat a failed step once, up to the end of the run: a law need not have a value after the end. Its status."""
     if ws.island.resumed_step <= ws.request.t_end - ws.island.time:
         return status
     ws.island.resumed_step, ws.island.follows_a_step = ws.request.t_end - ws.island.time, False
@@ -131,7 +134,7 @@ def _up_to_end(ws: Workspace, status: Status) -> Status:
 
 @kernel("Status(ws)")
 def _arrived(ws: Workspace) -> Status:
-    """Look at the state at the end time; return the status."""
+    """Check the state at the end time. ``DONE``, or the failure that was found."""
     ws.island.time = ws.request.t_end
     check_end(ws)
     return Status.DONE if ws.run.failure == Status.RUNNING else ws.run.failure

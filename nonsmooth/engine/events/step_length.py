@@ -1,4 +1,4 @@
-"""How long a step is: as the tolerance allows, and no longer than what was looked at holds."""
+"""Length of a step between events: by the tolerance, and by everything that holds for a limited time only."""
 
 from __future__ import annotations
 
@@ -20,21 +20,25 @@ from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 
 _FIRST_WAY = 1e-3
-"""Way that surfaces go in the first step of one, in units of the smaller body."""
+"""Displacement of surfaces in the first step of a compliant contact, relative to the size of the smaller body."""
 _SHORTEST = 0.01
-"""A first step is no shorter than this part of what it would be."""
+"""Least first step to an expected closing of a gap, relative to the first step without it."""
 _TURN = 0.5
-"""What flies turns by no more within a step [rad] where that moves surfaces: the bounds of gaps ask that speeds within
-it are about those at its ends, which no control of an error sees to there."""
+"""Largest rotation in a step of a body in ballistic motion whose surface moves by it [rad].
+
+The bounds of gaps assume that no speed within a step exceeds the sum of the speeds at its ends.  Integrated bodies
+fulfil this by their error control, which ballistic bodies do not have.
+"""
 _ASTRAY = 2.0
-"""A step leads gaps astray by no more than so many times what ends an averaging."""
+"""Largest deviation of gaps in a step with averaged forces, relative to the deviation that ends the averaging."""
 
 
 @kernel("f8(ws, ContactRecord)")
 def _first_of_compliant(ws: Workspace, contact: ContactRecord) -> float:
-    """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
+    """Largest first step of a closed contact [s]; infinite unless it is a compliant contact that has just closed.
 
-    Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
+    Such a contact has no force yet. If it opened again before the second stage of the step, no stage would have a
+    contact force, and the bodies would pass through each other.
     """
     if not contact.is_compliant or normal_of(ws, contact).at_end > ADJACENT * ws.tolerance.gap:
         return math.inf
@@ -44,7 +48,7 @@ def _first_of_compliant(ws: Workspace, contact: ContactRecord) -> float:
 
 @kernel("b1(ws)")
 def is_held(ws: Workspace) -> bool:
-    """Return 1 if some contact is closed."""
+    """True if some contact is closed."""
     for contact in ws.contacts:
         if contact.mode != Mode.OPEN:
             return True
@@ -53,7 +57,7 @@ def is_held(ws: Workspace) -> bool:
 
 @kernel("f8(ws)")
 def longest_wanted(ws: Workspace) -> float:
-    """Return what the next step is no longer than, whatever sets off on a course before it."""
+    """Upper bound of the next step [s], also if bodies begin steps of their own (multirate) before it."""
     if not is_held(ws):
         return float(min(ws.island.free_step, ws.tolerance.largest_step))
     course = ws.island.own_steps_end - ws.island.time if ws.island.own_steps_end < math.inf else 0.0
@@ -62,7 +66,7 @@ def longest_wanted(ws: Workspace) -> float:
 
 @kernel("f8(ws)")
 def _wanted(ws: Workspace) -> float:
-    """Return how long the step is if nothing cuts it short; if nothing is integrated, up to the end of the courses."""
+    """Length of the step if nothing shortens it [s]; if all bodies have own steps, the time to the end of these."""
     if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:
         return float(min(ws.island.own_steps_end - ws.island.time, ws.tolerance.largest_step))
     return float(min(ws.island.closed_step if is_held(ws) else ws.island.free_step, ws.tolerance.largest_step))
@@ -70,7 +74,7 @@ def _wanted(ws: Workspace) -> float:
 
 @kernel("f8(ws, f8)")
 def _first_attempt(ws: Workspace, wanted: float) -> float:
-    """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
+    """Length of the step that is tried first [s], at most ``wanted`` [s]."""
     ws.step.turning_step = _TURN / ws.island.fastest_turn if ws.island.fastest_turn > 0.0 else math.inf
     h = min(
         wanted,
@@ -88,20 +92,20 @@ def _first_attempt(ws: Workspace, wanted: float) -> float:
             if contact.mode != Mode.OPEN:
                 ws.island.first_step = min(ws.island.first_step, _first_of_compliant(ws, contact))
         h = min(h, ws.island.first_step)
-        # a first step to where a gap is expected to close is short, and tells when it does
+        # a first step that ends where a gap is expected to close is short, and shows when the gap closes
         ws.step.closing_step = max(_SHORTEST * h, ABOUT * soonest)
         keep_falls(ws, min(h, ws.step.closing_step))
     if ws.island.n_ballistic > 0 and soonest < h:
         ws.step.arrival_step = first_of_flying(ws, soonest)
     if ws.step.arrival_step < h:
         return float(ws.step.arrival_step)
-    # a step that much shorter has an error that is negligible
+    # stop at the expected closing only if the step becomes so much shorter that its error is negligible
     return float(ws.step.closing_step if ws.step.closing_step < NEGLIGIBLE ** (1.0 / ORDER) * h else h)
 
 
 @kernel("Limit(ws, f8, f8)")
 def _limit(ws: Workspace, wanted: float, h: float) -> Limit:
-    """Return what limits the step of ``h`` that is tried first, where ``wanted`` is how long it may be."""
+    """Cause that limits the step of ``h`` [s] that is tried first; ``wanted`` is its length without limits [s]."""
     if h == wanted or h == ws.island.own_steps_end - ws.island.time:
         return Limit.LARGEST_STEP if h == ws.tolerance.largest_step else Limit.ERROR
     if h == ws.step.listed_step:
@@ -121,7 +125,7 @@ def _limit(ws: Workspace, wanted: float, h: float) -> Limit:
 
 @kernel("b1(ws, f8)")
 def _overran(ws: Workspace, h: float) -> bool:
-    """Return 1 if the step of ``h`` leads farther than the list of contacts holds."""
+    """True if the bodies move farther in the step of ``h`` [s] than the neighbour list is valid for."""
     if ws.model.n_spheres == 0:
         return False
     evaluate_driven_bodies(ws, ws.island.time + h, ws.step.y_new.start)
@@ -130,11 +134,11 @@ def _overran(ws: Workspace, h: float) -> bool:
 
 @kernel("void(ws, f8, f8, f8)")
 def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None:
-    """Keep the accepted step of ``h`` and how long the next one may be."""
+    """Store length [s] and error of the accepted step, and the length of the next one."""
     ws.step.h, ws.step.error = h, error
-    # the touch-down that was due is behind it, or is an event of it
+    # the end of a bounce, which limited the step, has passed or is an event in it
     ws.island.first_step = math.inf
-    # what cut a step short says nothing of the next one
+    # a step that was shortened does not shorten the next one
     following = h * step_factor(error)
     if h < wanted:
         following = max(following, wanted)
@@ -146,7 +150,7 @@ def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None
 
 @kernel("Status(ws)")
 def accepted_step(ws: Workspace) -> Status:
-    """Find a step that meets the tolerance, in ``h``; return the status."""
+    """Take a step that meets the tolerance; its length is in ``ws.step.h`` [s]. ``RUNNING``, or why there is none."""
     wanted = _wanted(ws)
     ws.step.relaxation = relaxation_rate(ws)
     h = _first_attempt(ws, wanted)
@@ -159,7 +163,7 @@ def accepted_step(ws: Workspace) -> Status:
         error = try_length(ws, h)
         share = part_before_stop(ws, h) if error <= 1.0 and ws.island.stage_time > 0.0 else 1.0
         if error <= 1.0 and ws.island.singular_contact >= 0:
-            # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
+            # beyond the Painleve singularity the force of a sliding contact is unstable: the step must end before it
             h *= 0.5
             wanted = 0.0
             ws.step.limit = Limit.SINGULARITY
@@ -184,7 +188,7 @@ def accepted_step(ws: Workspace) -> Status:
                 return Status.NOT_FINITE
             factor = step_factor(error) if error < math.inf else 0.1
             if ws.island.stage_time > 0.0 and error > explained > 0.0:
-                # a slip that settles within the step leaves an error of low order
+                # if a slip settles within the step, the error falls with a low power of its length
                 factor = max(SHRINK, SAFETY / error)
             explained = factor * factor * error
             h *= factor

@@ -1,12 +1,13 @@
-"""Bounds on open gaps within a step: which of them speeds alone keep open.
+"""Bounds of the speed and the acceleration of open gaps within a step, which prove that most of them stay open.
 
-What is known of a gap are its values and rates at both ends of a part of a step, how fast it can change at most, from
-the relative velocity and turning of the bodies and the levers of their shapes, and how fast its rate can fall, from
-their relative accelerations.  Where these do not show that a gap stays open, it is looked at within the step
-(:mod:`nonsmooth.engine.flow.gap_search`).
+The bound of a gap's speed follows from the relative velocity and rotation of the bodies and the radius of the smaller
+shape about its origin. The bound of its acceleration towards closing follows from their relative accelerations. With
+the gap and its rate at both ends of a step, these bounds prove that most gaps stay open. The others are searched within
+the step (:mod:`nonsmooth.engine.flow.gap_search`).
 
-The bounds hold if within a step no speed exceeds the sum of those at its ends, as the error control of the step sees
-to.  Features that do not face each other have no rate: theirs are sampled (:mod:`nonsmooth.engine.flow.location`).
+The bounds hold if within a step no speed exceeds the sum of the speeds at its ends, which the error control of the step
+ensures. Features that do not face each other have a gap without a rate: such gaps are sampled
+(:mod:`nonsmooth.engine.flow.location`).
 """
 
 from __future__ import annotations
@@ -26,16 +27,16 @@ from nonsmooth.engine.native.kernel import ContactRecord, Floats, Workspace, ent
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 _CURVED = 4.0
-"""By so much a curved surface or an edge may turn the normal faster than its body turns."""
+"""Largest rate at which the normal turns on a curved surface or an edge, relative to the rotation of the body."""
 _CLOSINGS = 8
-"""Steps of Newton's method to where a gap between bodies that fly is closed,"""
+"""Largest number of Newton steps to the time at which a gap between ballistic bodies closes."""
 ABOUT = 1.1
-"""and of gaps that are due within this factor of the first one: so well is known when."""
+"""Factor on the first expected closing time, within which gaps are searched: expected times are so inaccurate."""
 
 
 @kernel("f8(F, i8, i8)")
 def _speed_seen(floats: Floats, frame_a: int, frame_b: int) -> float:
-    """Return the speed of the origin of the second frame as seen from the first [m/s]."""
+    """Speed of the origin of the second frame relative to the first frame, which may rotate [m/s]."""
     a, b = frame_at(floats, frame_a), frame_at(floats, frame_b)
     x, y, z = minus(b.origin, a.origin)
     ox, oy, oz = a.spin
@@ -46,7 +47,10 @@ def _speed_seen(floats: Floats, frame_a: int, frame_b: int) -> float:
 
 @kernel("v3(ws, i8)")
 def _axis(ws: Workspace, c: int) -> Vector:
-    """Return the axis in space about which the shape with the smaller lever may spin unseen, or zero."""
+    """Axis of revolution, in space, of the shape with the smaller radius about its origin; zero if it has none.
+
+    A rotation about this axis does not move the surface of the shape.
+    """
     contact = ws.contacts[c]
     is_second = contact.support_radius_b <= contact.support_radius_a
     r, v = frame_at(ws.floats, contact.frame_b if is_second else contact.frame_a).rotation, contact.spin_axis
@@ -55,17 +59,18 @@ def _axis(ws: Workspace, c: int) -> Vector:
 
 @kernel("v3(v3, v3)")
 def _across(v: Vector, axis: Vector) -> Vector:
-    """Return what a vector has across a unit axis; all of it, if that is zero."""
+    """Component of a vector perpendicular to a unit axis; the whole vector if ``axis`` is zero."""
     return minus(v, scaled(dot(v, axis), axis))
 
 
 @kernel()
 def bound_speeds(ws: Workspace) -> None:
-    """Write how fast the gaps of the open contacts can change where the bodies stand, to ``speed_end``.
+    """Write upper bounds of the speeds of the open gaps at the present state to ``speed_at_end`` [m/s].
 
-    Seen from one body the other's surface moves along a normal no faster than its origin, and its lever by turning.
-    Where one of them flies, the fastest turning, also that of the body from which it is seen, counts for the length of
-    the step: a top that precesses looks at its end as at its start, whatever it came by.
+    Relative to one body, the other body's surface moves along a normal at most with the speed of its origin, plus its
+    angular velocity times its radius about the origin. ``fastest_turn`` [rad/s] becomes the fastest rotation in pairs
+    with a ballistic body, also the rotation of the other body.  It limits the step, because a precessing top may look
+    the same at both ends of a long step.
     """
     last_a = last_b = -1
     speed, spin, whole, own = 0.0, (0.0, 0.0, 0.0), 0.0, 0.0
@@ -76,7 +81,7 @@ def bound_speeds(ws: Workspace) -> None:
         a, b, lever, larger = contact.frame_a, contact.frame_b, contact.support_radius_b, contact.support_radius_a
         if lever > larger:
             a, b, lever, larger = b, a, larger, lever
-        # the contacts of two bodies follow one another
+        # contacts of the same two bodies are adjacent in the list, so their speeds are evaluated once
         if a != last_a or b != last_b:
             seen_from = frame_at(ws.floats, a).spin
             speed, spin = _speed_seen(ws.floats, a, b), minus(frame_at(ws.floats, b).spin, seen_from)
@@ -99,7 +104,7 @@ def bound_speeds(ws: Workspace) -> None:
 
 @kernel("v3(ws, i8)")
 def arm_of(ws: Workspace, c: int) -> Vector:
-    """Return where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
+    """Vector from the origin to the witness point of the body with the smaller radius [m], as evaluated last."""
     contact = ws.contacts[c]
     if contact.support_radius_b <= contact.support_radius_a:
         return minus(contact.point_b, frame_at(ws.floats, contact.frame_b).origin)
@@ -108,7 +113,10 @@ def arm_of(ws: Workspace, c: int) -> Vector:
 
 @kernel("v3(ws, i8, i8, b1, i8)")
 def _acceleration(ws: Workspace, c: int, side: int, is_angular: bool, du: int) -> Vector:
-    """The acceleration of the origin of a frame, or its angular acceleration."""
+    """Acceleration of a body frame's origin [m/s^2], or its angular acceleration [rad/s^2], on one side of a contact.
+
+    ``du`` is the offset of the accelerations of all bodies.
+    """
     contact = ws.contacts[c]
     frame = contact.frame_a if side == 0 else contact.frame_b
     n_u = contact.n_u_a if side == 0 else contact.n_u_b
@@ -124,12 +132,12 @@ def _acceleration(ws: Workspace, c: int, side: int, is_angular: bool, du: int) -
 
 @kernel("v3(ws, i8, i8)")
 def fall_of(ws: Workspace, c: int, du: int) -> Vector:
-    """Return how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
+    """Bound of the acceleration with which the gap of contact ``c`` closes, at the present state, as three numbers.
 
-    The second number is by how much more for every second of a step, the third how fast the bodies turn; what spins
-    about an axis of revolution does not.  With the normal fixed to the first body a convex second one is no nearer
-    than along this normal, whatever the normal does; the terms of the turning bodies hold for all points of its
-    surface.
+    They are the bound [m/s^2], its growth per second of the step [m/s^3], and the relative rotation of the bodies
+    [rad/s], without rotation about an axis of revolution. ``du`` is the offset of the accelerations of all bodies. The
+    normal is kept fixed to one body: along any fixed normal, a convex second body is at most as far away as the gap.
+    The terms of the rotation hold for all points of the smaller shape.
     """
     contact = ws.contacts[c]
     second = contact.support_radius_b <= contact.support_radius_a
@@ -145,9 +153,9 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     angular = minus(minus(_acceleration(ws, c, other, is_angular=True, du=du), alpha), cross(spin, turning))
     axis = _axis(ws, c)
     own, turning = dot(turning, axis), _across(turning, axis)
-    # what is across the axis changes as that turns, too
+    # the component perpendicular to the axis also changes because the axis turns
     angular = minus(_across(angular, axis), scaled(own, cross(turning, axis)))
-    # what the turning of the first body takes away: alpha x d, omega x (omega x d), twice omega x velocity
+    # terms of the rotating first frame: alpha x d, omega x (omega x d), and twice omega x velocity
     linear = minus(minus(linear, cross(alpha, way)), cross(spin, cross(spin, way)))
     linear = minus(linear, scaled(2.0, cross(spin, velocity)))
     along = dot(contact.normal, linear)
@@ -166,9 +174,10 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
 
 @kernel("f8(ws, i8, i8)")
 def _expected_closing(ws: Workspace, c: int, du: int) -> float:
-    """Return after what time the gap of ``c`` closes if its bodies go on as they accelerate now [s].
+    """Time after which the gap of contact ``c`` closes at constant accelerations [s]; infinite if it does not close.
 
-    That is for balls to tell: where the surfaces turn with the bodies, gaps that do not close would shorten steps.
+    It is infinite, too, unless one shape is a ball about its origin. If rotation moves both surfaces, the estimate is
+    poor, and gaps that do not close would shorten steps.
     """
     contact = ws.contacts[c]
     if min(contact.support_radius_a, contact.support_radius_b) > 0.0:
@@ -190,9 +199,9 @@ def _will_be_doubtful(ws: Workspace, contact: ContactRecord, h: float) -> bool:
 
 @kernel("f8(ws, f8)")
 def foresee(ws: Workspace, h: float) -> float:
-    """Return when the first of the gaps that will be doubtful after a step of ``h`` is expected to close [s].
+    """Time until the first expected closing of a gap that may close in a step of ``h`` [s]; infinite if none [s].
 
-    When each of them is stays with it.
+    The expected time of each such gap is stored in its ``closing_time``.
     """
     soonest = math.inf
     for contact in ws.contacts:
@@ -205,16 +214,16 @@ def foresee(ws: Workspace, h: float) -> float:
 
 @kernel("b1(ws, i8)")
 def _flies(ws: Workspace, number: int) -> bool:
-    """Return 1 if it is known without a step where a body will be."""
+    """True if a body is driven or in ballistic motion, so that its motion is known without integration."""
     body = ws.bodies[number]
     return body.n_u == 0 or body.is_ballistic
 
 
 @kernel("f8(ws, i8)")
 def _closing_of_flying(ws: Workspace, c: int) -> float:
-    """Return when the gap of ``c`` is next to none, but open, if its bodies fly on [s]; infinite if that is not found.
+    """Time until the gap of ``c``, between ballistic or driven bodies, is nearly closed [s]; infinite if not found.
 
-    Newton's method, from when it is due.
+    Newton's method starts at the expected time. The gap that remains is positive and far below the tolerance.
     """
     contact = ws.contacts[c]
     elapsed = contact.closing_time
@@ -229,7 +238,7 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
         evaluate_geometry(ws, c)
         evaluate_rates(ws, c)
         rate = contact.rate[0]
-        # a step that ends at the closing leaves so little of the gap
+        # gap that remains at the end of a step to the closing
         aim = NEGLIGIBLE * min(ws.tolerance.gap, ws.tolerance.time * abs(rate))
         left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
@@ -242,9 +251,10 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
 
 @kernel("f8(ws, f8)")
 def first_of_flying(ws: Workspace, soonest: float) -> float:
-    """Return when the first gap between bodies that fly is closed, those being due that are due about ``soonest`` [s].
+    """Time after which the first gap between ballistic or driven bodies closes [s]; infinite if none is found.
 
-    The bodies do not stand at the start any more.
+    Gaps are searched that are expected to close at about ``soonest`` [s].  Afterwards the bodies are evaluated at
+    another state than that at the start.
     """
     first = math.inf
     for contact in ws.contacts:
@@ -256,9 +266,9 @@ def first_of_flying(ws: Workspace, soonest: float) -> float:
 
 @kernel("void(ws, f8)")
 def keep_falls(ws: Workspace, h: float) -> None:
-    """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
+    """Store acceleration bounds at the start of a step of ``h`` [s], of the gaps that may close in it.
 
-    The bodies stand there; later they would have to be put there.
+    The bodies are evaluated at the start now. Later they would have to be evaluated there again.
     """
     for contact in ws.contacts:
         if _will_be_doubtful(ws, contact, h):
@@ -268,9 +278,11 @@ def keep_falls(ws: Workspace, h: float) -> None:
 
 @kernel("b1(f8, f8, f8, f8, f8)")
 def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> bool:
-    """Return 1 if a gap does not close by speed alone, the surfaces moving by ``way`` at most between its two ends.
+    """True if a gap cannot close between two times, because its surfaces move by at most ``way`` [m] in between.
 
-    Only what faces each other says how far it is apart; of what does so at neither end the smaller number stands in.
+    ``g0`` and ``g1`` are the gaps at both times [m], ``past0`` and ``past1`` the distances past the ends of the
+    features [m].  Past an end, the gap is no true distance.  Then only the gap at the other time is used, or the
+    smaller one if both are past an end.
     """
     if past0 > 0.0:
         return (min(g0, g1) if past1 > 0.0 else g1) > way
@@ -279,10 +291,11 @@ def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> boo
 
 @entry_point("void(ws, f8)")
 def find_doubtful(ws: Workspace, h: float) -> None:
-    """List the open contacts whose gaps may close within the step by the speeds alone; the bodies stand at its end.
+    """List the open contacts whose gaps may close within the step of ``h`` [s], by the bounds of their speeds.
 
-    Those whose features do not face each other at an end of the step are a list of their own.  How fast the rates of
-    the others can fall there is kept, for this step and the next one.
+    The bodies must be evaluated at the end of the step.  Contacts whose features do not face each other at one end of
+    the step are in a second list.  For the others, the acceleration bound at the end is stored, for this step and the
+    next.
     """
     ws.step.n_may_close = ws.step.n_not_facing = 0
     accelerations = ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q

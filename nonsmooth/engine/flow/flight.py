@@ -1,9 +1,9 @@
-"""Bodies in flight: where nothing touches a body and neither joint nor load holds it, it may know where it flies.
+"""Ballistic motion: bodies without contact, joint and load follow a closed form, if their class has one.
 
-Such a body (:attr:`nonsmooth.interfaces.Body.flight`) is not integrated: its state within a step is that of its closed
-form, whatever the length of the step, and of its forces nothing is asked before the end.  So it is with bodies on their
-courses (:mod:`nonsmooth.engine.flow.own_steps`), whose closed form is the interpolant of a step of their own.  All
-others are integrated, those that fly among them as soon as one of their contacts closes.
+Such a body (:attr:`nonsmooth.interfaces.Body.flight`) is not integrated.  Its state within a step follows from the
+closed form, for any length of the step.  Bodies with an own step (multirate, :mod:`nonsmooth.engine.flow.own_steps`)
+are treated in the same way; their closed form is the interpolant of that step.  All other bodies are integrated, and so
+is a ballistic body as soon as one of its contacts closes.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from nonsmooth.engine.numerics.vectors import Vector
 
 @kernel("void(ws, i8, i8)")
 def _add_span(ws: Workspace, first: int, length: int) -> None:
-    """Add a part of the state to what is integrated, joined to the one before if it stands next to that."""
+    """Add entries of the state to the spans that are integrated; adjacent entries extend the last span."""
     last = ws.island.n_spans - 1
     if last >= 0 and ws.island.span_first[last] + ws.island.span_length[last] == first:
         ws.island.span_length[last] += length
@@ -31,7 +31,7 @@ def _add_span(ws: Workspace, first: int, length: int) -> None:
 
 @kernel()
 def choose_integrated(ws: Workspace) -> None:
-    """List the bodies that fly in the modes at hand, those that are integrated, and their parts of the state.
+    """List the ballistic and the integrated bodies in the current modes, and the spans of the state to integrate.
 
     The closed contacts must be grouped.
     """
@@ -53,7 +53,7 @@ def choose_integrated(ws: Workspace) -> None:
 
 @kernel("void(ws, i8)")
 def integrate(ws: Workspace, number: int) -> None:
-    """Add a body to those that are integrated, and its coordinates to the parts of the state."""
+    """Add a body to the integrated ones, and its coordinates to the spans of the state."""
     body = ws.bodies[number]
     ws.island.integrated[ws.island.n_integrated] = number
     ws.island.n_integrated += 1
@@ -62,7 +62,7 @@ def integrate(ws: Workspace, number: int) -> None:
 
 @kernel()
 def integrate_velocities(ws: Workspace) -> None:
-    """Add the velocities of all bodies that are integrated to these parts, and what else is."""
+    """Add to the spans of the state the velocities of all integrated bodies, the energy accounts and inner states."""
     for i in range(ws.island.n_integrated):
         body = ws.bodies[ws.island.integrated[i]]
         _add_span(ws, ws.model.n_q + body.u, body.n_u)
@@ -71,7 +71,10 @@ def integrate_velocities(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def _power(ws: Workspace, velocities: int) -> float:
-    """Return the power of the own forces of all that flies, the bodies being evaluated with these velocities [W]."""
+    """Power of the forces on all ballistic bodies, without contact forces, at their last evaluation [W]; its size.
+
+    ``velocities`` is the offset of all velocities at that evaluation.
+    """
     total = 0.0
     for i in range(ws.island.n_ballistic):
         body = ws.bodies[ws.island.ballistic[i]]
@@ -81,13 +84,15 @@ def _power(ws: Workspace, velocities: int) -> float:
 
 @kernel()
 def take_off(ws: Workspace) -> None:
-    """Keep the power of the own forces of all that flies where a step begins, the bodies being evaluated there."""
+    """Store the power of the forces on ballistic bodies at the start of a step [W]. They must be evaluated there."""
     ws.step.power_at_start = _power(ws, ws.island.y.start + ws.model.n_q)
 
 
 @kernel("void(ws, i8, i8, i8, i8, v3, v3, i8)")
 def _write_dense(ws: Workspace, start: int, slopes: int, i: int, n: int, early: Vector, late: Vector, out: int) -> None:
-    """Write ``n`` entries from entry ``i`` on of an interpolated state to ``out``: from state and slopes at its start.
+    """Write ``n`` entries, from entry ``i`` on, of an interpolated state to the state at ``out``.
+
+    ``start`` and ``slopes`` are the offsets of the state and of the slopes at the start of the step.
 
     ``early`` and ``late`` are the weights of the interpolant (:func:`dense_weights`).
     """
@@ -96,7 +101,10 @@ def _write_dense(ws: Workspace, start: int, slopes: int, i: int, n: int, early: 
 
 @kernel("void(ws, f8, i8, i8)")
 def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
-    """Write the state of a body on its course to the state at ``out``, its quaternion of unit length, as rates ask."""
+    """Write the state of a body with an own step at time ``t`` [s] to the state at ``out``.
+
+    It is interpolated, and the quaternion is normalised, because rates need a unit quaternion.
+    """
     body = ws.bodies[number]
     h, theta = body.own_step, (t - body.own_step_time) / body.own_step
     early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
@@ -109,7 +117,7 @@ def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
 
 @kernel("void(ws, f8, i8, i8)")
 def fly(ws: Workspace, elapsed: float, number: int, out: int) -> None:
-    """Write the state of one body after a time of its flight from ``y``, or on its course, to the state at ``out``."""
+    """Write the state of a ballistic body, ``elapsed`` [s] after the start of the step, to the state at ``out``."""
     body = ws.bodies[number]
     if body.has_own_step:
         _go_on(ws, ws.island.time + elapsed, number, out)
@@ -125,7 +133,10 @@ def fly(ws: Workspace, elapsed: float, number: int, out: int) -> None:
 
 @kernel("void(ws, f8, i8)")
 def accelerate_in_flight(ws: Workspace, t: float, number: int) -> None:
-    """Write the acceleration of a body that flies to ``du``; on its course it is linear in time: only bounds ask."""
+    """Write the acceleration of a ballistic body at time ``t`` [s] to ``du``.
+
+    In an own step it is interpolated linearly, which is enough because it serves for bounds of gaps only.
+    """
     body = ws.bodies[number]
     if not body.has_own_step:
         accelerate_freely(ws, number)
@@ -139,9 +150,10 @@ def accelerate_in_flight(ws: Workspace, t: float, number: int) -> None:
 
 @kernel("f8(ws, f8)")
 def land(ws: Workspace, h: float) -> float:
-    """Write what flies to ``y_new`` and its slope to the last one, and evaluate it there.
+    """Write the states of ballistic bodies at the end of a step of ``h`` [s] to ``y_new``, and evaluate them there.
 
-    Return 0, or what is not a number if that holds of a velocity.
+    Their derivatives are written to the slope of the last stage. The result is an error: 0, or not a number if a
+    velocity is not finite.
     """
     error = 0.0
     end = ws.island.slopes.start + LAST_STAGE * ws.model.n_y
@@ -166,7 +178,7 @@ def land(ws: Workspace, h: float) -> float:
 
 @kernel("void(ws, f8, f8, i8, i8)")
 def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) -> None:
-    """Write the state of one body at a fraction of the step to the state at ``out``."""
+    """Write the state of one body at the fraction ``theta`` of the step of ``h`` [s] to the state at ``out``."""
     body = ws.bodies[number]
     if body.is_ballistic:
         fly(ws, theta * h, number, out)
@@ -180,7 +192,7 @@ def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) ->
 
 @kernel("void(ws, f8, f8, i8)")
 def state_within(ws: Workspace, h: float, theta: float, out: int) -> None:
-    """Write the state at a fraction of the step."""
+    """Write the state of all bodies at the fraction ``theta`` of the step of ``h`` [s] to ``out``."""
     early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
     y, slopes = ws.island.y.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):

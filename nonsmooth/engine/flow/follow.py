@@ -55,7 +55,8 @@ def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
     """Write the multipliers mu of the joint rows of an articulation [N or N m], from the generalised forces F.
 
     mu = -(A M^-1 A^T)^-1 (A M^-1 F + b), with the Jacobian A and the biases b of the rows. F of all bodies is at offset
-    ``forces``. The factor of the matrix and A M^-1, the response, must be evaluated.
+    ``forces``.  An articulation is a set of bodies that joints connect.  The factor of A M^-1 A^T, and the response A
+    M^-1, must be evaluated.
     """
     n, m = articulation.n_u, articulation.n_rows
     # the right-hand side of each row; the solution replaces it

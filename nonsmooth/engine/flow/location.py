@@ -1,8 +1,10 @@
-"""Finding events within a step, and stepping exactly to the first of them.
+"""Finds the events within a step, and steps exactly to the first of them.
 
-Open gaps are proved not to close (:mod:`nonsmooth.engine.flow.clearance`).  Forces, slips and own guards are sampled at
-the end of a step and in its middle, where a stage of it saw a force dip; features that do not face each other are
-sampled at :data:`_SAMPLES` places of a step, or every :data:`WAY` of their size, and where they should have closed.
+Open gaps are proved not to close (:mod:`nonsmooth.engine.flow.clearance`), or their closing is found. Forces, slips and
+guards of the user are sampled at the end of a step, guards of the user also in its middle. Forces and slips are sampled
+there if a force was smaller at a stage than at both ends, or violated its mode.  Features that do not face each other
+have gaps without rates.  They are sampled at least ``_SAMPLES`` times in a step, more often if they move far, and at
+the time at which their gap is expected to close.
 """
 
 from __future__ import annotations
@@ -38,46 +40,46 @@ from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 
 _MIDDLE = 0.5
-"""Part of the step at which forces and own guards are looked at besides its ends: as far from both as can be."""
+"""Fraction of the step at which forces and guards of the user are sampled between its ends."""
 _NEAR = 0.2
-"""A force whose parabola comes this near to zero, relative to its ends, is looked at more closely."""
+"""Minimum of the parabola through three samples of a force, relative to its ends, below which it is evaluated there."""
 _FAINT = 1e-9
-"""A start value below this part of the end value says nothing of the sign within the step."""
+"""Start value of a guard, relative to its end value, that does not show the sign right after the start."""
 NEGLIGIBLE = 0.01
-"""A step whose error is below this part of the tolerance is interpolated within it."""
+"""Error of a step, relative to the tolerance, below which its interpolant is accurate enough for an event."""
 _MOST_ROOTS = 30
-"""So many guards that fire one before the other, forces among them, are not those of a smooth motion."""
+"""Number of roots, each before the one found last, after which the motion is not smooth: the step is shortened."""
 _FEW_ROOTS = 4
-"""After so many guards that fire one before the other one that was wrong from the start has no root to look for."""
+"""Number of such roots after which a guard that is negative from the start shortens the step, as it has no root."""
 _SAMPLES = 16
-"""Parts of a step, at least, at whose ends it is asked whether features face each other,"""
+"""Least number of samples in a step of gaps whose features do not face each other."""
 _FARTHEST = 0.25
-"""Part of the size of the smaller body that features which do not face each other may move unseen, however far."""
+"""Largest displacement of features between two such samples, relative to the size of the smaller body."""
 _SHORTEST = 1e-4
-"""Part of a step in which nothing is looked at twice: the step itself resolves no more."""
+"""Least distance of two samples, in fractions of the step: the interpolant resolves no shorter time."""
 _JUMP = 1e-3
-"""A guard of which this part of the start value is left next to its root jumps."""
+"""Value of a guard right before its root, relative to its start value, above which the guard jumps there."""
 _NEARER = 0.5
-"""Next to a root no more than this part of the start value is left."""
+"""Largest value of a guard, relative to its start value, at which Newton's estimate of its root is accepted."""
 _SLOW = 3
-"""So often a step towards a root may leave more than half of where it may be."""
+"""Number of slow iterations, which leave more than half of the bracket of a root, before a bisection."""
 _FINE = 0.01
-"""Part of the time tolerance to which roots are found, and the first way behind a jump, doubled till that is passed."""
+"""Accuracy of roots, and first step past the jump of a guard, relative to the time tolerance; the step is doubled."""
 _LOOKS = 4
-"""So often, between two of them, a gap that is to close is looked at when it should have closed,"""
+"""Largest number of samples at expected closing times between two regular samples of gaps without rates."""
 _BEHIND = 1e-3
-"""later by this part of the time that it takes."""
+"""Delay of such a sample after the expected closing time, relative to the time until then."""
 
 
 @kernel("b1(ws)")
 def _asks_forces(ws: Workspace) -> bool:
-    """Return 1 if forces are looked at within a step: an implicit one has forces where its stages end only."""
+    """True if contact forces can be evaluated within the step: implicit steps have them at the ends of stages only."""
     return ws.island.n_grouped > 0 and ws.island.stage_time == 0.0
 
 
 @entry_point("void(ws, f8, f8, b1)")
 def guards_within(ws: Workspace, h: float, theta: float, needs_forces: bool) -> None:
-    """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
+    """Evaluate the motion and write all guards at the fraction ``theta`` of the step of ``h`` [s], interpolated."""
     state_within(ws, h, theta, ws.step.y_stage.start)
     blend_chosen_forces(ws, theta)
     evaluate_guards(ws, ws.island.time + theta * h, ws.step.y_stage.start, theta * h, needs_forces)
@@ -85,7 +87,7 @@ def guards_within(ws: Workspace, h: float, theta: float, needs_forces: bool) -> 
 
 @kernel("f8(ws, f8, f8, i8, b1)")
 def _guard_at(ws: Workspace, h: float, theta: float, i: int, needs_forces: bool) -> float:
-    """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
+    """Value of guard ``i`` at the fraction ``theta`` of the step. A gap or a slip needs its two bodies only."""
     alone = sign_depends_on(ws, i)
     if alone == DependsOn.GAP:
         evaluate_gap_guard(ws, h, theta, i)
@@ -98,7 +100,7 @@ def _guard_at(ws: Workspace, h: float, theta: float, i: int, needs_forces: bool)
 
 @kernel("f8(ws, f8, i8)")
 def _lowest(ws: Workspace, h: float, i: int) -> float:
-    """Return a fraction of the step where guard ``i`` dips below zero between its samples, or 0, by parabolas."""
+    """Fraction of the step at which guard ``i`` is negative between its three samples, or 0, by parabolas."""
     low, middle, high = 0.0, _MIDDLE, 1.0
     g_low, g_middle, g_high = ws.guards[i].initial, ws.guards[i].middle, ws.guards[i].at_end
     for _iteration in range(8):
@@ -126,7 +128,7 @@ def _lowest(ws: Workspace, h: float, i: int) -> float:
 
 @kernel("f8(ws, f8)")
 def _force_dip(ws: Workspace, h: float) -> float:
-    """Look for a dip of a normal force or a static margin between the samples."""
+    """Fraction of the step at which a normal force or distance to a static bound is negative between samples, or 0."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode != Mode.OPEN:
@@ -140,7 +142,7 @@ def _force_dip(ws: Workspace, h: float) -> float:
 
 @kernel("f8(ws)")
 def _soonest(ws: Workspace) -> float:
-    """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
+    """Time after which the first open gap closes at its present rate [s]; infinite if none closes."""
     soonest = math.inf
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
@@ -152,9 +154,9 @@ def _soonest(ws: Workspace) -> float:
 
 @kernel("f8(ws, f8)")
 def _advance(ws: Workspace, h: float) -> float:
-    """Return for how long the features that do not face each other need not be looked at, as they are now [s].
+    """Time until the next sample of the gaps whose features do not face each other [s].
 
-    What they report as their gap closes no faster than their speed as long as they do, and may be less than it says.
+    Such a gap is no true distance, but it shrinks at most with the speed bound of its surfaces.
     """
     longest = h / _SAMPLES
     least = longest
@@ -170,14 +172,15 @@ def _advance(ws: Workspace, h: float) -> float:
 
 @kernel("f8(ws, f8, f8)")
 def _sampled(ws: Workspace, h: float, high: float) -> float:
-    """Return the first of some fractions below ``high`` at which a gap has closed, its guards in ``guard``, or 0.
+    """First sampled fraction of the step, below ``high``, at which a gap has closed, or 0. Writes the guards there.
 
-    Features that face each other only from one sample to the next are looked at when their gap is to close.
+    It samples gaps whose features do not face each other. They may face each other between two samples: then a further
+    sample is taken at the time at which their gap is expected to close.
     """
     theta, looks = 0.0, 0
     while theta < high:
         ws.totals.n_gap_evaluations += 1
-        # right at the start nothing has grown yet
+        # at the start itself, deflated guards have no growth: sample right after it
         guards_within(ws, h, max(theta, _FAINT), needs_forces=False)
         if theta > 0.0:
             if first_fired(ws, forces_are_known=False, located=NO_GUARD) >= 0:
@@ -192,9 +195,9 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
 
 @kernel("f8(ws, f8, f8, i8)")
 def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
-    """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0.
+    """Fraction of the step, up to ``theta``, by which an open gap has closed, or 0. Writes the guards there.
 
-    If none has, the contact ``asked`` stands at ``theta``.
+    If no gap has closed, the contact ``asked`` is evaluated at ``theta`` afterwards.
     """
     if ws.step.n_not_facing > 0:
         found = _sampled(ws, h, theta)
@@ -210,9 +213,9 @@ def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
 
 @entry_point("f8(ws, f8)")
 def first_crossing(ws: Workspace, h: float) -> float:
-    """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
+    """Fraction of the step of ``h`` [s] by which some guard has fired, or 0 if none fires. Writes the guards there.
 
-    Called right after the step, when bodies and forces stand at its end.
+    Bodies and forces must be evaluated at the end of the step.
     """
     closed = _asks_forces(ws)
     write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
@@ -222,7 +225,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     find_doubtful(ws, h)
     deflate(ws, h)
     fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
-    # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
+    # the middle is sampled only if a force or slip violated its mode at a stage, or a force was least at a stage
     suspect = ws.step.has_doubtful_force
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
@@ -244,7 +247,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
             theta = _force_dip(ws, h)
             if theta > 0.0:
                 return theta
-    # what has fired at the end is located first, and what closes before it searched then
+    # a guard that has fired at the end is located first; gaps that close before it are searched afterwards
     if fired < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
         looks += ws.step.n_not_facing
         theta = _closed_before(ws, h, 1.0, -1)
@@ -262,16 +265,16 @@ def first_crossing(ws: Workspace, h: float) -> float:
         deflate(ws, h)
     elif fired >= 0 or ws.step.n_may_close == 0:
         return 1.0 if fired >= 0 else 0.0
-    # guards armed only within the step count as well
+    # guards that were armed only within the step can fire, too
     return 1.0 if first_fired(ws, forces_are_known=True, located=NO_GUARD) >= 0 else 0.0
 
 
 @kernel("f8(ws, f8, f8, i8, b1)")
 def _event_fraction(ws: Workspace, h: float, high: float, i: int, needs_forces: bool) -> float:
-    """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
+    """Fraction of the step at which guard ``i`` vanishes on the interpolant; it must be evaluated at ``high``.
 
-    The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where
-    the guard jumps.
+    Afterwards all guards are evaluated there, and ``guard_slope`` is the slope of guard ``i`` per second. If the guard
+    jumps, the fraction is right behind the jump and the slope is minus infinity.
     """
     theta = _vanishing(ws, h, high, i, needs_forces)
     if sign_depends_on(ws, i) != DependsOn.FORCE:
@@ -281,9 +284,9 @@ def _event_fraction(ws: Workspace, h: float, high: float, i: int, needs_forces: 
 
 @kernel("f8(ws, f8, f8, i8, b1)")
 def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool) -> float:
-    """Return the same; of the guards ``i`` is evaluated there, those that are no gaps together with it.
+    """The root of :func:`_event_fraction`, by the rule of Anderson and Bjorck, or by Newton's method for a gap.
 
-    Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.
+    Afterwards guard ``i`` is evaluated there. If it needs forces, so are all other guards.
     """
     fine = _FINE * ws.tolerance.time
     low, g_low = 0.0, ws.guards[i].initial
@@ -291,13 +294,13 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
     ws.step.guard_slope = 0.0
     rises = ws.guards[i].initial <= 0.0 or ws.guards[i].is_deflated
     while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i)):
-        # it was armed inside the step, or rises from zero with no rate: look for where it is positive
+        # the guard was armed within the step, or rises from zero with unknown rate: seek a time at which it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(ws, h, low, i, needs_forces)
         if low < _SHORTEST * high:
             if g_low > 0.0 or rises:
                 return low
-            # it vanishes next to the start, where it was still positive
+            # the guard vanishes close to the start, at which it was still positive
             high, g_high = low, g_low
             low, g_low = 0.0, ws.guards[i].initial
             break
@@ -306,7 +309,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
     theta_before, g_before = high, g_high
     slow = 0
     for _iteration in range(100):
-        # next to a huge value the secant does not leave the other end
+        # if one end has a huge value, secants stay at the other end: bisect
         if not low < theta <= high or slow > _SLOW:
             theta = 0.5 * (low + high)
         g = _guard_at(ws, h, theta, i, needs_forces)
@@ -317,7 +320,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
             ws.step.guard_slope = ws.contacts[contact_of(ws, i)].gap_rate
             if ws.guards[i].is_deflated:
                 ws.step.guard_slope = (ws.step.guard_slope - g) / (theta * h)
-        # the slope across a jump says nothing of a value that is as it was at the start
+        # a value as large as at the start is not near a root, whatever the slope, which may be that across a jump
         near = abs(g) <= -fine * ws.step.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i))
         if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
@@ -348,7 +351,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
 
 @kernel("f8(ws, f8, i8)")
 def _behind_jump(ws: Workspace, step: float, i: int) -> float:
-    """Step to right behind the jump of guard ``i`` that the interpolant has at ``step``; return the step."""
+    """Step to right behind a jump of guard ``i``, at ``step`` [s] on the interpolant. Length [s], -1 if it fails."""
     ws.step.h = step
     if not try_step(ws, step) <= TRUSTED:
         return -1.0
@@ -357,7 +360,7 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
         evaluate_guards(ws, ws.island.time + step, ws.step.y_new.start, step, needs_forces=True)
         if ws.guards[i].value < 0.0:
             return step
-        # so short a way is straight
+        # over so short a time the motion is linear
         for j in range(ws.model.n_y):
             ws.step.y_new[j] += way * ws.island.slopes[LAST_STAGE * ws.model.n_y + j]
         step += way
@@ -367,11 +370,11 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
 
 @kernel("f8(ws, f8, i8)")
 def _corrected(ws: Workspace, root: float, i: int) -> float:
-    """Step to where guard ``i`` vanishes, on the interpolant after the time ``root``; return the step."""
+    """Step to the root of guard ``i``, at ``root`` [s] on the interpolant. Length of the step [s], -1 if it fails."""
     h, step = ws.step.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, math.inf
-    # two or three do unless the guard is not smooth
+    # two or three steps suffice unless the guard is not smooth
     for _halving in range(PARTS):
         ws.step.h = step
         blend_chosen_forces(ws, step / h)
@@ -386,12 +389,12 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
             slope = ws.contacts[contact_of(ws, i)].gap_rate
         elif ws.guards[i].is_deflated:
             value /= step
-        # a gap that closes slower than what counts as rest does not tell where
+        # the slope of a gap at rest is round-off, and gives no correction
         if not slope < (-ws.tolerance.velocity if is_gap(ws, i) else 0.0):
             return step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
         if abs(correction) <= SHORT * h:
-            # so short a way is straight
+            # over so short a time the motion is linear
             for j in range(ws.model.n_y):
                 ws.step.y_new[j] += correction * ws.island.slopes[LAST_STAGE * ws.model.n_y + j]
             return float(step + correction)
@@ -409,12 +412,12 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
 
 @kernel("b1(ws, i8)")
 def _overtaken(ws: Workspace, i: int) -> bool:
-    """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
+    """True if the corrected step is past the closing of a gap other than that of the contact of guard ``i``."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == Mode.OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
             start = min(0.0, ws.guards[normal_guard(c)].base)
-            # what closes at one instant does to round-off
+            # gaps that close at the same instant differ by round-off
             if contact.gap < start - ADJACENT * ws.tolerance.gap and contact.gap_rate < 0.0:
                 return True
     return False
@@ -422,10 +425,10 @@ def _overtaken(ws: Workspace, i: int) -> bool:
 
 @kernel("b1(ws, f8, i8)")
 def _hides_another(ws: Workspace, step: float, i: int) -> bool:
-    """Return 1 if the gap of guard ``i``, which jumps, is so deep behind the jump that another one closed before.
+    """True if the gap of guard ``i`` jumps to an overlap so deep that another gap must have closed before.
 
-    It was between two looks that the features of that one came to face each other, and ceased to.  In a step in which
-    no gap can become so deep it is the jump of an evaluator.
+    The features of that other gap faced each other between two samples only. If no gap can become so deep within the
+    step, the jump comes from the contact's own geometry instead.
     """
     if i >= first_user_guard(ws) or is_friction_guard(ws, i):
         return False
@@ -439,17 +442,17 @@ def _hides_another(ws: Workspace, step: float, i: int) -> bool:
 
 @entry_point("f8(ws, f8, f8)")
 def locate(ws: Workspace, h: float, high: float) -> float:
-    """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
+    """Step to the first event before the fraction ``high`` of the step of ``h`` [s]. Length of that step [s].
 
-    The step is negative where its error, or a crowd of guards, shows that the motion is not as smooth as it seemed.
-    Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is
-    higher.
+    ``ws.step.guard`` becomes the guard that fires. The result is negative if the error of the shorter step, or the
+    number of guards that fire, shows that the motion is not smooth.  Unless the error of the step is negligible, the
+    root on the interpolant is corrected by further steps, because the step has a higher order than its interpolant.
     """
     closed = _asks_forces(ws)
     first = first_fired(ws, forces_are_known=True, located=NO_GUARD)
     of_contact = 0 <= first < first_user_guard(ws)
     if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != Mode.OPEN:
-        # explicit steps, which are short enough then, find out when
+        # an explicit step, which is short enough then, locates the event
         return -1.0
     theta = high
     fired = max(0, first)
@@ -463,7 +466,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         later = theta
         theta = _event_fraction(ws, h, later, first, closed)
         if roots > 1 and ws.step.guard_slope == -math.inf and (later - theta) * h <= ws.tolerance.time:
-            # it jumps where the one before does
+            # this guard jumps at the same time as the one found before
             first = -1
         else:
             fired = first
@@ -475,13 +478,13 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             elif ws.step.n_not_facing > 0:
                 guards_within(ws, h, theta, closed)
     if first >= 0:
-        # guards that go on firing one before the other hide what closed before them
+        # guards still fire before the last root: an earlier event may be hidden
         return -1.0
     ws.step.guard = fired
     step = theta * h
     if ws.step.guard_slope == -math.inf and _hides_another(ws, step, fired):
         return -1.0
-    # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
+    # a gap without a rate jumps when its features come to face each other: there is no root to correct
     jumps = (
         fired < first_user_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == Mode.OPEN and not is_gap(ws, fired)
     )

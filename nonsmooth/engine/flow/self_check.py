@@ -278,10 +278,12 @@ def check_end(ws: Workspace) -> None:
 
 @kernel()
 def account_for_mean_forces(ws: Workspace) -> None:
-    """Subtract the work of averaged normal forces since the last call from the closing loss [J].
+    """Account for the work of the normal forces of the time-stepping fallback since the last call [J].
 
-    ``mean_gap`` becomes the present gap [m], up to which the work is accounted for. The geometry must be evaluated. The
-    work of compliant forces is no loss.
+    The fallback applies constant, averaged forces while events accumulate. The work that they take from the bodies is
+    added to the closing loss, the energy lost as contacts close. ``mean_gap`` becomes the present gap [m], up to which
+    the work is accounted for. The geometry must be evaluated. Compliant contacts are left out, because their work is no
+    loss.
     """
     for contact in ws.contacts:
         if contact.is_averaged and not contact.is_compliant:

@@ -1,4 +1,4 @@
-"""The clock of an impact: common to all contacts until one is left with a load; then the impulse of that one.
+"""The clock (variable of integration) of an impact: common to all contacts, or the impulse of the last loaded one.
 
 On the clock of its impulse the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`), so the
 next event is known in closed form and a step can end there. The state is stored when the clock changes. If another
@@ -37,7 +37,7 @@ class Aim(NamedTuple):
 
 @kernel("b1(ws)")
 def change_clock(ws: Workspace) -> bool:
-    """Let the only contact that is not idle be the clock, or undo that if others follow. True if the clock changes.
+    """Make the impulse of the only contact that is not idle the clock, or undo this. True if the clock changes.
 
     The clock is the variable of integration. If it is the normal impulse of one contact, its next event is known in
     closed form. If another contact is loaded before it is done, the impact returns to the state before the change.

@@ -5,7 +5,7 @@ An impact is over when no contact is loaded. It may also end in these ways:
 trapped     Contacts are loaded, but their forces move nothing: the energy is never returned.
 faded       Ever smaller compressions go on, below the tolerance or too slow to bounce: the rest is cut short.
 
-An impact that was cut short may leave an approach. :func:`how_over` says what that is.
+An impact that was cut short may leave an approach of contacts, which :func:`how_over` classifies.
 """
 
 from __future__ import annotations
@@ -23,12 +23,14 @@ from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Pair, length
 
 _LOCKED = 0.1
-"""Unbalanced part of the forces, relative to their parts, below which they may be those of a wedge. Forces of bodies
-that separate are not balanced."""
+"""Resultant of the forces relative to the sum of their magnitudes, below which a wedge may hold them in balance.
+
+Forces between bodies that separate are not balanced.
+"""
 _NEGLIGIBLE_APPROACH = 1e-3
 """Approach that is neglected after a truncated impact, relative to the fastest rate before the impact."""
 _LEAST_TOLERANCE = 1e-11
-"""Least relative tolerance of an impact for which what is left counts as faded. Below it there is round-off only."""
+"""Least relative tolerance by which remaining energies and approaches have faded; smaller ones are round-off."""
 
 
 # --- accounts ---------------------------------------------------------------------------------------------------------

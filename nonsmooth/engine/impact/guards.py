@@ -32,7 +32,7 @@ from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace
 from nonsmooth.engine.numerics.vectors import length
 
 NO_GUARD = -1
-"""Number in place of a guard where none has fired."""
+"""Number in place of a guard if no guard has fired."""
 TOGETHER = 1e-13
 """Value [1] below which guards fire together. Round-off decides which of them is first."""
 _SLACK = 1e-9

@@ -39,8 +39,10 @@ from nonsmooth.engine.numerics.roots import TRUSTED
 from nonsmooth.engine.numerics.runge_kutta import step_factor, trend
 
 MOST_STEPS = 100000
-"""Maximum number of steps of an impact or of a window of one, and of windows. Ever smaller bounces may feed each other
-without end; of thousands of random wedges none that ended took as many."""
+"""Largest number of steps of an impact or of one window of it, and largest number of windows.
+
+Ever smaller bounces of several contacts may excite each other without end.
+"""
 _WORK = 8
 """Work of a step, in evaluations of a contact: seven stages and the guards."""
 _LONG = 6
@@ -53,7 +55,7 @@ _UNTRUSTED = 0.25
 
 @result
 class ImpactPace(NamedTuple):
-    """What determines the length of a step."""
+    """Lengths and error that determine the length of the next step."""
 
     h: float
     """Length of the next step, in pseudo-time."""
@@ -65,7 +67,7 @@ class ImpactPace(NamedTuple):
 
 @result
 class Attempt(NamedTuple):
-    """An attempt of a step."""
+    """Result of an attempt of a step."""
 
     h: float
     """Length that was tried, in pseudo-time."""
@@ -76,7 +78,7 @@ class Attempt(NamedTuple):
     is_accepted: bool
     """The error is small enough."""
     h_again: float
-    """Length to try next if it is not."""
+    """Length to try next if the attempt is not accepted, in pseudo-time."""
 
 
 # --- the impact -------------------------------------------------------------------------------------------------------
@@ -84,14 +86,14 @@ class Attempt(NamedTuple):
 
 @entry_point("ImpactOutcome(ws, f8)")
 def energetic_impact(ws: Workspace, seed: float) -> ImpactOutcome:
-    """Integrate the impact of the active contacts, from their rates before it.
+    """Integrate the impact of the active contacts, from their rates before the impact.
 
     Writes the impulse of every active contact [N s] and its energies stored in compression, returned in expansion and
     dissipated by friction [J]. The result is ``FINISHED``, or the reason why the impact has no end
-    (:class:`ImpactOutcome`). An impact without collision needs a speed ``seed`` [m/s] as its scale; for other impacts
-    it is zero.
+    (:class:`ImpactOutcome`). ``seed`` [m/s] is the speed that scales an impact without collision, which has no speed
+    of approach (Painleve's paradox). For other impacts it is zero.
     """
-    # the normal impulse of a lone contact is the variable of integration; later one that is left alone may become so
+    # the normal impulse of a lone contact is the variable of integration; a contact that is lone later may become so
     ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
     ws.event.truncation = Truncation.NONE
@@ -112,8 +114,9 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> I
     The active contacts are all contacts of the impact or, if ``is_windowed``, of a part of it. ``shortest`` is the
     pseudo-time of the shortest compression.
 
-    FINISHED: no contact is loaded. MOVED: a contact at the rim of the window is not idle, and the next step, in another
-    window, is ``impact.h``. INVALID: a law gives no finite number. ENDLESS: interrupted, or too many steps.
+    FINISHED: no contact is loaded. MOVED: a contact at the rim of the window, in its outermost layer, is not idle; the
+    next step, in another window, is ``impact.h``.  INVALID: a law gives no finite number.  ENDLESS: interrupted, or too
+    many steps.
     """
     prepare_guards(ws)
     write_impact_slope(ws, ws.impact.slopes.start)

@@ -26,9 +26,9 @@ from nonsmooth.engine.numerics.runge_kutta import dense_state
 _NEAR = 1e-11
 """Value [1] at which a root on the interpolant is found. The step itself is corrected afterwards."""
 _SMALL = 1e-3
-"""The same, relative to the largest value of the guard in the step, which may itself be next to nothing."""
+"""Value of such a root relative to the largest value of the guard in the step, which may itself be very small."""
 _NARROW = 1e-14
-"""Width of the bracket of a root, in fractions of the step, that counts as none. It is round-off."""
+"""Width of the bracket of a root, in fractions of the step, below which it is round-off, and the search ends."""
 _ITERATIONS = 60
 """Maximum number of iterations for a root on the interpolant. It ends a search among round-off."""
 _VIOLATED_FROM_START = 1e-3

@@ -31,7 +31,10 @@ _SEED = 1e-3
 _NO_RETURN = 2.0**-52
 """Efficiency that counts as none [1]: the spacing of doubles at 1. All of the stored energy is then lost."""
 _FAINT = 0.5
-"""Rate at which a faint phase ends, relative to that at which one begins. The two must not follow each other."""
+"""Gap rate below which a phase behind a wave ends, relative to the gap rate above which one begins.
+
+It is well below 1, so that a phase that has ended does not begin again at once.
+"""
 
 
 # --- the start --------------------------------------------------------------------------------------------------------

@@ -17,16 +17,18 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 
 _FIRST_POWER = 0.25
-"""Power of the tolerance that is the first step, relative to the shortest compression. Forces are compared after
-that step if none has built up."""
+"""Exponent: the first step, relative to the duration of the shortest compression, is the tolerance to this power.
+
+If no force has built up yet, forces are compared after this step.
+"""
 _FAR = 4.0
 """First step of a lone contact, relative to the impulse that stops it. It is past all events of the contact."""
 _LARGEST_LOSS = 0.7
 """Largest part of its deformation that a contact loses in one step of its expansion [1]."""
 _LAST = 2.0
-"""Deformation down to which steps of an expansion shrink, relative to that after the first step of a compression."""
+"""Factor on the tolerance to the power ``_LAST_POWER``: deformation down to which steps of an expansion shrink."""
 _LAST_POWER = 0.4
-"""Power of the tolerance that is this deformation, relative to that of a full compression."""
+"""Exponent of the tolerance in this deformation, which is relative to the deformation of a full compression."""
 _SETTLING_POWER = -0.4
 """Inverse of the power 2.5 with which the error grows of an implicit step in which slips settle. Its stages are of
 second order there."""

@@ -43,33 +43,36 @@ A load writes ``FORCE`` [N] on the second body, the point where it acts at ``LOA
 from __future__ import annotations
 
 POSITION, ROTATION, VELOCITY, SPIN, ACCELERATION, SPIN_ACCELERATION, JACOBIAN = 0, 3, 12, 15, 18, 21, 24
-"""Offsets of the parts in the block of a frame."""
+"""Offsets of position, rotation, velocities, accelerations and Jacobian in the block of a frame."""
 FRAME = JACOBIAN
 """Floats of frame motion at the head of a body's output block."""
 GAP, NORMAL, TANGENT, POINT_A, POINT_B, SIDE_A, SIDE_B, FEATURE, PAST_END = 0, 1, 4, 7, 10, 13, 21, 29, 30
-"""Offsets of the parts in a geometry block."""
+"""Offsets in a geometry block: gap [m], normal, first tangent, witness points [m], matrices of both surfaces.
+
+Then come the number of the pair of features in contact, and the distance past the ends of the features [m].
+"""
 SLIDE_MATRIX, TURN_MATRIX = 0, 4
-"""Positions of the matrices of a surface, from ``SIDE_A`` or ``SIDE_B``; row by row."""
+"""Offsets of the two curvature matrices of a surface from ``SIDE_A`` or ``SIDE_B``; each 2 x 2, row by row."""
 PAIR = 31
 """Floats of a geometry block that a kinematics writes."""
 GUARD = 8
-"""Floats behind each block that a plug-in writes. They change if it writes past its block."""
+"""Floats behind each block that a plug-in writes. A changed value shows that the plug-in wrote past its block."""
 UNTOUCHED = 1.2345678901234567e-89
-"""Value of these floats: a number that no plug-in writes by chance."""
+"""Value of the ``GUARD`` floats before a plug-in writes: a number that no plug-in writes by chance."""
 GEOMETRY = PAIR + GUARD
 """Floats of a contact's geometry block."""
 RESIDUAL, AXIS, MOMENT, ROW_BIAS = 0, 1, 4, 13
-"""Positions of the parts of a joint's row, as well as ``POINT_A`` and ``POINT_B``."""
+"""Offsets of residual, axis, moment and bias in a joint's row; the points are at ``POINT_A`` and ``POINT_B``."""
 JOINT_ROW = 14
 """Floats of one row of a joint."""
 FORCE, LOAD_POINT, LOAD_MOMENT = 0, 3, 6
-"""Offsets of the parts in the block of a load."""
+"""Offsets of force [N], point of attack [m] and moment [N m] in the block of a load."""
 LOAD = 9
 """Floats that a load writes."""
 TRACTION, TRACTION_MOMENT = 0, 2
-"""Positions of the force and the moment in the block of a traction law."""
+"""Offsets of force [N] and moment [N m] in the block of a traction law."""
 FORCE_AND_MOMENT = 5
-"""Floats of force and moment; the rates of the law's states follow."""
+"""Number of floats of force and moment in the block of a traction law; the rates of its states follow."""
 DELASSUS = 9
 """Floats of a block of the Delassus matrix, row by row."""
 PART_PLACE, PART_AXES, PART_SEMI, PART_POWERS, PART_BALL, PART_RADIUS = 0, 3, 12, 15, 17, 18

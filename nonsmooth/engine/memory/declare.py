@@ -1,8 +1,8 @@
 """The field table: one declaration for every number of the engine.
 
-A declaration has the type, unit and life of a number, and one sentence. Its owner is the class that declares it.
-Everything else follows from it: the compiled records and those of plain mode, allocation, checkpoints, the identity
-of a model, the poison of a debug run, and the page of the internals.
+A declaration has the type and unit of a number, its :class:`Life` (how long it keeps its meaning), and one sentence.
+Its owner is the class that declares it. From declarations follow the records of compiled and of plain mode, allocation,
+checkpoints, the comparison of models, checks that no number is read after its life, and the page of the internals.
 
 An owner is a :class:`Record`, of which there are many (``ws.contacts[c].gap``), or a :class:`Singleton`, of which
 there is one (``ws.tolerance.gap``). A class of declarations is also what editors and type checkers see:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from nonsmooth.engine.memory import tableau
 
 PARTS = 48
-"""Most halvings of a step in search of a root. More would give fractions that differ by round-off only."""
+"""Largest number of halvings of a step in search of a root. More would give fractions that differ by round-off only."""
 PART_END = 7
-"""Floats of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
+"""Floats that a search for a root stores for a time within a step.
+
+They are the fraction of the step, the gap, its rate, the distance past the features, and the offset of the witness.
+"""
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
-"""Positions of the energies that are integrated with the state."""
+"""Positions of the energies integrated with the state: driven work, friction loss, gross exchange, work of loads."""
 N_ACCOUNTS = 4
-"""Number of energies integrated with the state: work of driven bodies, friction loss, gross exchange, work of loads."""
+"""Number of energies that are integrated with the state."""
 BOOKED = 4
 """Number of energies accounted at instants: work of driven bodies, losses by restitution, friction and closing."""
 MOST_BLOCKS = 2**22
@@ -21,11 +24,11 @@ MOST_ENTRIES = 2**26
 N_STAGES = len(tableau.NODES)
 """Number of stages of both Runge-Kutta pairs."""
 LAST_STAGE = N_STAGES - 1
-"""The last stage: its slope is the slope at the end of the step."""
+"""Number of the last stage of both Runge-Kutta pairs: its derivative of the state is that at the end of the step."""
 NORMAL_ROW, FIRST_ROW, SECOND_ROW = 0, 1, 2
 """Rows of a contact: along the normal and along the two tangents."""
 IMPULSE, DEFORMATION, WORK, DISSIPATED, ENERGY, LOST = 0, 3, 4, 5, 6, 7
-"""Positions of the numbers of a contact in the state of an impact."""
+"""Offsets of the numbers of a contact in the state of an impact: impulses, deformation, energies."""
 IMPACT_STATE = 8
 """Number of floats of a contact in the state of an impact."""
 IMPACT_GUARDS = 3

@@ -205,8 +205,8 @@ class Memory:
         return int(self.record[declared.key])
 
     def declared(self, declared: Any) -> np.ndarray:
-        """View of a number of all declared contacts: ``memory.declared(ContactRecord.mode)``."""
-        # memory[ContactRecord.mode] has only contacts on the neighbour list, with their newest values
+        """View of a field, such as ``ContactRecord.mode``, with one entry for each declared contact, in their order."""
+        # memory[ContactRecord.mode] has entries for contacts on the neighbour list only, with their newest values
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:

@@ -11,31 +11,31 @@ class Limit(IntEnum):
     NO_STEP = 0
     """No step was taken: an event follows another one at once, or the neighbour list was renewed."""
     ERROR = 1
-    """The estimated error."""
+    """A longer step would exceed the tolerance of the integrator's estimated error."""
     LARGEST_STEP = 2
-    """The largest step of the engine."""
+    """The step has the largest length that the engine's option ``largest_step`` allows."""
     NEIGHBOUR_LIST = 3
     """The neighbour list is valid only up to the end of the step."""
     SAMPLES = 4
-    """The buffer of samples is full."""
+    """The buffer of samples is full at the end of the step."""
     FIRST_STEP = 5
-    """The first step after an event is short."""
+    """The first step after an event is short, not to miss the end of a bounce or the start of a compliant force."""
     CLOSING_GAP = 6
-    """A gap is about to close."""
+    """The step ends shortly before a gap is expected to close."""
     SINGULARITY = 7
-    """Sliding comes near Painleve's singularity."""
+    """The step ends shortly before sliding reaches Painleve's singularity."""
     STOPPING_SLIP = 8
-    """A slip is about to stop."""
+    """The step ends shortly before a slip is expected to stop."""
     EVENT = 9
-    """An event."""
+    """The step ends at an event, or where bodies in ballistic motion are expected to touch."""
     CROWDED_EVENTS = 10
-    """Too many guards fire in the step."""
+    """The step was shortened to a quarter: an event in it, such as one of very many, could not be located."""
     END = 11
-    """The end of the run."""
+    """The step ends at the end time of the run."""
     AVERAGING = 12
-    """The end of the averaging of forces."""
+    """The step ends where the time-stepping fallback with averaged forces ends, or its gaps would deviate too far."""
     TURN = 13
-    """Bodies turn too far in ballistic motion."""
+    """A body in ballistic motion may turn by at most half a radian in a step, for which bounds of gaps hold."""
 
 
 LIMITS = (
@@ -63,7 +63,7 @@ class Mode(IntEnum):
     UNKNOWN = -1
     """No mode is known. Only a contact problem may begin so."""
     OPEN = 0
-    """The bodies are apart, or separate."""
+    """The bodies do not touch, or they separate."""
     STICK = 1
     """The contact is closed, and friction holds it."""
     SLIDE = 2
@@ -133,7 +133,10 @@ CAUSES = (
 NO_CONTACT = -1
 """Value of the index of a contact if there is no contact."""
 NO_RELEASE = Cause.START
-"""Value of a cause of release if no jump of the contact point has released the contact."""
+"""Value of the field ``release`` of a contact that no jump of its contact point has released.
+
+The field holds a :class:`Cause`. ``START`` is never a cause of release, so that it can mean "none".
+"""
 
 
 class Phase(IntEnum):
@@ -153,9 +156,9 @@ class Truncation(IntEnum):
     """Why an impact was cut short."""
 
     NONE = 0
-    """It was not cut short, or has no end."""
+    """The impact was not cut short: it ended, or the integration failed."""
     SLOW = 1
-    """The approach that remains is negligible, relative to the fastest rate before the impact."""
+    """The remaining approach of contacts is negligible, relative to the fastest approach before the impact."""
     FAST = 2
     """A heavy body approaches, and the compressions of light bodies between it and others stop it gradually."""
 
@@ -164,13 +167,16 @@ class ImpactOutcome(IntEnum):
     """How the integration of an impact ended."""
 
     FINISHED = 1
-    """No contact is loaded."""
+    """The impact has ended: no contact has a force."""
     ENDLESS = 2
     """The integration was stopped: too many steps, or an interrupt."""
     INVALID = 3
     """A law gave a number that is not finite, or not positive."""
     MOVED = 4
-    """The impact continues, but has reached the rim of its window."""
+    """The impact continues in another window.
+
+    A window is the part of the contacts that is integrated at a time. A contact at its border is no longer idle.
+    """
 
 
 class Painleve(IntEnum):
@@ -179,7 +185,7 @@ class Painleve(IntEnum):
     BY_LAW = 0
     """An impact without collision, by the impact law of the contact."""
     COMPLIANT = 1
-    """The same without loss, as a stiff spring does it."""
+    """An impact without collision and without loss of energy, as by a stiff spring."""
     REFUSE = 2
     """The run ends."""
 
@@ -208,9 +214,9 @@ class Status(IntEnum):
     STOPPED = 9
     """A guard of the user ends the run."""
     NO_SLOT = 10
-    """More contacts are near each other than can be listed."""
+    """More contacts are near than the workspace has slots for active contacts."""
     PARADOX_REFUSED = 11
-    """Sliding has no contact force, and the run is to end there."""
+    """Sliding has no contact force, and the option ``painleve`` is "refuse"."""
     JOINTS_APART = 12
     """Joints contradict each other."""
     GAP_UNEXPLAINED = 13

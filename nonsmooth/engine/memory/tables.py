@@ -3,9 +3,10 @@
 Each scalar of a :class:`~nonsmooth.engine.memory.declare.Singleton` is an entry of the record. So is the offset of
 each array among the floats or integers. Entries are named by owner and field: ``"island.time"``, ``"contacts.gap"``.
 The sizes are functions of the counts of a system: another number of bodies or contacts gives other offsets, and no new
-compilation. The numbers of an engine of another kind come last.
+compilation. Scalars that a plug-in's engine adds come behind all others.
 
-Arrays that outlive a step come first, so that a checkpoint is one piece of each array. Late arrays come last.
+Within the floats and within the integers, arrays that outlive a step come first, so that a checkpoint copies one
+contiguous range of each. "Late" arrays, which most runs never write, come last, so that they take no memory.
 """
 
 from __future__ import annotations
@@ -55,11 +56,15 @@ def _rank(declared: Declaration) -> int:
 
 
 _KEPT, _SHORT, _LATE = range(3)
-"""Groups of arrays: arrays that outlive a step, arrays that do not, and late arrays."""
+"""Groups of arrays, in the order of their offsets.
+
+``_KEPT``: a later step reads it. ``_SHORT``: every step writes it anew. ``_LATE``: most runs never write it, so that it
+takes no memory (``Declaration.is_late``).
+"""
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Total entries of the arrays of floats, or of integers: of those that outlive a step, of all but late, of all."""
+    """Total entries of the arrays of floats, or of integers: arrays that outlive a step, all but late arrays, all."""
     # cached, because systems that differ in their parameters only have the same lengths, and often follow each other
     return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
 
@@ -92,13 +97,13 @@ def _entries(owners: Iterable[type]) -> list[tuple[str, str]]:
 
 
 OWNERS: tuple[type, ...] = (*PARTS.values(), *RECORDS.values())
-"""All owners."""
+"""All classes that declare numbers of the engine."""
 FLOAT_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=True)
 INTEGER_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=False)
 SCALARS = np.dtype(_entries(OWNERS), align=True)
-"""The record of scalars."""
+"""Type of the record of scalars, which also holds the offsets of arrays."""
 N_SCALARS = len(SCALARS.names or ())
-"""Number of its entries."""
+"""Number of entries of the record of scalars."""
 COUNTS = tuple(name for name, one in declarations(ModelNumbers).items() if one.kind is int and one.size is None)
 """Counts that size the arrays, and the other integers of a model."""
 CONSTANT_SCALARS = frozenset((*(f"{ModelNumbers.key}.{name}" for name in COUNTS), *FLOAT_ARRAYS, *INTEGER_ARRAYS))

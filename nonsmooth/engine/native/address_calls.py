@@ -100,15 +100,16 @@ def _support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any)
 
 
 def support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
-    """Farthest point of a body [m]: compiled half of :func:`nonsmooth.engine.native.kernel.call_support`."""
+    """Farthest point of a body [m]: the version of ``kernel.call_support`` that compiled code calls."""
     return _support_at(floats, place, x, y, z)
 
 
 @typeof_impl.register(Shared)
 def _type_of_shared(value: Shared, context: Any) -> Any:
-    """Numba type of a `Shared`: the type of its compiled half, so that compiled code can call it.
+    """Numba type of a `Shared`: the type of the version for compiled code, so that compiled code can call it.
 
-    The half is a Python function, which gets a dispatcher, or an intrinsic, whose type numba knows.
+    If this version is a Python function, its type is that of a dispatcher, which compiles it at the first call. If it
+    is an intrinsic, numba knows its type.
     """
     half = globals()[value.compiled] if value.compiled else value.function
     return types.Dispatcher(_dispatcher(half)) if isfunction(half) else typing_context.resolve_value_type(half)

@@ -20,9 +20,12 @@ law_dispatcher: Callable[[Callable[..., Any]], Any] = _compiler.law_dispatcher
 entry_address: Callable[[Callable[..., Any], Any, str, str], int] = _compiler.entry_address
 """``entry_address(function, typed, signature, key)``: address of the C function of an entry point.
 
-It is compiled, and kept on disk under its key. Equal keys must mean equal functions. An empty key keeps nothing.
+It is compiled, and stored on disk under its key. Equal keys must mean equal functions. An empty key stores nothing.
 """
 shim_address: Callable[[Callable[..., Any], str, str], int] = _compiler.shim_address
 """``shim_address(function, signature, key)``: address of the C function of a shim, which calls a plug-in's function."""
 KEEPS_FILES: bool = _compiler.KEEPS_FILES
-"""Whether the code is in the files of :mod:`nonsmooth.engine.native.code_files`."""
+"""True if compiled entry points are stored in the files of :mod:`nonsmooth.engine.native.code_files`.
+
+Other processes can then write these files. False if numba stores the machine code in files of its own.
+"""

@@ -1,9 +1,11 @@
 """Kernels, which are compiled into their callers, and entry points, which are compiled apart and called by address.
 
-Numba optimises a kernel again within each of its callers. An entry point ends this: its callers read its address from
-the workspace. Python calls entry points, too. Their machine code is kept on disk. Nothing is compiled when a module is
-imported: a kernel is compiled when an entry point that calls it is. This module, and with it numba, is imported only if
-something must be compiled (:mod:`nonsmooth.engine.native.machine_code`).
+Numba compiles a kernel again as a part of each of its callers. An entry point is compiled once: its callers read its
+address from the workspace and call it there. Python calls entry points, too. Their machine code is stored on disk.
+
+Nothing is compiled when a module is imported. A kernel is compiled together with an entry point that calls it. This
+module, and with it numba, is imported only if something must be compiled
+(:mod:`nonsmooth.engine.native.machine_code`).
 """
 
 from __future__ import annotations
@@ -130,7 +132,10 @@ def compile_entry(name: str) -> tuple[str, int]:
 
 
 def compile_shim(shim: Callable[..., Any], signature: str, key: str) -> int:
-    """Compile a shim, which calls a plug-in's function; write it to the file of ``key``, if any; return its address."""
+    """Compile a shim: a C function that passes the engine's arguments to a plug-in's function. Address of the shim.
+
+    Its machine code is written to the file of ``key``, if the key is not empty.
+    """
     with _uncollected():
         return shim_address(shim, signature, key)
 
@@ -157,13 +162,13 @@ def compile_apart(names: tuple[str, ...]) -> None:
 
     The compiler would leave half a gigabyte in this process. If the others fail, this process compiles what is missing.
     """
-    # numba's own files are found when an entry point is compiled in this process
+    # without files of the engine, other processes cannot help: this process compiles later, or loads numba's own files
     if not KEEPS_FILES:
         return
     is_terminal = sys.stderr is not None and sys.stderr.isatty()
     if not is_terminal:
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
-    # without a folder to write files to nothing could be handed over: this process compiles
+    # without a folder to write files to, other processes cannot hand over their code: this process compiles
     if folders()[1] is None:
         return
     # at most one for each processor that this process may use

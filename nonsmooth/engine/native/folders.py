@@ -34,22 +34,23 @@ _NUMBA_FILE = Path(".numba_config.yaml")
 def build_name() -> str:
     """Name of the folder of compiled code: a hash of all sources of the engine.
 
-    The versions of numba, llvmlite, numpy and Python and the kind of processor are part of the hash. So code that does
-    not fit is never found. The sources are read, which takes some milliseconds, because a file may change and keep its
-    size and time.
+    The versions of numba, llvmlite, numpy and Python and the kind of processor are part of the hash. So code that was
+    compiled for other versions or another processor is never loaded. The contents of all sources are read, which takes
+    some milliseconds. Size and time of a file would not show every change.
     """
     versions = f"{_numba_version()} {llvmlite.__version__} {np.__version__} {sys.version}"
     digest = hashlib.sha256(f"{versions} {_processor()}".encode())
     for source in sorted(_ENGINE.rglob("*.py")):
         digest.update(source.relative_to(_ENGINE).as_posix().encode() + source.read_bytes())
-    # 64 bits of it: two engines with the same name are next to impossible
+    # 64 bits of the hash: two engines with the same name are next to impossible
     return f"engine-{digest.hexdigest()[:16]}"
 
 
 def _numba_version() -> str:
-    """Version of numba. It is not imported, as that takes most of a start.
+    """Version of numba, as the text of its file ``_version.py``.
 
-    Its file of the version is found as an import would find it: the metadata may be those of another installation.
+    Numba is not imported, because the import takes most of the time in which a program starts. The file is found as an
+    import would find it. The metadata of installed packages may belong to another installation of numba.
     """
     place = getattr(importlib.util.find_spec("numba"), "origin", None)
     file = Path(place or "").with_name("_version.py")

@@ -56,7 +56,10 @@ class _Decorator(Protocol):
 
 
 _calls = importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else 'machine_code'}")
-"""Module of the functions for Python and plug-ins: compiled, or plain with the same names."""
+"""Module with the functions below that Python and plug-ins call: ``machine_code``, or ``plain``.
+
+Both define the same names. ``machine_code`` calls compiled code, ``plain`` runs everything as ordinary Python.
+"""
 
 entry_addresses: Callable[[], tuple[int, ...]] = _calls.entry_addresses
 """Addresses of all entry points, which the workspace holds."""
@@ -145,7 +148,10 @@ _OF_KERNELS = {
     **dict.fromkeys(PACKED, "views"),
     **dict.fromkeys((*(f"call_{form}" for form in FORMS), "call_watch"), "address_calls"),
 }
-"""Names above that get their values at the first use, each with the module of its compiled value."""
+"""Names of this module that only kernels use, each with the module that defines it for compiled code.
+
+They get their values at the first use, because these modules import numba. In plain mode all are in ``plain``.
+"""
 
 if not TYPE_CHECKING:
 

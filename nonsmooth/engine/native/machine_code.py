@@ -1,7 +1,7 @@
-"""The compiled half of :mod:`nonsmooth.engine.native.kernel` as Python and plug-ins use it, without the compiler.
+"""Loads the engine's machine code and calls it from Python: the functions of ``kernel`` for Python and plug-ins.
 
 Entry points and functions of plug-ins are loaded from disk by their names. The compiler, and the kernels that it needs,
-are imported only if something is missing there. They take most of the time of a start.
+are imported only if machine code is missing on disk. Their import takes most of the time in which a program starts.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from nonsmooth.engine.native.loader import load
 from nonsmooth.engine.native.shared import Shared, shared, unshared
 
 __all__ = ["shared", "unshared"]
-"""Names imported from another module that belong to this half."""
+"""Names from another module that :mod:`nonsmooth.engine.native.kernel` reads from this one."""
 
 
 class EntryPoint(NamedTuple):
@@ -30,9 +30,9 @@ class EntryPoint(NamedTuple):
     Attributes
     ----------
     signature : str
-        Its signature.
+        Types of the result and the arguments, such as "f8(ws, i8)".
     address : callable
-        Function that returns its address, after it has compiled or loaded it.
+        Function that compiles or loads the machine code and returns its address.
     """
 
     signature: str
@@ -42,11 +42,11 @@ class EntryPoint(NamedTuple):
 ENTRIES: dict[str, EntryPoint] = {}
 """Steps of engines by name; entry points, too, as soon as :func:`entry_addresses` has been called."""
 _callables: dict[str, Callable[..., Any]] = {}
-"""C functions of the entry points and steps that Python has called, by name."""
+"""C functions by name, of entry points and of steps of engines; each is stored at its first call from Python."""
 
 
 def _compiler() -> Any:
-    """The module that compiles, which imports numba."""
+    """The module ``entry_points``, which compiles the engine. Its import also imports numba."""
     return importlib.import_module("nonsmooth.engine.native.entry_points")
 
 
@@ -88,7 +88,7 @@ def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
 def _callable(name: str) -> Callable[..., Any]:
     """An entry point, or the step of an engine, as a function that Python can call. It is made at the first call.
 
-    Its arguments are the addresses of scalars, floats and integers, then numbers.
+    Its arguments are three addresses, of the scalars, the floats and the integers of a workspace, then any numbers.
     """
     if name not in _callables:
         _callables[name] = prototype_of(name)(known(ENTRIES, name).address())
@@ -121,7 +121,10 @@ def address_of(make_shim: Callable[[], Callable[..., Any]], form: str, key: str)
 
 
 def jit(function: Callable[..., Any]) -> Any:
-    """Numba's object for a plug-in's function, which is compiled when a shim that calls it is."""
+    """Numba's dispatcher for a plug-in's function.
+
+    The function is compiled together with a shim that calls it: a C function that the engine calls by its address.
+    """
     return importlib.import_module("nonsmooth.engine.native.compiler").law_dispatcher(function)
 
 
@@ -148,7 +151,7 @@ def forget_watch(address: int) -> None:
 
 
 def _moved(floats: Any, offset: int) -> Any:
-    """Python half of :func:`at`: the floats from an offset on."""
+    """The floats from an offset on: the version of :func:`at` that Python calls."""
     return floats[offset:]
 
 
@@ -158,10 +161,10 @@ at = Shared(_moved, "at")
 def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Farthest point of a body in the direction (x, y, z) [m], by a C function whose address is ``floats[place]``.
 
-    The parameters of the function follow its address. This is the half of :func:`call_support` that Python calls.
+    The parameters of the function follow its address. Compiled code calls another version of :func:`call_support`.
     """
-    # copies as C arrays, since floats may be any sequence: of the parameters, with one unused number behind them, and
-    # of the direction. The function writes the point to its last argument
+    # parameters and direction are copied to C arrays, because floats may be any sequence. The array of parameters has
+    # one unused number at its end. The function writes the point to its last argument
     parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
     direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
     FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)

@@ -109,7 +109,7 @@ try:
         Context: ("resolve_function_type",),
         # the C function of a compiled function
         CFunc: ("compile", "_compile_uncached", "native_name", "address"),
-        # memory that laws allocate
+        # numba's runtime, which allocates the arrays of impact laws
         rtsys: ("initialize",),
     }
     MISSING = _first_missing(OF_PASSES)

@@ -17,7 +17,7 @@ from nonsmooth.engine.native.passes import CFunction, EntryPasses, KernelPasses,
 from nonsmooth.engine.native.signatures import signature_of
 
 KEEPS_FILES = True
-"""Whether another process can compile entry points into the files that :mod:`.code_files` reads."""
+"""True: another process can compile entry points into the files that :mod:`.code_files` reads."""
 _OPTIONS: dict[str, Any] = {"nopython": True, "nogil": True, "error_model": "numpy", **NO_WRAPPERS}
 _alive: list[CFunction] = []
 """All C functions: their code must outlive the last call."""
@@ -38,10 +38,10 @@ def law_dispatcher(function: Callable[..., Any]) -> Any:
 def entry_address(function: Callable[..., Any], typed: Any, signature: str, key: str) -> int:
     """Address of the C function of an entry point, which is compiled after the kernels that it calls.
 
-    ``typed`` is its numba signature, and ``signature`` the text of it. The code is written to the file of its ``key``.
-    With an empty key nothing is kept on disk.
+    ``typed`` is the numba signature of the function, and ``signature`` the same types as text.  The machine code is
+    written to a file whose name has the ``key``.  With an empty key no file is written.
     """
-    # each kernel is compiled with the types that it declares, before a caller needs other ones
+    # compile each kernel for its declared types first; otherwise numba would compile it for the types of a call
     for kernel in callees_of(function):
         kernel.compile()
     return _address(CFunction(function, typed, EntryPasses, **NO_ALLOCATION), signature, key)
@@ -50,13 +50,17 @@ def entry_address(function: Callable[..., Any], typed: Any, signature: str, key:
 def shim_address(function: Callable[..., Any], signature: str, key: str) -> int:
     """Address of the C function of a shim, which passes the engine's arguments to a plug-in's function.
 
-    It is compiled, and written to the file of its ``key``. With an empty key nothing is kept on disk.
+    It is compiled, and written to the file of its ``key``. With an empty key no file is written.
     """
     return _address(CFunction(function, signature_of(signature), ShimPasses), signature, key)
 
 
 def _address(function: CFunction, signature: str, key: str) -> int:
-    """Compile a C function; returns its address, valid until the process ends, as a list keeps the function alive."""
+    """Compile a C function, and write its machine code to the file of ``key``, if the key is not empty. Its address.
+
+    The address is valid until the process ends, because ``_alive`` refers to the function: numba would free the code of
+    a function without references.
+    """
     function.compile()
     _alive.append(function)
     if key and (machine_code := function.machine_code(signature)):
@@ -66,6 +70,6 @@ def _address(function: CFunction, signature: str, key: str) -> int:
 
 def start_runtime() -> None:
     """Give LLVM the functions of numba that machine code may need, such as those that allocate memory."""
-    # the context registers all functions except those that allocate. numba's `context.refresh` would do this too, but
-    # it imports all of numpy and scipy: a third of a start
+    # the context registers all functions except those that allocate. numba's `context.refresh` would register these,
+    # too, but it imports all of numpy and scipy, which takes a third of the time in which a program starts
     rtsys.initialize(cpu_target.target_context)

@@ -258,7 +258,7 @@ LawPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, _LOWE
 
 @final
 class CFunction(private.CFunc):
-    """A C function that :meth:`compile` compiles.
+    """A C function made from a Python function; :meth:`compile` compiles it with the given passes.
 
     Parameters
     ----------
@@ -268,8 +268,8 @@ class CFunction(private.CFunc):
         Types of its arguments and of its result.
     passes : type
         The passes of the compiler.
-    options : bool
-        Further options of the compiler.
+    **options : bool
+        Options of ``numba.jit`` in addition to "nopython" and "error_model".
     """
 
     def __init__(self, function: Any, signature: Any, passes: type, **options: bool) -> None:
@@ -288,9 +288,9 @@ class CFunction(private.CFunc):
         return compiled
 
     def machine_code(self, signature: str) -> MachineCode | None:
-        """The compiled code for a file, with the types of the function as text.
+        """The compiled code as it is written to a file; ``signature`` holds the types of the function as text.
 
-        None if the code has addresses of this process, which mean nothing in another one.
+        None if the code has addresses of objects in this process, which are not valid in another process.
         """
         if self.library.has_dynamic_globals:
             return None

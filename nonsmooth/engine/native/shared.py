@@ -1,4 +1,4 @@
-"""Functions that the functions of plug-ins call, compiled, and that Python calls as they are."""
+"""Functions that both Python and the compiled functions of plug-ins can call."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ from typing import Any, final
 
 @final
 class Shared:
-    """A function that has a compiled half for compiled code, and that Python calls as a Python function.
+    """A function that Python calls as it is, and that compiled functions of plug-ins call in a compiled version.
 
     Parameters
     ----------
     function : callable
-        The function.
+        The Python function.
     compiled : str
-        Name, in :mod:`nonsmooth.engine.native.address_calls`, of the function compiled in its place; "" for itself.
+        Name of the function in :mod:`nonsmooth.engine.native.address_calls` that compiled code calls instead; "" if
+        compiled code calls ``function``, compiled.
     """
 
     def __init__(self, function: Callable[..., Any], compiled: str = "") -> None:
@@ -32,7 +33,7 @@ class Shared:
 
 
 shared = Shared
-"""Let the compiled functions of plug-ins call a function."""
+"""Decorator of a function that compiled functions of plug-ins may call."""
 
 
 def unshared(value: Any) -> Any:

@@ -22,7 +22,7 @@ from nonsmooth.engine.native.signatures import signature_of
 from nonsmooth.notices import say
 
 KEEPS_FILES = False
-"""Whether another process can compile entry points into files for this one: no, because numba has files of its own."""
+"""False: another process cannot compile entry points for this one, because numba has files of its own."""
 _OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _alive: list[Any] = []
 """All C functions: their code must outlive the last call."""
@@ -43,10 +43,10 @@ def law_dispatcher(function: Callable[..., Any]) -> Any:
 def entry_address(function: Callable[..., Any], typed: Any, signature: str, key: str) -> int:
     """Address of the C function of an entry point, which is compiled or loaded from numba's files.
 
-    ``typed`` is its numba signature, and ``key`` names the file. Numba gives no sign whether it has the file. So the
-    entry point is first compiled while kernels cannot be. This succeeds if there is a file, and fails at the first call
-    of a kernel otherwise. Then its kernels are compiled, each with the types that it declares, and the entry point
-    again.
+    ``typed`` is the numba signature, and ``key`` names the file. Numba does not show whether it has a file of the entry
+    point. To avoid compiling its kernels in vain, a first attempt makes numba refuse to compile any kernel. If there is
+    a file, the entry point is loaded from it. If there is none, the attempt fails at the first call of a kernel. Then
+    the kernels are compiled, each for its declared types, and after them the entry point.
     """
     kernels = callees_of(function)
     with _uncompilable(kernels), contextlib.suppress(numba.TypingError):

@@ -98,7 +98,7 @@ class PartType(View):
         return FLOAT_ROW if declared.is_float else INTEGER_ROW
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """Write the code that reads an attribute of this part: the number of a scalar, or an array as a `RowType`.
+        """Write the machine code that reads a scalar or an array (a `RowType`) by its name from the owner's numbers.
 
         ``value`` holds the pointers to scalars, floats and integers.
         """
@@ -112,7 +112,7 @@ class PartType(View):
         return row._getvalue()
 
     def store(self, context: Any, builder: Any, value: Any, name: str, number: Any) -> None:
-        """Write the code that stores ``number`` in a scalar of this part."""
+        """Write the machine code that stores ``number`` in a scalar of the owner."""
         declared, pointers = self.fields[name], _members(context, builder, self, value)
         store(builder, declared.kind, self._place(builder, pointers, declared), number, declared.key)
 

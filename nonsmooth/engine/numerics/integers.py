@@ -9,8 +9,8 @@ from nonsmooth.engine.native.kernel import kernel
 def power(base: int, exponent: int) -> int:
     """Power of an integer; 1 for an exponent of 0 or less.
 
-    The operator ``**`` of numba may raise an error. An entry point that may raise one needs functions of numba, which
-    would then be imported at every start.
+    It replaces the operator ``**``, which may raise an error in code that numba compiles.  Machine code that may raise
+    an error needs functions of numba, so that numba would be imported whenever a program starts.
     """
     result = 1
     for _ in range(exponent):
