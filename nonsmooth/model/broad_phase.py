@@ -20,6 +20,7 @@ from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.feature_searches import FeatureSearch, find_searches
 from nonsmooth.model.laying import write_record
 from nonsmooth.system.contact import Contact
+from nonsmooth.system.contacts import Contacts
 from nonsmooth.types import Array
 
 SMALL = 64
@@ -108,7 +109,7 @@ class BroadPhase:
         }
 
 
-def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
+def find_broad_phase(contacts: Contacts, table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
     """Bounding spheres, pairs of spheres with their contacts, and half-spaces of a system with these bodies.
 
     A frame with contacts of two bounded shapes gets a sphere about its origin that holds its bounded shapes. Such a

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.interfaces import Body
-from nonsmooth.system.contact import Contact
+from nonsmooth.system.contacts import Contacts
 from nonsmooth.types import Array
 
 
@@ -38,26 +36,21 @@ class ContactTable:
     revolutions: Array
 
     @classmethod
-    def of(cls, bodies: Sequence[Body], contacts: Sequence[Contact]) -> ContactTable:
+    def of(cls, bodies: Sequence[Body], contacts: Contacts) -> ContactTable:
         """The table of all contacts of a system with these bodies.
 
-        Bodies and shapes are known by their identity. Attributes are read by maps, because systems may have thousands
-        of contacts, and the axis of each shape is computed once.
+        Bodies and shapes are known by their identity. The axis of each shape is computed once.
         """
         # the number of each body
-        number = {id(body): i for i, body in enumerate(bodies)}
-        sides = [[number[i] for i in map(id, map(attrgetter(side), contacts))] for side in ("first", "second")]
-        frames, extents, support_radii = (
-            list(itertools.chain.from_iterable(map(attrgetter(name), contacts)))
-            for name in ("frames", "extents", "levers")
-        )
-        # of each contact the shape with the smaller support radius, the second if they are equal
-        shapes = [contact.shapes[1 if contact.levers[1] <= contact.levers[0] else 0] for contact in contacts]
+        number, rows = {id(body): i for i, body in enumerate(bodies)}, contacts.rows
+        # of each row the shape with the smaller support radius, the second if they are equal
+        shapes = [row.shapes[1 if row.levers[1] <= row.levers[0] else 0] for row in rows]
         revolutions = {id(shape): shape.revolution for shape in shapes}
-        return cls(
-            np.array(sides, np.int64).T,
-            np.array(frames, np.int64).reshape(-1, 2),
-            np.array(extents, float).reshape(-1, 2),
-            np.array(support_radii, float).reshape(-1, 2),
-            np.array([revolutions[i] for i in map(id, shapes)], float).reshape(-1, 3),
+        of_rows = (
+            np.array([[number[id(body)] for body in row.bodies] for row in rows], np.int64).reshape(-1, 2),
+            np.array([row.frames for row in rows], np.int64).reshape(-1, 2),
+            np.array([row.extents for row in rows], float).reshape(-1, 2),
+            np.array([row.levers for row in rows], float).reshape(-1, 2),
+            np.array([revolutions[id(shape)] for shape in shapes], float).reshape(-1, 3),
         )
+        return cls(*map(contacts.repeated, of_rows))

@@ -10,7 +10,6 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from operator import attrgetter
 
 from nonsmooth.binding import interpreted
 from nonsmooth.binding.bounds import try_out
@@ -24,7 +23,7 @@ from nonsmooth.interfaces import CandidateSearch
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record
 from nonsmooth.parameters import SharedNumbers
-from nonsmooth.system.contact import Contact
+from nonsmooth.system.contacts import Contacts
 
 
 @dataclass(frozen=True)
@@ -52,7 +51,7 @@ class FeatureSearch:
         return 1 + CANDIDATE * (len(self.contacts) + 1)
 
 
-def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
+def find_searches(contacts: Contacts) -> list[FeatureSearch]:
     """The searches for candidate features, in the order of their contacts.
 
     The contacts of a search are consecutive, and have the same :class:`CandidateSearch`.
@@ -63,22 +62,23 @@ def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
         If a shape is unbounded. Its displacement has no bound, so no time for the next search is known.
     """
     found = []
-    candidates = list(map(attrgetter("kinematics.candidates"), contacts))
-    numbers = [number for number, one in enumerate(candidates) if one is not None]
-    for _, group in itertools.groupby(numbers, lambda number: id(candidates[number])):
-        first, *others = group
-        contact, search = contacts[first], candidates[first]
-        assert search is not None
-        for shape, extent in zip(contact.shapes, contact.extents, strict=True):
-            if not math.isfinite(extent):
-                raise InvalidInput(
-                    f"{type(shape).__name__} of the {contact}",
-                    "must be bounded if its features are searched for (`candidates`)",
-                    extent,
-                    "Give the shape a finite `extent`, or return contacts of given features from `between`.",
-                )
-        owner = f"{type(contact.kinematics).__name__} ({contact})"
-        found.append(FeatureSearch(search, range(first, first + 1 + len(others)), owner))
+    for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
+        candidates = [kinematics.candidates for kinematics in row.kinematics]
+        for search, group in itertools.groupby(range(len(row)), candidates.__getitem__):
+            if search is None:
+                continue
+            first, *others = group
+            contact = row.contact(first)
+            for shape, extent in zip(row.shapes, row.extents, strict=True):
+                if not math.isfinite(extent):
+                    raise InvalidInput(
+                        f"{type(shape).__name__} of the {contact}",
+                        "must be bounded if its features are searched for (`candidates`)",
+                        extent,
+                        "Give the shape a finite `extent`, or return contacts of given features from `between`.",
+                    )
+            owner = f"{type(contact.kinematics).__name__} ({contact})"
+            found.append(FeatureSearch(search, range(start + first, start + first + 1 + len(others)), owner))
     return found
 
 
@@ -127,7 +127,7 @@ def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
     return {"function": address, "parameters": start, "out": blocks.output(search.size)}
 
 
-def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
+def failed_search(memory: Memory, contacts: Contacts) -> str:
     """Sentence that names the first search whose number of features is negative or not a number, or "".
 
     For the message of a run that a search has failed. An exception in the function gives NaN.

@@ -10,10 +10,10 @@ import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from operator import attrgetter
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
@@ -29,10 +29,11 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import BodyLayouts
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.system.contact import Contact
+from nonsmooth.system.contacts import Contacts
 from nonsmooth.system.system import System
 
 _CONTACT = owners.ContactRecord
-Kinds: TypeAlias = Sequence[list[int]]
+Kinds: TypeAlias = Sequence[NDArray[np.int64]]
 """The numbers of the contacts of each kind."""
 
 
@@ -80,7 +81,7 @@ class Kind:
 
 
 def lay_contacts(
-    memory: Memory, blocks: Heap, contacts: Sequence[Contact], table: ContactTable, kinds: Kinds, bodies: BodyLayouts
+    memory: Memory, blocks: Heap, contacts: Contacts, table: ContactTable, kinds: Kinds, bodies: BodyLayouts
 ) -> None:
     """Write the declared contacts, and reserve Jacobians for as many as the neighbour list can hold.
 
@@ -115,16 +116,18 @@ def lay_contacts(
         memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
 
 
-def by_kind(contacts: Sequence[Contact]) -> Kinds:
+def by_kind(contacts: Contacts) -> Kinds:
     """Numbers of the contacts of each kind. A kind shares the very same objects for geometry and laws."""
+    # rows with the same kinematics and laws: their first contacts are of one kind, their second ones of another
     same = defaultdict[tuple[int, ...], list[int]](list)
-    parts = [map(id, map(attrgetter(part), contacts)) for part in ("kinematics", "normal", "friction", "impact")]
-    for number, key in enumerate(zip(*parts, strict=True)):
-        same[key].append(number)
-    return list(same.values())
+    for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
+        laws = row.laws.normal, row.laws.friction, row.laws.impact
+        same[tuple(map(id, (row.kinematics if len(row) > 1 else row.kinematics[0], *laws)))].append(start)
+    counts = dict(zip(contacts.starts.tolist(), contacts.counts.tolist(), strict=False))
+    return [np.array(starts) + index for starts in same.values() for index in range(counts[starts[0]])]
 
 
-def lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
+def lay_states(memory: Memory, contacts: Contacts, kinds: Kinds) -> None:
     """Write the first place of each contact's inner states, and their scales for the error of a step.
 
     The inner states of friction laws come last in the state, in the order of the contacts.
@@ -133,7 +136,7 @@ def lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> Non
         number: law
         for numbers in kinds
         if isinstance(law := contacts[numbers[0]].friction, (TractionLaw, StatefulFrictionLaw))
-        for number in numbers
+        for number in numbers.tolist()
     }
     scales: list[float] = []
     for number in sorted(laws):
@@ -168,7 +171,7 @@ def _lay_sides(memory: Memory, table: ContactTable, bodies: BodyLayouts) -> int:
     return int(n_u_together[table.bodies].max(initial=0))
 
 
-def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
+def lay_law_floats(memory: Memory, contacts: Contacts, kinds: Kinds) -> None:
     """Write the times [s] and distances [m] of the laws, which are fields of a declared contact.
 
     These are the contact time of an impact, 0 without an impact law, and the reach: the gap up to which a compliant law
@@ -342,10 +345,10 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     _check_same(model.system, system)
     memory, contacts, former = model.memory, system.contacts, model.system.contacts
     kinds = by_kind(contacts)
-    former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers}
+    former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers.tolist()}
     for numbers in kinds:
         # the contacts `numbers` have equal laws and geometry now; take one of them for each kind that they had before
-        examples = {former_kind[number]: number for number in numbers}.values()
+        examples = {former_kind[number]: number for number in numbers.tolist()}.values()
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):
             # the new parameters must fit in the places of the old ones, within blocks of the same length

@@ -15,7 +15,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import GAP, NORMAL
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.model.part_pairs import by_shapes
+from nonsmooth.model.part_pairs import by_shapes, numbers_of_rows
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 
@@ -100,7 +100,7 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
 
 def solid_pairs(
     model: LaidOut, numbers: Sequence[int], within: float = np.inf
-) -> Iterator[tuple[list[int], Placed, Placed]]:
+) -> Iterator[tuple[Sequence[int], Placed, Placed]]:
     """For each pair of shapes with solids: the numbers of their contacts, and the two solids in their poses.
 
     Parameters
@@ -108,24 +108,26 @@ def solid_pairs(
     model : LaidOut
         The model, whose bodies were evaluated.
     numbers : sequence of int
-        Contacts of the system.
+        Contacts of the system; all contacts of a pair of shapes, or none.
     within : float
         Shapes whose bounding spheres are farther apart than this are left out [m].
     """
-    for same in by_shapes(model.system.contacts, numbers):
-        contact = model.system.contacts[same[0]]
+    contacts = model.system.contacts
+    rows = np.unique(np.searchsorted(contacts.starts, np.array(numbers), side="right") - 1)
+    for same in by_shapes(contacts, rows.tolist()):
+        row, of_rows = contacts.rows[same[0]], numbers_of_rows(contacts, same)
         # without both solids there is nothing to compare
-        solids = [solid for shape in contact.shapes if (solid := shape.solid) is not None]
-        if len(solids) < len(contact.shapes):
+        solids = [solid for shape in row.shapes if (solid := shape.solid) is not None]
+        if len(solids) < len(row.shapes):
             continue
-        frames = frames_of(model, same[0])
-        if math.dist(frames[0][:3], frames[1][:3]) - sum(contact.extents) > within:
+        frames = frames_of(model, of_rows[0])
+        if math.dist(frames[0][:3], frames[1][:3]) - sum(row.extents) > within:
             continue
         one, two = (
             Placed(solid, frame[:3].copy(), frame[3:].reshape(3, 3).copy())
             for solid, frame in zip(solids, frames, strict=True)
         )
-        yield same, one, two
+        yield of_rows, one, two
 
 
 def frames_of(model: LaidOut, number: int) -> tuple[Vector, Vector]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +19,7 @@ from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record
-from nonsmooth.system.contact import Contact
+from nonsmooth.system.contacts import Contacts
 
 _ALLOWED = 1e-7
 """Allowed overlap beyond that of closed contacts, relative to the smaller shape: ten times the error of a gap of a body
@@ -54,7 +53,7 @@ class PartPair(NamedTuple):
     ----------
     group : int
         Number of the first pair of the same shapes.
-    contacts : tuple of int
+    contacts : sequence of int
         Numbers of the contacts of the shapes.
     sides : tuple of PairSide
         The parts. A half-space comes first, and the larger one of two discs.
@@ -63,12 +62,12 @@ class PartPair(NamedTuple):
     """
 
     group: int
-    contacts: tuple[int, ...]
+    contacts: Sequence[int]
     sides: tuple[PairSide, PairSide]
     size: float
 
 
-def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[PartPair]:
+def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
     """The pairs of convex parts of shapes with contacts that need a check for overlap.
 
     Each part of a shape is paired with each part of the other shape. A half-space, or the larger of two discs, becomes
@@ -76,10 +75,10 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
     """
     parts_of: dict[int, tuple[ConvexPart, ...]] = {}
     found: list[PartPair] = []
-    for numbers in by_shapes(contacts, range(len(contacts))):
-        contact, group = contacts[numbers[0]], len(found)
+    for rows in by_shapes(contacts, range(len(contacts.rows))):
+        row, group, numbers = contacts.rows[rows[0]], len(found), numbers_of_rows(contacts, rows)
         choices: list[list[PairSide]] = []
-        for shape, body, frame in zip(contact.shapes, table.bodies[numbers[0]], table.frames[numbers[0]], strict=True):
+        for shape, body, frame in zip(row.shapes, table.bodies[numbers[0]], table.frames[numbers[0]], strict=True):
             # the parts of a shape are computed once
             if id(shape) not in parts_of:
                 parts_of[id(shape)] = shape.parts
@@ -90,7 +89,7 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
             if needs_overlap_check(one, two, len(numbers)):
                 is_larger = one.is_disc and two.is_disc and two.radius > one.radius
                 sides = (second, first) if two.is_half_space or is_larger else (first, second)
-                found.append(PartPair(group, tuple(numbers), sides, contact.size))
+                found.append(PartPair(group, numbers, sides, row.size))
     return found
 
 
@@ -122,39 +121,43 @@ def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool
     return not (one.is_flat and two.is_flat) or (one.is_disc and two.is_disc)
 
 
-def contacts_without_parts(contacts: Sequence[Contact]) -> list[int]:
+def contacts_without_parts(contacts: Contacts) -> list[int]:
     """Numbers of contacts of a shape without convex parts, whose bodies the engine cannot check for overlap.
 
     Their solids, if there are any, are compared in samples after the run.
     """
-    # contacts share shapes, whose parts are costly
-    shapes = {id(shape): shape for contact in contacts for shape in contact.shapes}
+    # shapes are shared, and their parts are costly
+    shapes = {id(shape): shape for row in contacts.rows for shape in row.shapes}
     without_parts = {key for key, shape in shapes.items() if not shape.parts}
-    if not without_parts:
-        return []
-    return [i for i, contact in enumerate(contacts) if not without_parts.isdisjoint(map(id, contact.shapes))]
+    rows = [i for i, row in enumerate(contacts.rows) if not without_parts.isdisjoint(map(id, row.shapes))]
+    return [number for i in rows for number in numbers_of_rows(contacts, [i])]
 
 
-def unchecked_contacts(contacts: Sequence[Contact]) -> list[str]:
+def unchecked_contacts(contacts: Contacts) -> list[str]:
     """Names of contacts of a shape without convex parts and without a solid: only their gaps show an overlap."""
-    # contacts share shapes, whose parts are costly
-    shapes = {id(shape): shape for contact in contacts for shape in contact.shapes}
+    # shapes are shared, and their parts are costly
+    shapes = {id(shape): shape for row in contacts.rows for shape in row.shapes}
     bare = {key for key, shape in shapes.items() if not shape.parts and not shape.solid}
-    return [contact.name for contact in contacts if not bare.isdisjoint(map(id, contact.shapes))]
+    rows = [row for row in contacts.rows if not bare.isdisjoint(map(id, row.shapes))]
+    return [row.name(index) for row in rows for index in range(len(row))]
 
 
-def by_shapes(contacts: Sequence[Contact], numbers: Sequence[int]) -> list[list[int]]:
-    """Those of the ``numbers`` of contacts that belong to the same pair of shapes, for each such pair.
+def by_shapes(contacts: Contacts, rows: Sequence[int]) -> list[list[int]]:
+    """Those of the ``rows``, indices of rows of contacts, of the same pair of shapes, for each such pair.
 
     Shapes on other bodies or frames are another pair. Bodies and shapes are known by their identity.
     """
     groups: dict[tuple[int, ...], list[int]] = {}
-    chosen = [contacts[number] for number in numbers]
-    bodies = [map(id, map(attrgetter(name), chosen)) for name in ("first", "second")]
-    for number, contact, first, second in zip(numbers, chosen, *bodies, strict=True):
-        key = first, second, *contact.frames, *map(id, contact.shapes)
-        groups.setdefault(key, []).append(number)
+    for index in rows:
+        row = contacts.rows[index]
+        groups.setdefault((*map(id, row.bodies), *row.frames, *map(id, row.shapes)), []).append(index)
     return list(groups.values())
+
+
+def numbers_of_rows(contacts: Contacts, rows: Sequence[int]) -> Sequence[int]:
+    """Numbers of the contacts in the rows with these indices."""
+    ranges = [range(int(contacts.starts[row]), int(contacts.starts[row + 1])) for row in rows]
+    return ranges[0] if len(ranges) == 1 else [*itertools.chain.from_iterable(ranges)]
 
 
 def numbers_of(part: ConvexPart) -> list[float]:

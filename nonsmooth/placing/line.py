@@ -53,7 +53,7 @@ class Line:
         self._probe, self._asked, self._height = probe, way, height
         self._q = probe.q.copy()
         self._rates, self._way = self._motion()
-        self._size = max(contact.size for contact in probe.contacts)
+        self._size = max(row.size for row in probe.contacts.rows)
         pairs = list(solid_pairs(probe.model, range(len(probe.contacts))))
         self._slack = sum(solid.solid.set_back for _, *both in pairs for solid in both)
         self._passages = [
@@ -63,9 +63,8 @@ class Line:
                 for numbers, first, second in pairs
             )
         ]
-        self._by_gap = [
-            i for i, contact in enumerate(probe.contacts) if any(shape.solid is None for shape in contact.shapes)
-        ]
+        rows = [any(shape.solid is None for shape in row.shapes) for row in probe.contacts.rows]
+        self._by_gap = np.flatnonzero(probe.contacts.repeated(rows)).tolist()
 
     def met(self) -> Vector:
         """Coordinates of the body where it first touches another body along the line, or is ``height`` apart from it.

@@ -16,7 +16,7 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.overlaps import frames_of
-from nonsmooth.system.contact import Contact
+from nonsmooth.system.contacts import Contacts
 from nonsmooth.system.system import System
 
 
@@ -51,7 +51,7 @@ class Probe:
         return self.model.system.name_of(self.body)
 
     @property
-    def contacts(self) -> tuple[Contact, ...]:
+    def contacts(self) -> Contacts:
         """The contacts of the body."""
         return self.model.system.contacts
 

@@ -84,7 +84,7 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     probe = Probe.of(system, body)
     gaps = probe.gaps()
     # the body was moved until solids meet, where the gap of the touching contact need not be exactly zero
-    touched = gaps <= max(float(np.min(gaps)), 0.0) + _ROUND_OFF * max(contact.size for contact in probe.contacts)
+    touched = gaps <= max(float(np.min(gaps)), 0.0) + _ROUND_OFF * max(row.size for row in probe.contacts.rows)
     contact = probe.contacts[int(np.argmin(gaps))]
     own, other = (0, 1) if contact.first is body else (1, 0)
     carrier = Probe.of(system, (contact.first, contact.second)[other]).frame(contact.frames[other])

@@ -18,7 +18,6 @@ from nonsmooth.notices import warn
 from nonsmooth.queries.distance import BodyPair
 from nonsmooth.queries.near import Ties, near_bodies, size_of, touching
 from nonsmooth.solids.placed import Placed, overlap
-from nonsmooth.system.contact import Contact, Tie
 from nonsmooth.system.system import System
 
 Places = Sequence[Sequence[Place]]
@@ -82,8 +81,8 @@ class Undeclared:
         Bodies with a joint or a load are left out, because it may hold them.
         """
         bodies, names = self.system.bodies, self.system.names.bodies
-        said: list[Contact | Tie] = [*self.system.contacts, *self.system.joints, *self.system.loads]
-        held = {id(body) for one in said for body in (one.first, one.second)}
+        tied = ((tie.first, tie.second) for tie in (*self.system.joints, *self.system.loads))
+        held = {id(body) for pair in (*tied, *(row.bodies for row in self.system.contacts.rows)) for body in pair}
         shaped = [i for i, body in enumerate(bodies) if any(body.frames)]
         lone = [i for i in shaped if bodies[i].n_u > 0 and id(bodies[i]) not in held]
         met = [(i, j) for i in lone for j in shaped if i != j and self._is_one(min(i, j), max(i, j))]

@@ -210,7 +210,9 @@ class FinalState(NamedTuple):
 
     def _friction_stores_energy(self) -> bool:
         """True if a friction law has inner states, which may store energy."""
-        return any(isinstance(one.friction, (StatefulFrictionLaw, TractionLaw)) for one in self.system.contacts)
+        return any(
+            isinstance(row.laws.friction, (StatefulFrictionLaw, TractionLaw)) for row in self.system.contacts.rows
+        )
 
     def _least_scale(self) -> float:
         """Scale of the energy account of bodies that hardly move [J].

@@ -194,4 +194,7 @@ def sides(system: System) -> Floats:
 
     The force on the first body is drawn if only the first body is movable.
     """
-    return np.array([-1.0 if c.second.n_u == 0 < c.first.n_u else 1.0 for c in system.contacts])
+    of_rows = [
+        -1.0 if second.n_u == 0 < first.n_u else 1.0 for first, second in (r.bodies for r in system.contacts.rows)
+    ]
+    return system.contacts.repeated(of_rows)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, final
 
@@ -123,9 +122,8 @@ class State:
         if not is_finite(time):
             raise InvalidInput("State.at: time", "must be a finite number", time, "Give it in [s].")
         placed = system.starts()
-        laws = [contact.friction for contact in system.contacts]
-        counts, known = Counter(map(id, laws)), {id(law): law for law in laws}
-        n, n_states = len(laws), sum(count * _n_states(known[law]) for law, count in counts.items())
+        n = len(system.contacts)
+        n_states = sum(len(row) * _n_states(row.laws.friction) for row in system.contacts.rows)
         return cls(
             time,
             placed[0] if q is None else floats("State.at: q", q),

@@ -11,12 +11,13 @@ from nonsmooth.checks import check_kind, check_pair
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, ContactKinematics, ImpactLaw, ImpactProcess
 from nonsmooth.system.contact import Contact, ContactDeclaration
+from nonsmooth.system.contacts import ContactRow, Contacts
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws, check_sharing
 from nonsmooth.system.members import Members
 from nonsmooth.system.names import between
 from nonsmooth.system.pairing import ContactGeometries, Side, select
 
-_Facing: TypeAlias = tuple[Side, Side, ContactKinematics]
+_Facing: TypeAlias = tuple[Side, Side, Sequence[ContactKinematics]]
 _WITHOUT_SHAPE = -1
 """Number in ``paired`` of a shape of ``System.add_contact``: the body need not carry it, so it has no number there."""
 
@@ -30,8 +31,8 @@ class ContactDeclarations:
     ----------
     members : Members
         The bodies.
-    contacts : list of Contact
-        All contacts.
+    rows : list of ContactRow
+        All contacts, by pair of shapes.
     declared : list of ContactDeclaration
         One entry for each call of ``System.contact``, and for each pair of bodies of ``System.contact_all``.
     given : list of Contact
@@ -43,17 +44,25 @@ class ContactDeclarations:
     """
 
     members: Members
-    contacts: list[Contact] = field(default_factory=list)
+    rows: list[ContactRow] = field(default_factory=list)
     declared: list[ContactDeclaration] = field(default_factory=list)
     given: list[Contact] = field(default_factory=list)
     paired: set[frozenset[tuple[int, int]]] = field(default_factory=set)
     excluded: list[tuple[Body, Body]] = field(default_factory=list)
     left_out: list[tuple[Body, Body]] = field(default_factory=list)
     _geometries: ContactGeometries = field(default_factory=ContactGeometries, init=False)
+    _contacts: Contacts = field(default_factory=lambda: Contacts(()), init=False)
+
+    @property
+    def contacts(self) -> Contacts:
+        """All contacts."""
+        if len(self._contacts.rows) != len(self.rows):
+            self._contacts = Contacts(self.rows)
+        return self._contacts
 
     def copied(self, members: Members) -> ContactDeclarations:
         """Independent copy of these declarations for a copy of the system, whose bodies are ``members``."""
-        lists = [*self.contacts], [*self.declared], [*self.given]
+        lists = [*self.rows], [*self.declared], [*self.given]
         return ContactDeclarations(members, *lists, {*self.paired}, [*self.excluded], [*self.left_out])
 
     def add(
@@ -63,7 +72,7 @@ class ContactDeclarations:
         laws: ContactLaws,
         shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
         name: str = "",
-    ) -> tuple[Contact, ...]:
+    ) -> Contacts:
         """Add the contacts of two bodies; arguments and errors as for ``System.contact``."""
         where = "System.contact"
         names = self._checked(where, first, second, laws.impact)
@@ -76,16 +85,16 @@ class ContactDeclarations:
                 names,
                 "One call adds the contacts of all their shapes, or of those named by `shapes`.",
             )
-        facing = [found for one, other in itertools.product(*sides) for found in self._facing(one, other)]
-        made = [between(*self.members.names(where, one.body, two.body)) for one, two, _ in facing]
-        check_sharing(where, laws, len(facing))
-        given = self.members.naming.give("contact", name, made)
-        added = [_contact(*named, laws) for named in zip(given, facing, strict=True)]
-        self.contacts += added
+        facing = [self._facing(one, other) for one, other in itertools.product(*sides)]
+        wanted = [(between(*self.members.names(where, one.body, two.body)), len(all_)) for one, two, all_ in facing]
+        check_sharing(where, laws, sum(count for _, count in wanted))
+        given = self.members.naming.give("contact", name, wanted)
+        added = [_row(*named, laws) for named in zip(given, facing, strict=True)]
+        self.rows += added
         chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
         self.declared.append(ContactDeclaration(first, second, (chosen[0], chosen[1]), laws, name))
         self.paired |= pairs
-        return tuple(added)
+        return Contacts(added)
 
     def add_given(self, contact: Contact) -> Contact:
         """Add a contact with given kinematics; errors as for ``System.add_contact``."""
@@ -96,9 +105,8 @@ class ContactDeclarations:
         check_laws(where, contact.normal, contact.friction, contact.impact)
         names = self._checked(where, first, second, contact.impact)
         self.members.check_frames(where, first, second, contact.frames)
-        (name,) = self.members.naming.give("contact", contact.name, [between(*names)])
-        added = replace(contact, name=name)
-        self.contacts.append(added)
+        added = replace(contact, name=self.members.naming.give_one("contact", contact.name, between(*names)))
+        self.rows.append(ContactRow.of(added))
         self.given.append(added)
         self.paired.add(frozenset((self.members.number(where, body), _WITHOUT_SHAPE) for body in (first, second)))
         return added
@@ -110,7 +118,7 @@ class ContactDeclarations:
         bodies: Sequence[Body] | None,
         exclude: Iterable[tuple[Body, Body]],
         joined: Iterable[tuple[Body, Body]],
-    ) -> tuple[Contact, ...]:
+    ) -> Contacts:
         """Add contacts between all bodies, as ``System.contact_all``, but none for the pairs ``joined`` by a joint."""
         where, members = "System.contact_all", self.members
         materials = Materials(default=laws) if isinstance(laws, ContactLaws) else laws
@@ -128,12 +136,12 @@ class ContactDeclarations:
         out |= {frozenset(body for body, _ in pair) for pair in self.paired}
         for body in chosen:
             members.number(f"{where}: bodies", body)
-        n_before = len(self.contacts)
+        n_before = len(self.rows)
         for one, other in itertools.combinations(chosen, 2):
             if members.pair(where, one, other) not in out and one.n_u + other.n_u > 0:
                 self.add(one, other, materials.laws(names.get(id(one)), names.get(id(other))))
         self.left_out += apart
-        return tuple(self.contacts[n_before:])
+        return Contacts(self.rows[n_before:])
 
     def _checked(self, where: str, first: Body, second: Body, impact: ImpactLaw | None) -> tuple[str, str]:
         """Names of two bodies, after a check that they may have a contact with this impact law.
@@ -144,7 +152,7 @@ class ContactDeclarations:
             If a body is not of the system, both are the same, or another contact has an impact law of another kind.
         """
         names = self.members.names(where, first, second)
-        present = next((contact.impact for contact in self.contacts if contact.impact is not None), impact)
+        present = next((row.laws.impact for row in self.rows if row.laws.impact is not None), impact)
         if impact is not None and present is not None and not _is_same_kind(impact, present):
             raise InvalidInput(
                 where,
@@ -170,19 +178,20 @@ class ContactDeclarations:
                     )
         return names
 
-    def _facing(self, first: Side, second: Side) -> list[_Facing]:
+    def _facing(self, first: Side, second: Side) -> _Facing:
         geometries, in_order = self._geometries.between(first.shape, second.shape)
         one, two = (first, second) if in_order else (second, first)
-        return [(one, two, geometry) for geometry in geometries]
+        return one, two, geometries
 
     def _key(self, side: Side) -> tuple[int, int]:
         return self.members.number("System.contact", side.body), side.number
 
 
-def _contact(name: str, facing: _Facing, laws: ContactLaws) -> Contact:
-    one, two, geometry = facing
+def _row(name: tuple[str, int], facing: _Facing, laws: ContactLaws) -> ContactRow:
+    one, two, geometries = facing
     bodies, frames, shapes = (one.body, two.body), (one.frame, two.frame), (one.shape, two.shape)
-    return Contact.of_shapes(bodies, shapes, geometry, laws, frames=frames, name=name)
+    extents, levers = (one.shape.extent, two.shape.extent), (one.shape.lever, two.shape.lever)
+    return ContactRow(bodies, frames, shapes, geometries, laws, *name, extents, levers)
 
 
 def _is_same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:

@@ -6,6 +6,7 @@ Made names are numbered from 1 if several parts have the same one: "ball 1", "ba
 
 from __future__ import annotations
 
+import functools
 import itertools
 import re
 from collections import Counter
@@ -17,6 +18,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
 
 if TYPE_CHECKING:
+    from nonsmooth.system.contacts import Contacts
     from nonsmooth.system.system import System
 
 _BETWEEN = " - "
@@ -32,15 +34,22 @@ class Names:
 
     Attributes
     ----------
-    bodies, contacts, joints, loads, guards : tuple of str
+    bodies, joints, loads, guards : tuple of str
         The names.
+    declared : Contacts
+        The contacts, whose names are made when they are used.
     """
 
     bodies: tuple[str, ...]
-    contacts: tuple[str, ...]
+    declared: Contacts
     joints: tuple[str, ...]
     loads: tuple[str, ...]
     guards: tuple[str, ...]
+
+    @functools.cached_property
+    def contacts(self) -> tuple[str, ...]:
+        """Names of the contacts."""
+        return self.declared.names
 
 
 def kind_word(component: object) -> str:
@@ -119,8 +128,23 @@ class Naming:
         self._made = self._made or body_names(self._bodies, self._chosen)
         return self._made
 
-    def give(self, kind: str, chosen: str, made: Sequence[str]) -> list[str]:
-        """Names for new parts of a kind: ``chosen``, or ``made`` if it is empty. Equal names are numbered.
+    def give(self, kind: str, chosen: str, made: Sequence[tuple[str, int]]) -> list[tuple[str, int]]:
+        """Names for new parts of a kind: ``chosen``, or the names in ``made`` if it is empty. Equal names are numbered.
+
+        Parameters
+        ----------
+        kind : str
+            The kind, such as "contact".
+        chosen : str
+            Name that the user chose for all of the parts, or "".
+        made : sequence of tuple
+            Name made from the bodies, and number of parts that get it.
+
+        Returns
+        -------
+        list of tuple
+            For each entry of ``made`` the name, and the number behind the name of its first part, from which the others
+            count on; 0 for a single part without a number.
 
         Raises
         ------
@@ -130,12 +154,21 @@ class Naming:
         given = self._given.setdefault(kind, Counter())
         if chosen:
             check_name(f"System.{kind}: name", chosen, given)
-        wanted = [chosen or name for name in made]
-        totals, names = {name: wanted.count(name) for name in {*wanted}}, []
-        for name in wanted:
-            given[name] += 1
-            names.append(name if given[name] == totals[name] == 1 else f"{name} ({given[name]})")
-        return names
+        wanted = [(chosen or name, count) for name, count in made]
+        totals = Counter[str]()
+        for name, count in wanted:
+            totals[name] += count
+        found = []
+        for name, count in wanted:
+            is_single = totals[name] == 1 and not given[name]
+            found.append((name, 0 if is_single else given[name] + 1))
+            given[name] += count
+        return found
+
+    def give_one(self, kind: str, chosen: str, made: str) -> str:
+        """Name of a single new part of a kind; arguments and errors as for :meth:`give`."""
+        ((name, number),) = self.give(kind, chosen, [(made, 1)])
+        return f"{name} ({number})" if number else name
 
     def forget(self, kind: str) -> None:
         """Take back the names of all parts of a kind."""

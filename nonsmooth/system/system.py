@@ -23,6 +23,7 @@ from nonsmooth.interfaces import (
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.readable import Readable
 from nonsmooth.system.contact import Contact, ContactDeclaration, Tie, Watched
+from nonsmooth.system.contacts import Contacts
 from nonsmooth.system.declarations import ContactDeclarations
 from nonsmooth.system.input_checks import check_bodies, gravity_of, start_of
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
@@ -88,8 +89,8 @@ class System(metaclass=Readable):
     @property
     def names(self) -> Names:
         """The names of all bodies, contacts, joints, loads and guards, in the order declared."""
-        declared = self.contacts, self._joints, self._loads, self._watched
-        return Names(self._members.naming.bodies, *(tuple(one.name for one in parts) for parts in declared))
+        others = (tuple(one.name for one in parts) for parts in (self._joints, self._loads, self._watched))
+        return Names(self._members.naming.bodies, self.contacts, *others)
 
     def name_of(self, body: Body) -> str:
         """Name of a body; InvalidInput if it is not of this system."""
@@ -101,9 +102,9 @@ class System(metaclass=Readable):
         return self._gravity
 
     @property
-    def contacts(self) -> tuple[Contact, ...]:
+    def contacts(self) -> Contacts:
         """The potential contacts, in the order declared."""
-        return tuple(self._declared.contacts)
+        return self._declared.contacts
 
     @property
     def declarations(self) -> tuple[ContactDeclaration, ...]:
@@ -133,7 +134,7 @@ class System(metaclass=Readable):
     def about(self, body: Body) -> System:
         """Copy of the system with only the contacts of one body, in the order declared."""
         made = copy.copy(self)
-        made._declared.contacts = [one for one in self.contacts if one.first is body or one.second is body]
+        made._declared.rows = [row for row in self._declared.rows if any(one is body for one in row.bodies)]
         return made
 
     def without_contacts(self) -> System:
@@ -154,7 +155,7 @@ class System(metaclass=Readable):
         """
         if not isinstance(guard, Guard):
             raise InvalidInput("System.guard", "needs a Guard", guard, "Subclass nonsmooth.interfaces.Guard.")
-        (given,) = self._members.naming.give("guard", name, [kind_word(guard)])
+        given = self._members.naming.give_one("guard", name, kind_word(guard))
         self._watched.append(Watched(given, bool(name), guard))
 
     @property
@@ -203,7 +204,7 @@ class System(metaclass=Readable):
         self, kind: str, component: Joint | Load, first: Body, second: Body, frames: tuple[int, int], name: str
     ) -> Tie:
         made = between(self.name_of(first), self.name_of(second), kind_word(component))
-        (given,) = self._members.naming.give(kind, name, [made])
+        given = self._members.naming.give_one(kind, name, made)
         return Tie(given, bool(name), kind, first, second, frames, component)
 
     def start(self, body: Body) -> tuple[Vector, Vector]:
@@ -278,7 +279,7 @@ class System(metaclass=Readable):
         impact: ImpactLaw | None = None,
         shapes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
         name: str = "",
-    ) -> tuple[Contact, ...]:
+    ) -> Contacts:
         """Declare contacts between two bodies: one for each pair of their shapes, all with the same laws.
 
         Parameters
@@ -298,8 +299,8 @@ class System(metaclass=Readable):
 
         Returns
         -------
-        tuple of Contact
-            The contacts added.
+        Contacts
+            The contacts added, a sequence.
 
         Raises
         ------
@@ -345,7 +346,7 @@ class System(metaclass=Readable):
         *,
         bodies: Sequence[Body] | None = None,
         exclude: Iterable[tuple[Body, Body]] = (),
-    ) -> tuple[Contact, ...]:
+    ) -> Contacts:
         """Declare contacts between all bodies, with the same laws for all, or with laws by pair of materials.
 
         The method omits pairs of driven bodies, pairs that a joint ties already (a joint usually makes its bodies
@@ -365,8 +366,8 @@ class System(metaclass=Readable):
 
         Returns
         -------
-        tuple of Contact
-            The contacts added.  If an error is raised, the system is unchanged.
+        Contacts
+            The contacts added, a sequence.  If an error is raised, the system is unchanged.
 
         Raises
         ------

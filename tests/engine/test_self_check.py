@@ -141,8 +141,8 @@ def _over(
 ) -> ns.System:
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
-    system.contact(plate, ball, **laws)
-    system._declared.contacts[0] = dataclasses.replace(system.contacts[0], kinematics=gap)
+    (made,) = ns.System([plate, ball]).contact(plate, ball, **laws)
+    system.add_contact(dataclasses.replace(made, kinematics=gap))
     system.place(ball, position=(0.0, 0.0, z), velocity=(1.0, 0.0, 0.0))
     return system
 
