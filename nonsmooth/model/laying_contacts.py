@@ -33,7 +33,7 @@ from nonsmooth.system.system import System
 
 _CONTACT = owners.ContactRecord
 Kinds: TypeAlias = Sequence[list[int]]
-"""The numbers of the contacts of each kind."""
+"""Indices of the contacts of each kind."""
 
 
 @dataclass
@@ -45,13 +45,13 @@ class Kind:
     fields : dict
         Fields of the declared contact, by their declarations.
     offsets : dict
-        Fields that are places in the block, from its start, by their declarations.
+        Offsets in the block, by the declarations of the fields that hold them.
     block : list of float
         The block.
     written : list of tuple
-        (place in the block, length) of numbers that the engine or a law writes.
+        (offset in the block, length) of numbers that the engine or a law writes.
     tables : list of tuple
-        (place in the block, place from which its distance counts, table).
+        (offset of a reference in the block, offset from which the reference counts, table that it refers to).
     """
 
     fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: Mode.OPEN})
@@ -61,17 +61,17 @@ class Kind:
     tables: list[tuple[int, int, SharedNumbers]] = field(default_factory=list)
 
     def store(self, declared: Any, values: Sequence[float]) -> int:
-        """Append values to the block; the result is their place, which is noted as the field ``declared``."""
+        """Append values to the block; return their offset, which becomes the field ``declared``."""
         start = self.offsets[declared] = len(self.block)
         self.block += values
         return start
 
     def output(self, declared: Any, size: int) -> None:
-        """Append ``size`` places for numbers that a law writes, and a mark; field ``declared`` gets their offset."""
+        """Append an output block for ``size`` numbers that a law writes; its offset becomes the field ``declared``."""
         self.mark_written(declared, self.store(declared, output_block(size)), size)
 
     def mark_written(self, declared: Any, place: int, size: int) -> None:
-        """Mark ``size`` numbers of the block as written in a run; their place becomes the field ``declared``.
+        """Mark ``size`` numbers of the block as written in a run; their offset becomes the field ``declared``.
 
         A saved checkpoint holds such numbers, but no parameters.
         """
@@ -116,7 +116,7 @@ def lay_contacts(
 
 
 def by_kind(contacts: Sequence[Contact]) -> Kinds:
-    """Numbers of the contacts of each kind. A kind shares the very same objects for geometry and laws."""
+    """Indices of the contacts of each kind. A kind shares the very same objects for geometry and laws."""
     same = defaultdict[tuple[int, ...], list[int]](list)
     parts = [map(id, map(attrgetter(part), contacts)) for part in ("kinematics", "normal", "friction", "impact")]
     for number, key in enumerate(zip(*parts, strict=True)):
@@ -325,7 +325,7 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
 
 
 _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Fields of a contact with the places of its geometry's numbers in its block. New laws do not change these numbers."""
+"""Fields of a contact with the offsets of the geometry's parameters in its block. New laws keep these parameters."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
@@ -353,7 +353,8 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
                 _refuse(contacts[number], former[number])
         for declared, value in after.fields.items():
             memory.declared(declared)[numbers] = value
-        # the parameters of the geometry come first and stay, as they may refer to tables; those of the laws follow
+        # the block begins with the parameters of the geometry, which may refer to tables: they are not written again.
+        # The parameters of the laws follow them and are overwritten
         of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
         first = min(of_laws, default=len(after.block))
         # the block of each contact begins with the parameters of the geometry

@@ -139,7 +139,7 @@ class Recorder(ABC):
 Function: TypeAlias = Callable[[Any, Solution], float]
 """``f(scenario, solution) -> number``; the scenario is None if a function built the system."""
 Requested: TypeAlias = str | Recorder | Function
-"""A name, a recorder, or a function of the user."""
+"""One quantity that a study records of each run: its name, a recorder, or a function of the user."""
 _LINE = re.compile(r"(?P<words>.*?)(\s*\[(?P<unit>[^]]+)\])?\.?")
 """First line of a docstring: description, and unit in brackets at its end."""
 

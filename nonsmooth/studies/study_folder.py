@@ -87,7 +87,7 @@ class StudyFolder:
         sampling, cases : Sampling, CaseFactory
             The parameters of the runs, with their units and descriptions.
         chunk : int
-            Runs that are stored together.
+            Number of runs whose results are written together.
         attributes : mapping
             Attributes of the study; the names of its arrays are added.
 
@@ -140,7 +140,7 @@ class StudyFolder:
 
     @property
     def n_chunks(self) -> int:
-        """Number of chunks."""
+        """Number of chunks, the groups of runs whose results are written together."""
         return -(-self.n_runs // self.chunk)
 
     def layout(self, name: str) -> ArrayLayout:

@@ -25,7 +25,10 @@ _MOST_LETTERS = 12
 _MOST_NUMBERS = 6
 """Largest number of contacts that are listed by their numbers; further contacts are counted."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2
-"""Sums of a contact's bits, Eq. (29) of the paper: sticking (1) and sliding (5). Bit of an approaching contact (2)."""
+"""Codes of contacts in an event. A code is a sum of bits: closed 1, approaching 2, slipping 4, Eq. (29) of the paper.
+
+A sticking contact is closed: 1. A sliding contact is closed and slips: 1 + 4. A colliding contact has the bit 2.
+"""
 
 
 def event_words(events: Events) -> tuple[list[str], NDArray[np.int64]]:

@@ -1,7 +1,7 @@
 """Caps, rims, side, apex and feet of a frustum: the part nearest to a point, its curvature, and frustums on feet.
 
-A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`; its parts are numbered from the lower cap over
-rim, side and rim to the upper cap.
+A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`.  Its parts are numbered along the axis: lower
+cap, lower rim, side, upper rim, upper cap.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
-    """Return the names of the parts that a frustum has, by :func:`part_number`."""
+    """Return the names of the parts that a frustum has, in the order of :func:`part_number`."""
     if numbers[SIDE] == 0.0:
         return "face -", "rim", "face +"
     if numbers[1] == 0.0:
@@ -59,14 +59,14 @@ def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
 
 @compiled
 def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, float, float, int]:
-    """Return signed distance, normal (across and along the axis) and part nearest to a point.
+    """Return the part nearest to a point: signed distance [m], normal (across and along the axis), and part.
 
     Parameters
     ----------
     frustum : Floats
         Numbers of the frustum.
     along, away : float
-        Height of the point over the centre along the axis, and its distance from the axis [m].
+        Coordinate of the point along the axis from the centre, and its distance from the axis [m].
     """
     under, over = frustum[LOW] - along, along - frustum[HIGH]
     dr, dz = away - frustum[0], along - frustum[LOW]
@@ -77,7 +77,7 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
     if under > 0.0 and away < frustum[0]:
         return under, 0.0, -1.0, LOW_CAP
     if under <= 0.0 and over <= 0.0 and beside <= 0.0:
-        # a point inside leaves by the nearest of side and caps
+        # inside, the nearest part is the side or a cap
         if beside >= under and beside >= over:
             return beside, frustum[COS], frustum[SIN], FLANK
         if over >= under:
@@ -94,14 +94,19 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
 
 @compiled
 def least_height(frustum: Floats, height: float, cosine: float) -> float:
-    """Return the least height of a frustum over a plane [m], from its centre's ``height`` and its axis' ``cosine``."""
+    """Return the least height of a frustum over a plane [m].
+
+    ``height`` is the height of its centre [m], ``cosine`` the component of its axis along the normal of the plane.
+    """
     sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
     return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
 
 
 @compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
-    """Write the matrices of a part of a frustum; normal and first tangent must be in ``out``.
+    """Write the slide and turn matrices (curvature) of a part of a frustum to the geometry block.
+
+    The caller has already written normal and first tangent to ``out``.
 
     Parameters
     ----------
@@ -122,7 +127,7 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
     elif part != FLANK and away == 0.0:
         write_round(out, side, 0.0)
     else:
-        # round the axis the normal turns by ``radial`` of the angle by which the point goes round
+        # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
         flank = 1.0 if part == FLANK else 0.0
         x, y, z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
         write_principal(out, side, x, y, z, max(radial, FLATTEST), away, 1.0 - flank, flank)
@@ -156,17 +161,18 @@ def tip_past_rim(
 
 
 _WAYS = 12
-"""Number of unit vectors, evenly spaced round the axis, along the surface at an apex or at the tip of a foot.
+"""Number of unit vectors that sample the surface next to an apex (down the side) or a foot (along the cap).
 
-They replace the edges of a corner: an apex or a foot touches a face only if none of the vectors leads below the face.
+They are evenly spaced around the axis.  A face can touch the apex or the foot only if none of them points into the face
+steeper than :data:`bodies.contacts.surface.surface_vertex.ASTRAY`.  The steepest of 12 vectors along a cap has at least
+cos(15 deg) = 0.966 of the largest sine.
 """
 
 
 def set_back(first: Frustum) -> Numbers:
-    """Return the numbers of a frustum whose rims are set back by the height of the feet; only the feet protrude.
+    """Return the numbers of a frustum whose rims are set back by the height of the feet, so that only feet protrude.
 
-    Contacts of rims with faces and with edges of a mesh both use these numbers.  A rim that rolls from a face over its
-    edge therefore does not jump by the height of the feet.
+    A rim that rolls over the edge of a face then keeps its height.
     """
     own = first.frustum
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
@@ -193,7 +199,7 @@ def feet_of(first: Frustum) -> Iterator[Corner]:
 
 
 def _round(first: Frustum, away: float, along: float) -> Numbers:
-    """Return unit vectors evenly round the axis, with components ``away`` across and ``along`` it, flattened."""
+    """Return unit vectors evenly around the axis, with parts ``away`` across and ``along`` it, in one flat tuple."""
     axes = np.array(first.frustum[AXIS - 2 : AXIS + 7]).reshape(3, 3)
     angles = [2.0 * math.pi * i / _WAYS for i in range(_WAYS)]
     ways = [axes @ np.array([away * math.cos(angle), away * math.sin(angle), along]) for angle in angles]

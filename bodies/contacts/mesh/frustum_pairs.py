@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc against a surface of many features: only features near each other are contacts."""
+"""A cylinder, cone or disc against a mesh of many features: only features that are near each other are contacts."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ In this order: rim over a face, point over a patch, round apex over a patch, cor
 across the side, edge across the first half of a rim, edge across the second half.
 """
 POINT_ROW = 4
-"""Numbers of a point (a foot or the apex) before its unit vectors: its place, 3 numbers [m], and the vector count."""
+"""Length of the head of a point (a foot or the apex): place, 3 numbers [m], and number of the vectors that follow."""
 
 
 @compiled
@@ -78,7 +78,7 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 
 @compiled
 def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Append a face and a rim to the ``n`` candidates, if not there yet; return the new number of candidates."""
+    """Append a rim over a face to the ``n`` candidates, unless it is one of them; return their new number."""
     for i in range(n):
         if out[1 + 3 * i] == RIM and out[2 + 3 * i] == face and out[3 + 3 * i] == upper:
             return n
@@ -220,7 +220,7 @@ def _evaluate(
         if frustum[SWEEP] > 0.0:
             write_vertex_ball(a, b, out, frustum, 0.0, x, y, z, n, star, size)
         else:
-            # lengths of edges are used for a disc only, and stored for a disc only
+            # lengths of the edges at this corner, which only the contact of a disc reads
             own = block_at(lengths, int(surface[c + 4]) // 3 if frustum[SIDE] == 0.0 else 0)
             write_corner(a, b, out, frustum, x, y, z, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
@@ -235,7 +235,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumPairs(ContactKinematics):
-    """Contact between a feature of a cylinder, cone or disc and a surface's feature, a pair that is near at present.
+    """The contact of a feature of a cylinder, cone or disc with a feature of a mesh that is currently near it.
 
     Attributes
     ----------
@@ -299,15 +299,15 @@ class FrustumPairs(ContactKinematics):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both shapes, and a candidate without features."""
+        """Return the dimensions of both shapes, and a placeholder for the pair of features that the search finds."""
         return {**self.search.values, "candidate": NO_CANDIDATE, "rims": self.rims, "lengths": self.lengths}
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The function for the kind of the candidate's features: a closed form or a search."""
+        """Evaluator, which calls the function for the kind of the current pair of features."""
         return _evaluate
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The features of the surface, by number."""
+        """Names of the features of the mesh, by their index."""
         return tuple(f"feature {i}" for i in range(self.n_features))

@@ -39,13 +39,13 @@ the period map's derivative, if above 1, because the map amplifies the residual 
 _MOST = 30
 """Largest number of steps of Newton's method."""
 _HELD = 1e-6
-"""Largest change over a period of the coordinates that closed contacts determine, relative to their scales: errors of
-runs are smaller.  A motion with a larger change is no orbit."""
+"""Largest change, over a period, of the coordinates that closed contacts determine; relative to their scales.  It is
+above the errors of runs."""
 _MODES = {Mode.OPEN: "open", Mode.STICK: "closed and sticks", Mode.SLIDE: "closed and slides"}
 _NAMED = 3
 """Largest number of contacts that a message names."""
 _NEARLY_ONE = 1e-3
-"""A multiplier nearer to 1 than this explains a failure of Newton's method, which divides by the difference."""
+"""Largest difference between a multiplier and 1 that explains a failure of Newton's method, which divides by it."""
 
 
 class NoOrbit(NonsmoothError):
@@ -55,7 +55,7 @@ class NoOrbit(NonsmoothError):
 @final
 @dataclass(frozen=True)
 class Orbit:
-    """A motion that repeats in the coordinates of ``within``.
+    """A motion whose coordinates and velocities ``within`` repeat after each period.
 
     Attributes
     ----------
@@ -172,25 +172,28 @@ def orbit(
 ) -> Orbit:
     """Find the periodic orbit near a start, and its Floquet multipliers.
 
-    A driven system has a stroboscopic section: a time in the period, by default the one after ``settle`` at which the
-    least gap is largest.  If a contact is closed there, it determines some coordinates and velocities, and the search
-    varies only the remaining ones.  A system without a drive needs a Poincare section; its period is found, and the
-    multiplier 1 along the motion is left out.
+    A driven system is sampled once per period (stroboscopic section), by default far from all events.  If all contacts
+    are open at some time of the first period after ``settle``, this is the time at which the smallest gap is largest.
+    A contact that is closed at the section determines some coordinates and velocities; the search varies only the
+    remaining ones.
+
+    A system without a drive needs a Poincare section.  The search then also finds the period, and leaves out the
+    multiplier 1 along the motion.
 
     Parameters
     ----------
     what : Scenario, System or Family
         The system.
     period : float, optional
-        Period of the drive, or a multiple [s].
+        Period of the drive, or an integer multiple of it [s]; required for a driven system.
     section : PoincareSection, optional
-        Section at which a period ends, for a system without a drive.
+        Section at which a period ends; required for a system without a drive.
     at : float, optional
-        Time of the section in each period [s]; by default far from all events.
+        Time of the stroboscopic section after the start of each period [s]; by default far from all events, as above.
     settle : float
         Time of the transient before the search [s].
     start : State, optional
-        First state; by default as the system is placed.
+        Initial state; by default the initial state of the system.
     within : sequence of str, optional
         Names of coordinates and velocities that repeat ("z", or "ball.z" if bodies share a name); by default all.
         Leave out coordinates that drift.  For a plane motion, leave out all coordinates and velocities across the
@@ -202,10 +205,16 @@ def orbit(
         Where the progress of ``settle`` is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows
         nothing.
 
+    Returns
+    -------
+    Orbit
+        The orbit, with its period, state, multipliers and events.
+
     Raises
     ------
     InvalidInput
-        If a number is not valid, the drive has a period other than ``period``, or the motion does not pass the section.
+        If a number is not valid, ``period`` and ``section`` are both given or both left out, ``period`` is not a
+        multiple of the period of the drive, or the motion does not pass the section.
     UnknownName
         If the system has no coordinate or velocity of a given name.
     NoOrbit
@@ -338,7 +347,7 @@ def _advice(found: Linear) -> str:
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
-    """Check that the state also repeats after a second period; otherwise the drive has another period.
+    """Check that the state also repeats after a second period; otherwise the period is not a multiple of the drive's.
 
     Raises
     ------
