@@ -25,7 +25,7 @@ from laws import (
     NewtonImpact,
     Unilateral,
 )
-from tests.physics.test_compliant_laws import _collision
+from tests.physics.test_compliant_laws import box_on_an_edge
 
 PAGE = Path(__file__).parents[2] / "docs" / "pages" / "stuck.md"
 RIGID: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(0.5)}
@@ -166,8 +166,8 @@ CASES: tuple[Callable[[], Any], ...] = (
     _forgotten_to_the_end,
     _overlap,
     _stalled,
-    lambda: ns.simulate(_collision(11, 3e4), 0.05),
-    lambda: ns.simulate(_collision(0, 3e3), 0.05),
+    lambda: ns.simulate(box_on_an_edge(11, 3e4), 0.05),
+    lambda: ns.simulate(box_on_an_edge(0, 3e3), 0.05),
     _hardly_passing,
     _coulomb_under_a_box,
     lambda: _ball_on_plate(friction=Bristle(0.3, 0.4)),
