@@ -243,7 +243,16 @@ class FreeBody(Body):
         return max([gyration, *(shape.length for shape in self.frames[0])])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
-        """Return q and u from position [m], orientation (unit quaternion), velocity [m/s], angular_velocity [rad/s]."""
+        """Return coordinates q and velocities u of the body.
+
+        Parameters
+        ----------
+        **start
+            Keywords of the start, each by default zero or the unit rotation: ``position`` of the mass centre in world
+            axes [m], shape [3]; ``orientation``, the unit quaternion (w, x, y, z) from body axes to world axes;
+            ``velocity`` of the mass centre in world axes [m/s], shape [3]; ``angular_velocity`` in body axes [rad/s],
+            shape [3].
+        """
         values = read_start(type(self).__name__, _WORDS, start)
         q = np.concatenate([values["position"], values["orientation"]])
         return q, np.concatenate([values["velocity"], values["angular_velocity"]])
