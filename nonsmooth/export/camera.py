@@ -19,8 +19,8 @@ VIEWS = {
 }
 """Directions from the scene to the eye, by their names."""
 _FAR = 6.0
-"""If the scene's extent over all times exceeds this multiple of the movable bodies' extent at one time, the camera
-follows the bodies.  A still picture would show them too small."""
+"""If the extent of the moving bodies over all times exceeds this multiple of their largest extent at one time, the
+camera follows the bodies.  Otherwise the camera is at rest and shows the whole motion."""
 _ROOM = 0.06
 """Margin of the picture on each side of the scene, relative to the larger extent of the scene."""
 

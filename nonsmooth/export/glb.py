@@ -54,7 +54,7 @@ class Arrows:
 
 
 def arrows(solution: Solution) -> Iterator[Arrows]:
-    """Yield for each contact with impacts the arrows of its impulses [N s], one arrow per impact.
+    """Yield for each contact with impacts the arrows that show its impulses [N s].
 
     An arrow shows the impulse on the contact's second body, or on the first body if only the first one is movable.
     """
@@ -84,7 +84,7 @@ def arrows(solution: Solution) -> Iterator[Arrows]:
 
 _KNOTS = Rule("most times that are stored, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _IMPULSE, _ARM = "#d55e00", 1.6
-"""Colour of the arrows that show impulses (RGB), and length of the longest arrow relative to ``Film.unit``,
+"""Colour of the arrows that show impulses (hexadecimal RGB), and length of the longest arrow relative to ``Film.unit``,
 respectively.  The longest arrow shows the strongest impulse of the run."""
 
 

@@ -68,8 +68,8 @@ def _rows(law: FrictionLaw, coefficients: Sequence[str] | None) -> list[Row]:
     found = [*table([*COEFFICIENT, *_FRICTION]), limit_row(law, vanishing, _vanishes)]
     if not isinstance(law, StatefulFrictionLaw):
         return all_rows(law, lambda: [coefficient_function(one) for one in variants(law)], found)
-    # the function `rates` is checked first: if the initial states are invalid, its check fails, and the coefficient is
-    # not called with them
+    # `rates_function` comes first: it raises an error if the initial states are invalid. So the coefficient is not
+    # called with invalid states
     functions = rates_function, coefficient_function
     return all_rows(
         law,

@@ -173,8 +173,7 @@ class CheckedFunction:
         about_to(f"{words} {{takes}} in {self.place}", self.owner, seconds=CALL, prop=prop)
 
     def has_come_back(self) -> None:
-        """Report to the watchdog that the call has ended; from now on the time limit of a trial applies, not of a call.
-        """
+        """Report to the watchdog that the call has ended. The limit for the time of a trial then applies again."""
         about_to("it {takes}", self.owner)
 
     def plain(self, *given: Any) -> Any:
@@ -182,7 +181,7 @@ class CheckedFunction:
         return self._result(plain_caller(self.function, self.form, self.offered), given)
 
     def compiled(self) -> Caller:
-        """Return the compiled function. A call returns the function's number, or the block of numbers that it writes."""
+        """Return the compiled function. A call returns its number, or the block of numbers that the function writes."""
         call = compiled_caller(self.function, self.form, self.offered, type(self.owner).__name__)
         return lambda *given: self._result(call, given)
 
