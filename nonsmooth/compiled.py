@@ -1,4 +1,4 @@
-"""What a plug-in needs to write functions that the engine compiles and calls, such as ``evaluator`` of a body.
+"""Helpers for functions of plug-ins that the engine compiles and calls, such as the ``evaluator`` of a body.
 
 The decorator ``compiled`` marks a function that such functions may call. ``block_at`` returns the floats of an array
 from an offset on. ``call_support`` returns the farthest point of a shape in a direction [m].
