@@ -1,4 +1,4 @@
-"""Scenario of a file, for the command line."""
+"""A scenario that is read from a scenario file; the command line runs it like an installed scenario."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class FileScenario(Scenario):
         return self.setup.build()
 
     def resolved(self) -> Mapping[str, Any]:
-        """Title, times, and the values that were set on the command line."""
+        """Title, end time and sample interval of the run [s], and the values that the command line has set."""
         said = {"title": self.setup.title, "t_end": self.t_end, "sample_interval": self.sample_interval}
         return {**self.setup.changes, **said}
 

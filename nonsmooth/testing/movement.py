@@ -36,7 +36,7 @@ def three(case: Case, name: str) -> Array:
 @final
 @dataclass(frozen=True)
 class Movement:
-    """Two moving frames, as input of a check. ``case`` holds their numbers by name, such as "velocity_a_x".
+    """Two moving frames, as input of a check. ``case`` has the random numbers of the frames, such as "velocity_a_x".
 
     For each frame, "a" and "b", these are the turn [rad], and the velocities and accelerations at the start. The place
     of the second frame [m] is relative to the first one, which starts at the origin. :data:`MOVEMENT` draws them.
@@ -45,12 +45,18 @@ class Movement:
     case: Case
 
     def at(self, dt: float = 0.0) -> Frames:
-        """Return the blocks of the two frames after a time [s]."""
+        """Return the numbers of frame a and of frame b at the time ``dt`` [s] after the drawn state.
+
+        They are position, axes, velocities and accelerations, shape [FRAME] for each frame.
+        """
         return self._block("a", np.zeros(3), dt), self._block("b", three(self.case, "place"), dt)
 
     @property
     def mirrored(self) -> Movement:
-        """A different movement: each number x of this movement is replaced by 0.11 - 0.9 x."""
+        """A second movement, which differs from this one in every number: x is replaced by 0.11 - 0.9 x.
+
+        It is evaluated before this one, so that a number which a component leaves unwritten shows.
+        """
         return Movement({name: -0.9 * value + 0.11 for name, value in self.case.items()})
 
     @property
@@ -62,7 +68,8 @@ class Movement:
     def _block(self, side: str, start: Array, dt: float) -> Array:
         velocity, acceleration = three(self.case, f"velocity_{side}"), three(self.case, f"acceleration_{side}")
         spin, spin_up = three(self.case, f"spin_{side}"), three(self.case, f"spin_up_{side}")
-        # a turn at the constant rate spin, followed by a turn about a fixed axis at the rising rate spin_up * dt
+        # the rotation matrix is R(dt^2 / 2 * spin_up) R(dt * spin) R(turn), where R turns by a rotation vector in world
+        # axes. At dt = 0 the angular velocity is spin, and the angular acceleration is spin_up
         quickening = rotation(turned(_UNIT, 0.5 * dt * dt * spin_up))
         own = rotation(turned(turned(_UNIT, three(self.case, f"turn_{side}")), dt * spin))
         carried = quickening @ spin
