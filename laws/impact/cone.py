@@ -140,8 +140,8 @@ def cone_deviation(
 ) -> float:
     """Return the largest violation of the conditions of :func:`solve_cone` by impulses [m/s]; 0 for a solution.
 
-    The arguments are those of :func:`solve_cone`.  Each condition is written as an equation whose residual is a
-    velocity:
+    The arguments, P and xi are those of :func:`solve_cone`.  Each condition is written as an equation whose residual is
+    a velocity:
 
     - complementarity: min(G_NN (P_N - least), xi_N) = 0;
     - friction: G_T (D - proj(D - xi_T / G_T)) = 0, with D = P_T - base_T.  The function proj gives the nearest point of

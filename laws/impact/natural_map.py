@@ -1,6 +1,6 @@
 """Impact problem with Coulomb's cone at velocity level, by Newton's method for a zero of its natural map.
 
-G is the Delassus matrix, c are the given velocities, P the impulses, and xi = G P + c the velocities that they cause.
+G is the Delassus matrix, c are the given velocities, P the impulses, and xi = G P + c the velocities that result.
 Impulses P are a solution if a step against xi, projected to the admissible impulses, returns P:
 
     P_N = max(least, P_N - xi_N / g_N),
