@@ -219,8 +219,8 @@ def _in_charts(
 
     A mixed core has one power below 2 and one above, so that it has flat and sharp places.  The search starts with the
     contact normal of two ellipsoids that have the semi-axes of the cores; this normal is searched from the direction
-    (sx, sy, sz).  If the first core is a circle (the rim of
-    a frustum), a maximum along the circle's axis gives nan: it is the gap to the middle of the disc, not to the rim.
+    (sx, sy, sz).  If the first core is a circle (the rim of a frustum), a maximum along the circle's axis gives nan: it
+    is the gap to the middle of the disc, not to the rim.
     """
     one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
     found: Answer = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
