@@ -24,13 +24,16 @@ _ROUND_OFF = 2e-16
 _SEEN = 1e-14
 """Difference of two evaluations of d that is round-off, relative to the size of the bodies."""
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, below which Newton's method ends once a step no longer halves it.
+
+Below this bound, round-off limits the residual.
+"""
 _RIGHT = 1e-13
-"""Largest residual of a solution, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, above which a result of Newton's method is rejected."""
 _ENOUGH = 1e-4
 """Least decrease of the merit by a step, relative to the decrease predicted by its derivative."""
 _LONGEST = 0.5
-"""Longest step, relative to the size of the boxy body."""
+"""Longest Newton step of the contact point, relative to the size of the boxy body: its surface is linearised."""
 _FLATTEST = 1e-12
 """Least curvature that is written, relative to 1 / size: on a plane, the engine divides by the body's curvature."""
 
