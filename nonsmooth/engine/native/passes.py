@@ -290,8 +290,8 @@ class CFunction(private.CFunc):
     def machine_code(self, signature: str) -> MachineCode | None:
         """The compiled code in the form in which it is kept in a file; None if no other process could use it.
 
-        Another process cannot use code that contains addresses of objects in this process. ``signature`` holds the types
-        of the function as text.
+        Another process cannot use code that contains addresses of objects in this process. ``signature`` holds the
+        types of the function as text.
         """
         if self.library.has_dynamic_globals:
             return None
