@@ -51,16 +51,25 @@ Also the fraction of a step at which its start is sampled.
 NEGLIGIBLE = 0.01
 """Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""
 _MOST_ROOTS = 30
-"""Number of successively earlier roots in one step from which the motion is not smooth, and the step is shortened."""
-_FEW_ROOTS = 4
-"""Number of successively earlier roots after which a guard that is negative from the start shortens the step.
+"""Number of roots in one step, each earlier than the previous one, at which the motion is taken as not smooth.
 
-Such a guard has no root in the step.
+The step is then shortened.
+"""
+_FEW_ROOTS = 4
+"""Number of successively earlier roots above which a guard that is negative from the start shortens the step.
+
+A guard that is negative from the start has no root in the step.
 """
 _SAMPLES = 16
-"""Least number of samples per step for the gap of features that do not face each other: they may do so in between."""
+"""Least number of samples per step for gaps of features that do not face each other at an end of the step.
+
+They may face each other, and touch, within the step.
+"""
 _FARTHEST = 0.25
-"""Largest displacement between two samples of features that do not face each other, relative to the smaller body."""
+"""Largest displacement of features that do not face each other between two samples, relative to the contact's size.
+
+The size of a contact is that of the smaller body.
+"""
 _SHORTEST = 1e-4
 """Least distance of two samples, in fractions of the step: the interpolant resolves no shorter time."""
 _JUMP = 1e-3
@@ -242,8 +251,8 @@ def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
 def first_crossing(ws: Workspace, h: float) -> float:
     """First fraction of the step of ``h`` [s] at which some guard is found to have fired, or 0 if none fires.
 
-    The guards are afterwards evaluated at this fraction. Bodies and forces must be evaluated at the end of the step
-    before.
+    Bodies and forces must be evaluated at the end of the step before the call. After the call, the guards are evaluated
+    at the returned fraction.
     """
     closed = _asks_forces(ws)
     write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
