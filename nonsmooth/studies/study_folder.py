@@ -215,7 +215,7 @@ class StudyFolder:
         return {run: str(text) for run, text in enumerate(self.read(_FAILURE)) if text}
 
     def damage(self) -> list[str]:
-        """Read all complete chunks, and return a message for each damaged array of a chunk."""
+        """Read all complete chunks, and return one message for each array of a chunk that cannot be read."""
         found = []
         for number in self.committed():
             for name in (*self.variables, _FAILURE):
@@ -229,7 +229,7 @@ class StudyFolder:
 def is_study(path: Path) -> bool:
     """True if the folder holds metadata of stored arrays ("zarr.json"), which mark a study that has begun.
 
-    Arrays of another program have this file, too.
+    A folder of another program may hold this file, too.  Opening such a folder as a study raises InvalidInput.
     """
     return (path / "zarr.json").exists()
 

@@ -67,7 +67,14 @@ takes no memory (``Declaration.is_late``).
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Total entries of the arrays that outlive a step, of all arrays but the late ones, and of all arrays."""
+    """Three numbers of entries of the workspace, of floats if ``of_floats``, else of integers.
+
+    1. Entries of the arrays that outlive a step.
+    2. These, and the entries of the arrays that every step writes anew.
+    3. Entries of all arrays, including the late ones, which most runs never write.
+
+    ``counts`` are the numbers of bodies, contacts and so on, on which the sizes depend.
+    """
     # cached, because systems that differ in their parameters only have the same lengths, and often follow each other
     return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
 

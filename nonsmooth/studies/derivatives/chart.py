@@ -29,15 +29,19 @@ from nonsmooth.types import Array
 _PROBE = 1e-6
 """Step of the central differences of gaps and gap rates, in units of the scales of the bodies."""
 _DEPENDS = 1e-6
-"""Limit below which a derivative of a closed contact counts as zero, relative to the largest one.
+"""Relative size of a number that counts as zero, because derivatives by differences have errors.
 
-A direction also counts as dependent on others if its independent component is below this part of its length.
+A derivative of a gap or gap rate is zero if it is below this part of the largest derivative.  A direction depends on
+other directions if its component independent of them is below this part of its length.
 """
 _EARLIER = 0.1
-"""Least derivative of the next direction to eliminate, relative to the largest one.  The first such direction is taken,
-so that neighbouring states eliminate the same directions."""
+"""Least derivative, relative to the largest, of a direction that a closed contact eliminates.
+
+The first direction with such a derivative is eliminated, not the one with the largest derivative.  So neighbouring
+states eliminate the same directions.
+"""
 _MOST = 20
-"""Largest number of steps of Newton's method."""
+"""Largest number of steps of Newton's method that make a state fulfil the constraints of its closed contacts."""
 
 
 @final

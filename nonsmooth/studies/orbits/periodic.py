@@ -103,12 +103,12 @@ class Orbit:
 
     @property
     def monodromy(self) -> Array:
-        """Derivatives of the period map along the directions of :attr:`smooth`, relative to their scales, [m, m]."""
+        """Derivatives of the period map along the directions of :attr:`smooth`, in units of scales, shape [m, m]."""
         return self._smooth_part(self.map.matrix)
 
     @property
     def multipliers(self) -> NDArray[np.complex128]:
-        """Floquet multipliers of perturbations along the directions of :attr:`smooth`, the largest first, [m]."""
+        """Floquet multipliers of perturbations along the directions of :attr:`smooth`, largest first, shape [m]."""
         return eigenvalues(self.monodromy, np.zeros_like(self.monodromy))[0]
 
     @property
@@ -142,7 +142,7 @@ class Orbit:
         )
 
     def value(self, coordinate: str, at: float) -> float:
-        """Return a coordinate or velocity at a time within each period [s].
+        """Return a coordinate or velocity of the orbit at the phase ``at`` [s], which is the time modulo the period.
 
         Raises
         ------
@@ -199,8 +199,8 @@ def orbit(
         Leave out coordinates that drift.  For a plane motion, leave out all coordinates and velocities across the
         plane.
     symmetries : sequence of Symmetry, optional
-        Rotations of the motion that a period may add: :class:`Turn` of everything about the vertical, :class:`Spin` of
-        a symmetric body about its own axis.
+        Rotations up to which the motion repeats.  After a period, the state may be rotated by any angle: :class:`Turn`
+        rotates all bodies about the vertical, :class:`Spin` a symmetric body about its own axis.
     display : Display, optional
         Where the progress of ``settle`` is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows
         nothing.
@@ -267,7 +267,8 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
-            # without value and remedy: they belong to a state that only Newton's method visited
+            # leave out value and remedy of the error: they concern a state of Newton's method, which the user did not
+            # choose
             why = f"{error.thing} {error.rule}" if isinstance(error, InvalidInput) else str(error)
             raise NoOrbit(
                 f"no orbit near the start: step {i} of Newton's method leads to a state from which no run comes back "
@@ -315,9 +316,9 @@ def _check_closed(model: Model, start: State, end: State) -> None:
 
 
 def _check_following(found: Linear, start: State) -> None:
-    """Check that the coordinates that closed contacts determine also repeat after a period.
+    """Check that the coordinates which are determined by closed contacts repeat after a period.
 
-    Newton's method only makes the remaining coordinates of ``within`` repeat.
+    Closed contacts determine some coordinates from the others.  Newton's method only makes the others repeat.
 
     Raises
     ------
@@ -347,7 +348,9 @@ def _advice(found: Linear) -> str:
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
-    """Check that the state also repeats after a second period; otherwise the period is not a multiple of the drive's.
+    """Check that the state also repeats after a second period.
+
+    If it does not, the given period is not a multiple of the period of the drive.
 
     Raises
     ------

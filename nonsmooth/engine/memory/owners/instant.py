@@ -34,7 +34,7 @@ _EVENT = Life.EVENT
 
 @final
 class Event(Singleton, key="event"):
-    """Workspace of the event that is being processed."""
+    """Numbers of the event that is being processed, such as its energies; they are recorded with the event."""
 
     n_recorded: int = whole(_EVENT, "Number of records of the instant so far.")
     n_phases: int = whole(_EVENT, "Number of phases of the impact.")
