@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _SEEN = 1e-6
-"""Least extent of the gap axis above and below zero, relative to the smallest contact, so that round-off is not seen."""
+"""Least extent of the gap axis above and below zero, relative to the smallest contact, so that round-off stays hidden.
+"""
 
 
 def gaps(

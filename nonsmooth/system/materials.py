@@ -181,10 +181,10 @@ With more contacts, the distribution of static friction over them does not follo
 
 
 def check_sharing(where: str, laws: ContactLaws, n: int) -> None:
-    """Raise InvalidInput, naming ``where``, if more than two of ``n`` compliant contacts have static friction.
+    """Raise InvalidInput if ``n`` > 2 contacts between two bodies have ``laws`` with static friction and compliance.
 
-    All ``n`` contacts are between the same two bodies. Static friction is rigid, so its distribution over the contacts
-    is not unique. The friction bound of each contact vibrates with the load of the contact.
+    Static friction is rigid, so its distribution over the contacts is not unique. The distribution that is computed
+    does not follow the changing normal forces of compliant contacts. The message begins with ``where``.
     """
     if n <= _MOST or not isinstance(laws.normal, CompliantNormalLaw):
         return
