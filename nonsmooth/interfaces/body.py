@@ -53,10 +53,10 @@ class Body(Component, ABC):
         return ()
 
     def strokes(self, q: Vector) -> Vector:
-        """Return the end points of the lines that show the body at coordinates ``q``; no lines by default.
+        """Return the ends of n lines that show the body at coordinates ``q`` [m], shape [n, 2, 3]; n = 0 by default.
 
-        The points are in world axes [m], shape [n, 2, 3].  The lines show parts without a frame, such as the links of a
-        mechanism.  The number n of lines must not depend on ``q``.
+        The points are in world axes.  The lines show parts without a frame, such as the links of a mechanism.  The
+        number n must not depend on ``q``.
         """
         return np.zeros((0, 2, 3))
 

@@ -432,7 +432,8 @@ class Model:
     def _places_at_samples(self, rows: Floats) -> Iterator[tuple[float, list[list[Place]]]]:
         """Yield the time [s] of chosen samples and the places of all frames then, to search for overlaps.
 
-        A sample is chosen if a coordinate has changed by a fraction of the smallest body's size since the last one.
+        A sample is chosen if a coordinate has changed, since the last chosen sample, by more than a fraction of the
+        smallest body's size.
         """
         laid = self._laid
         for t in states_at_samples(laid, rows, self._pairs_without_contact.least_move):

@@ -22,8 +22,8 @@ class EnergyAccount:
         Work of the loads and of the normal forces of compliant contacts.  The energy of springs and of compliant
         contacts counts here, not in the potential energy.
     exchanged_in_flow : float
-        Energy exchanged between events: the sum of the integrals over time of the absolute powers of the forces on
-        bodies (gravity and loads), of the driven bodies and of friction.
+        Energy exchanged between events: the integral over time of the sum of three absolute powers, of the forces on
+        bodies (such as gravity and loads), of the driven bodies and of friction.
     """
 
     kinetic_start: float

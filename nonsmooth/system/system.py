@@ -43,8 +43,8 @@ class System(metaclass=Readable):
     Raises
     ------
     InvalidInput
-        If no body is given, a body is listed twice, or an object is not a Body.  If gravity is not finite, is above
-        1e4 m/s^2, or is given as a negative number.
+        If no body is given, a body is listed twice, or an object is not a Body.  Also if gravity is not finite, is
+        larger than 1e4 m/s^2, or is given as a negative number.
     """
 
     def __init__(self, bodies: Sequence[Body], gravity: float | Sequence[float] = 9.81) -> None:
