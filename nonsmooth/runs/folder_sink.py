@@ -82,7 +82,7 @@ _FIRST_STEPS = 64
 _MOST_STEPS = 2000
 """Largest number of steps of the engine per call. A larger number saves no time."""
 _LARGEST_SIZE = 1 << 25
-"""Size of the records in memory [bytes] above which they are written to the folder and removed from memory."""
+"""Largest size of records in memory [bytes]: above it, they are written to the folder and then removed from memory."""
 
 
 @final

@@ -48,7 +48,7 @@ def friction_gain(solution: Solution) -> float:
 
     The loss is compared from each sample or event to the next.  It decreases in two cases:
 
-    1. The time-stepping fallback adds energy.  Its friction is constant over a span, while the slip may turn.
+    1. The time-stepping fallback may add energy.  Its friction is constant over a span, while the slip may turn.
     2. A friction law returns energy that it has stored in a contact, for example in bristles.
 
     Impacts are left out, because some impact laws add energy by their definition.  Events are read block by block,

@@ -57,7 +57,8 @@ def suspicions(
         Last time at which a compliant contact began with overlapping bodies [s], and the energy that all contacts
         gained in this way [J].
     rubbed : float
-        Energy that friction added [J]; 0 if a law of the system can store energy.
+        Energy that sustained friction added (:func:`nonsmooth.solution.checks.friction_gain`) [J]; 0 if a friction law
+        of the system can store energy, because it may return this energy.
     energy : EnergyAccount
         Energy account of the run.
     bodies : mapping of str to Body
