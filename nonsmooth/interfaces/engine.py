@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from nonsmooth.system.system import System
 
 FIRST_CODE = 100
-"""Smallest code of an end cause that an engine defines itself.
+"""Smallest code of a cause, defined by a single engine, for which this engine ends a run (:class:`EndCause`).
 
-All engines share the smaller codes of :mod:`nonsmooth.engine.memory.modes`.
+Smaller codes are the causes in :mod:`nonsmooth.engine.memory.modes`, which all engines share.
 """
 
 
@@ -104,7 +104,10 @@ class Engine(Component, ABC):
 
     @property
     def uses_flow(self) -> bool:
-        """True if the engine moves the system between events by the built-in flow, and sets its tolerances."""
+        """True if the engine uses the built-in integrator (:mod:`nonsmooth.engine.flow`) between events.
+
+        Its ``settings`` then give the tolerances of the integrator.
+        """
         return False
 
     @property

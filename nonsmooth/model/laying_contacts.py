@@ -67,7 +67,10 @@ class Kind:
         return start
 
     def output(self, declared: Any, size: int) -> None:
-        """Append an output block for ``size`` numbers that a law writes; its offset becomes the field ``declared``."""
+        """Reserve ``size`` floats of the block, which a law writes; their offset becomes the field ``declared``.
+
+        Sentinel numbers follow them. They reveal a law that writes more than ``size`` numbers.
+        """
         self.mark_written(declared, self.store(declared, output_block(size)), size)
 
     def mark_written(self, declared: Any, place: int, size: int) -> None:
@@ -325,14 +328,14 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
 
 
 _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Fields of a contact with the offsets of the geometry's parameters in its block. New laws keep these parameters."""
+"""Fields of a contact that hold offsets of the geometry's numbers; :func:`lay_laws` leaves these numbers unchanged."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
-    """Layout of ``system``, which differs in its laws only, in the memory of a model. That memory must hold no run.
+    """Lay out ``system``, which differs from ``model.system`` in its laws only, in the memory of ``model``.
 
-    Addresses and parameters of the laws are overwritten in place, so ``model`` must not be used any more. The geometry
-    does not change.
+    No run may be in progress in this memory. Addresses and parameters of the laws are overwritten in place, so
+    ``model`` must not be used any more. The geometry does not change.
 
     Raises
     ------
@@ -344,7 +347,8 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers}
     for numbers in kinds:
-        # the contacts `numbers` have equal laws and geometry now; take one of them for each kind that they had before
+        # the contacts `numbers` have equal laws and geometry now, but their former laws may differ: take one contact
+        # for each combination of former laws and geometry
         examples = {former_kind[number]: number for number in numbers}.values()
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):
@@ -353,11 +357,11 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
                 _refuse(contacts[number], former[number])
         for declared, value in after.fields.items():
             memory.declared(declared)[numbers] = value
-        # the block begins with the parameters of the geometry, which may refer to tables: they are not written again.
-        # The parameters of the laws follow them and are overwritten
+        # overwrite only the parameters of the laws. The parameters of the geometry come first in the block and do not
+        # change; they may hold references to tables, which must not be overwritten
         of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
         first = min(of_laws, default=len(after.block))
-        # the block of each contact begins with the parameters of the geometry
+        # start of the block of each contact: the offset of the first parameter of the geometry
         starts = memory.declared(owners.ContactRecord.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
@@ -390,7 +394,10 @@ def _check_same(one: System, other: System) -> None:
 
 
 def _refuse(after: Contact, before: Contact) -> None:
-    """Raise InvalidInput for a contact whose new laws need a block of another length, or other places in it."""
+    """Raise InvalidInput: the new laws of a contact need another layout of parameters than its former laws.
+
+    The system must then be assembled anew. ``before`` and ``after`` are the contact with the former and the new laws.
+    """
     laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
     raise InvalidInput(
         f"with_laws_of: the laws of the {after}",

@@ -66,9 +66,9 @@ def _counted(group: NDArray[np.int64]) -> str:
 def event_arrays(
     solution: Solution, times: NDArray[np.float64], side: NDArray[np.float64]
 ) -> dict[str, tuple[str, NDArray[Any]]]:
-    """Arrays of events by name, each with its type.
+    """Data of the events for the page: name -> (type of the numbers as in :data:`nonsmooth.viewer.page.TYPES`, array).
 
-    ``times`` are the knots, the times of stored poses [s].  They include all instants of events.
+    ``times`` are the knots, which are the times of stored poses [s].  They include the times of all events.
     """
     # an engine that records no contacts has no events, and no impulses
     events, impulses = solution.events, Impulses.recorded(HistoryRequest(solution, times))
