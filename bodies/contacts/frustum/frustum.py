@@ -146,7 +146,6 @@ def tip_past_rim(
     negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise the edges
     pass the rim from the side.  Edges that cross the plane farther from the vertex than their midpoint are ignored.
     """
-    """
     (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
     for i in range(int(n_star)):
@@ -195,7 +194,7 @@ def apex_of(first: Frustum) -> Iterator[Corner]:
 
 
 def feet_of(first: Frustum) -> Iterator[Corner]:
-    """Yield position [m], edges (:data:`_WAYS` unit vectors in the plane of the cap, flattened) and name of each foot."""
+    """Yield position [m], edges (:data:`_WAYS` unit vectors in the cap's plane, flattened) and name of each foot."""
     for i, foot in enumerate(first.feet):
         yield foot, _round(first, 1.0, 0.0), f"foot {i}"
 

@@ -70,7 +70,7 @@ class FrustumSwept(ContactKinematics):
     """Contact of a vertex of a polyhedron, or an end of a capsule, with the nearest cap, rim or side of a frustum.
 
     The vertex is a sphere with the radius of rounding, or a point.  The two bodies touch if the distance of their cores
-    is the sum of their radii. :meth:`between` also returns the other contacts of the two bodies: edges with side and
+    is the sum of their radii.  :meth:`between` also returns the other contacts of the two bodies: edges with side and
     rims, rims and feet with faces, and the apex, as a sphere.  The features of a contact never change.  A contact whose
     features are not the nearest ones is open: its distance past the feature's boundary is positive.  Vertices ignore
     the feet.  Corners of meshes have these contacts, too (:class:`bodies.FrustumMesh`).
