@@ -214,9 +214,9 @@ def overlap_at(
 ) -> float:
     """Return the depth of a crossing's deeper contact point inside of the other body, as a negative number [m].
 
-    It is 0 if both points are outside, or if the crossing is past the end of its edge, rim or side by a positive ``over``
-    [m].  The point of the frustum is ``p``, from its centre ``place``, in world axes.  The point of the edge is ``q``,
-    from the same centre, in the axes of the frustum.
+    It is 0 if both points are outside.  It is also 0 if ``over`` is positive, the distance of the crossing past the end
+    of its edge, rim or side [m].  The point of the frustum is ``p``, from its centre ``place``, in world axes.  The
+    point of the edge is ``q``, from the same centre, in the axes of the frustum.
     """
     (px, py, pz), (qx, qy, qz), (x, y, z) = p, q, place
     if over > 0.0:

@@ -32,7 +32,7 @@ _BEYOND = 3e-8
 On this length the contact of both rims begins, so that one of the two contacts always exists.
 """
 _BENT = 1e-6
-"""Least second derivative of the height by the angle at a minimum, relative to the rim's radius; below it, open."""
+"""Least second derivative of the height by the angle at a minimum, over the rim's radius; if less, there is none."""
 
 
 @compiled
