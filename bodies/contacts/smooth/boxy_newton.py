@@ -79,8 +79,8 @@ def climb_boxy(
 
     The unknown is the point p of the boxy core, with the normal n and the shape operator K.  The point q of the other
     core is the farthest in the direction -n; H is the second derivative of this core's support function.  The residual
-    is the part of d = q - p in the tangent plane.  Newton's step delta solves (1 + (H + g) K) delta = residual, with the
-    gap g = n . d.  A step is shortened until it decreases |d|^2 / 2, which is least at the result if the bodies are
+    is the part of d = q - p in the tangent plane.  Newton's step delta solves (1 + (H + g) K) delta = residual, with
+    the gap g = n . d.  A step is shortened until it decreases |d|^2 / 2, which is least at the result if the bodies are
     apart.
 
     Parameters
