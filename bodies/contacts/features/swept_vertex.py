@@ -43,8 +43,8 @@ def past_star(
 ) -> float:
     """Return the distance of a contact past a vertex [m], less the tolerance ``2 END size``; negative if it is valid.
 
-    The nearest point of the other body's core lies at ``distance`` [m] from the vertex, against the normal (nx, ny,
-    nz). The distance past the vertex is the largest coordinate of this point along an edge of the vertex, measured from
+    The nearest point of the other body's core is at ``distance`` [m] from the vertex, against the normal (nx, ny, nz).
+    The distance past the vertex is the largest coordinate of this point along an edge of the vertex, measured from
     the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the other
     core the result is negative.
     """

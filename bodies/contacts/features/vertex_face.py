@@ -25,10 +25,10 @@ aligned never lack a contact: if the angle between their edges is smaller, their
 """
 
 BESIDE = 1e-2
-"""Height over a face, relative to the size, below which an outside vertex touches no face that it lies deeper under.
+"""Largest height over a face at which a vertex outside of the polyhedron is near this face, relative to the size.
 
-The vertex is outside of the polyhedron, next to this face, so that its greater depth below the plane of another face is
-not a depth inside the body.
+Such a vertex touches no second face if it is deeper below the plane of the second face than it is above the first face:
+outside of the polyhedron, the depth below a plane is no overlap.
 """
 
 DEEP = 1e-6
@@ -142,7 +142,7 @@ def nearest_face(
     found, gap, past = -1, deepest, math.inf
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
-        # a vertex close to one face does not touch another face below which it is deeper
+        # a vertex outside of the polyhedron, near one face, touches no face whose plane it is deeper below
         if height < best - margin or (beside and height < -max(deepest, DEEP * size)):
             continue
         least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)

@@ -186,7 +186,10 @@ def set_back(first: Frustum) -> Numbers:
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield the apex of a cone: place [m], unit vectors down the side, name. Other frustums yield nothing."""
+    """Yield position [m], edges (:data:`_WAYS` unit vectors down the side, flattened) and name of the apex of a cone.
+
+    Other frustums, which have no apex, yield nothing.
+    """
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:

@@ -75,7 +75,8 @@ _NEARBY = 1e-3
 _DEEP = 0.9
 """Gauge below which an overlap is deep, at the point of the frustum that is nearest to the core's centre.
 
-The gauge of the core is 0 at its centre and 1 on its surface.  In a deep overlap fewer searches can prove their result.
+The gauge of the core is 0 at its centre and 1 on its surface.  At a deep overlap some searches are left out,
+because they may end at a smaller local maximum of the gap.
 """
 _ON_SURFACE = 1e-12
 """Round-off by which the gauge of a core (1 on its surface) may exceed 1 at a point inside of the core."""
@@ -225,8 +226,7 @@ def _nearest(
                 continue
             if start == 1:
                 if is_deep:
-                    # in a deep overlap the gap has several local maxima, of which this search may find a smaller one:
-                    # skip it
+                    # at a deep overlap the gap has several maxima, of which this search may find a smaller one
                     continue
                 found = by_search(frustum, point, core, turn, (x, y, z), (sx, sy), part, size)
             elif part == LOW_CAP or part == HIGH_CAP:

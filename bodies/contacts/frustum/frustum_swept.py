@@ -67,7 +67,7 @@ def check_number(edges: int) -> None:
 @final
 @dataclass(frozen=True)
 class FrustumSwept(ContactKinematics):
-    """Contact of a vertex of a polyhedron, or an end of a capsule, with the nearest cap, rim or side of a frustum.
+    """Contact of a vertex of a polyhedron, or an end of a capsule, with a frustum's nearest cap, rim, side or apex.
 
     The vertex is a sphere with the radius of rounding, or a point.  The two bodies touch if the distance of their cores
     is the sum of their radii.  :meth:`between` also returns the other contacts of the two bodies: edges with side and

@@ -162,7 +162,7 @@ def evaluate_rim_edge(
     astray, flip = 2.0, 1.0
     for sign in (-1.0, 1.0):
         if total > 0.0 and sign * ahead < 0.0:
-            # the normal of rounded bodies points from the rim to the edge
+            # rounded bodies: the normal must point from the rim to the edge, so skip the opposite sign
             continue
         radial, axial = sign * (ex * nx + ey * ny), sign * nz
         off = max(-radial, astray_of_edge(b, edge, axes, sign * nx, sign * ny, sign * nz))

@@ -139,6 +139,9 @@ class ApexMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of faces, convex edges and corners, by number; in this contact, a corner never closes."""
+        """Names of the apex with each face, convex edge and corner of the mesh; two points have no contact here.
+
+        Corners have names only so that the numbers of the features agree with the tables.
+        """
         kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
         return tuple(f"apex and {part} {i}" for part, n in kinds for i in range(n))

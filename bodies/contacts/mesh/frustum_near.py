@@ -257,7 +257,7 @@ def corner_is_near(
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         slack = turn
         if part == FLANK:
-            # as the corner moves by up to ``reach``, the side's normal turns about the axis: add a bound of this angle
+            # as the corner moves by up to ``reach``, the side's normal turns round the axis: add a bound of the angle
             slack += 2.0 if reach >= away else 0.5 * math.pi * reach / away
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         if abs(height) <= reach and beyond <= reach and steepest(surface, c, -nx, -ny, -nz) <= ASTRAY + slack:
