@@ -35,7 +35,7 @@ def put(out: Floats, place: int, x: float, y: float, z: float) -> None:
 def rotation_of(a: float, b: float, c: float, d: float) -> tuple[float, ...]:
     """Rotation matrix of a unit quaternion (scalar first), row by row.
 
-    In a step of the integrator the length L of the quaternion drifts from 1, until the engine normalises it.  Meanwhile
+    In a step of the integrator the length L of the quaternion drifts from 1, until it is normalised again.  Meanwhile
     the result is L^2 times a rotation.
     """
     xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
