@@ -25,14 +25,15 @@ from .writing import write_flat, write_principal, write_round
 END = 3e-10
 """Distance from a vertex, along an edge, at which the contact of the edge ends; relative to the size of the bodies.
 
-The contact of the vertex ends at twice this distance.  In the short overlap both exist, so one of them always does.
+The contact of the vertex ends at twice this distance.  Both contacts are valid between the two distances, so that a
+point that slides from the edge to the vertex always has a contact.
 """
 OPEN = 100.0
-"""Factor on the distance past the end in the gap of a contact that another contact replaces; it must look open."""
+"""Gap of a contact that another contact replaces, over its distance past the end of an edge; large, so it is open."""
 NEAR = 1e-6
-"""Gap above which a contact is never past its end, relative to the size of the bodies.
+"""Gap, relative to the size of the bodies, above which the contact of a vertex stays valid wherever its point is.
 
-Such a gap is valid on its own, because the sphere about the vertex is a part of the body.
+The sphere about the vertex is a part of its body, so that its gap is always an upper bound of the gap of the bodies.
 """
 
 
@@ -40,10 +41,11 @@ Such a gap is valid on its own, because the sphere about the vertex is a part of
 def past_star(
     frame: Floats, star: Floats, n_star: float, distance: float, nx: float, ny: float, nz: float, size: float
 ) -> float:
-    """Return how far the contact is past the vertex, along one of the vertex's edges [m]; negative if it is not.
+    """Return the distance of a contact past a vertex [m], less the tolerance ``2 END size``; negative if it is valid.
 
-    The nearest point of the other core is at ``distance`` from the vertex, against the normal (nx, ny, nz).  If this
-    point lies beyond the vertex in the direction of an edge, that edge is nearer than the vertex.  Inside of the other
+    The nearest point of the other body's core is at ``distance`` [m] from the vertex, against the normal (nx, ny, nz).
+    The distance past the vertex is the largest coordinate of this point along an edge of the vertex, measured from
+    the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the other
     core the result is negative.
     """
     x, y, z = vector_in_body(frame, nx, ny, nz)
@@ -56,7 +58,11 @@ def past_star(
 
 @compiled
 def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
-    """Return gap and distance past the end as the geometry block needs them [m]: past the end the gap is positive."""
+    """Return gap and distance past the vertex [m], as the geometry block stores them.
+
+    ``past`` is the result of :func:`past_star`.  A contact with a gap above ``NEAR`` times the size is always valid.  A
+    smaller gap with a positive ``past`` is replaced by hypot(gap, past), so that the contact is open.
+    """
     if gap > NEAR * size:
         return gap, min(past, -END * size)
     if past > 0.0:
@@ -82,9 +88,9 @@ def write_vertex_over(
 ) -> None:
     """Write the geometry block of a vertex, with its radius, against the nearest feature ``found`` of the other core.
 
-    The vertex belongs to the first body if ``swap`` is 1, else to the second.  Two vertices are a contact of the second
-    body's vertex only; the contact of the first body's vertex is then written as open.  ``past`` is the result of
-    :func:`past_star` [m].
+    The vertex belongs to the first body if ``swap`` is 1, else to the second.  If the nearest feature is a vertex, too,
+    the two bodies have two contacts for the same two vertices.  Only the contact of the second body's vertex can then
+    close; the contact of the first body's vertex is written as open.  ``past`` is the result of :func:`past_star` [m].
     """
     other = b if swap == 1.0 else a
     number, distance, nx, ny, nz, within = found
@@ -92,7 +98,7 @@ def write_vertex_over(
     shared = END * size - within if swap == 1.0 else -math.inf
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
-        # the small distance past the end is enlarged in the gap, so that the open contact does not seem to touch
+        # near the end of the other body's edge another contact takes over: open this one by a large gap
         gap, past = math.hypot(distance - sweep - radius, OPEN * shared), max(past, shared)
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
@@ -148,7 +154,7 @@ def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
 class SweptVertex(ContactKinematics):
     """A vertex, with its radius, against the nearest face, edge or vertex of a swept core of the other body.
 
-    Two vertices that touch are a contact of the second body's vertex; the contact of the first body's vertex is open.
+    If two vertices touch, only the contact of the second body's vertex closes; that of the first body's vertex is open.
 
     Attributes
     ----------
@@ -163,9 +169,9 @@ class SweptVertex(ContactKinematics):
     place : tuple of float
         The vertex in its body frame [m].
     star : tuple of float
-        Unit vectors along the edges that leave it.
+        Unit vectors along the edges that begin at the vertex, in the body frame.
     radius : float
-        Radius of the sphere about the vertex [m]; 0 if it is sharp.
+        Radius of the sphere about the vertex, the rounding of its body [m]; 0 if it is sharp.
     size : float
         Size of the larger body [m].
     name : str

@@ -23,7 +23,7 @@ from ..surface.mesh_point import Corner
 from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
-"""Numbers of the parts of a frustum; the flank is its side."""
+"""Part numbers of a frustum, in the direction of its axis: lower cap, lower rim, side, upper rim, upper cap."""
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 """Names of the rims in the names of features."""
 
@@ -104,9 +104,10 @@ def least_height(frustum: Floats, height: float, cosine: float) -> float:
 
 @compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
-    """Write the slide and turn matrices (curvature) of a part of a frustum to the geometry block.
+    """Write the curvature matrices (slide, turn) of a part of a frustum at the contact point to the geometry block.
 
-    The caller has already written normal and first tangent to ``out``.
+    They are explained in :func:`bodies.contacts.features.writing.write_principal`.  The caller has already written the
+    normal and the first tangent to ``out``.
 
     Parameters
     ----------
@@ -137,13 +138,13 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
 def tip_past_rim(
     b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
 ) -> float:
-    """Return ``depth`` plus the least distance outside of a disc's rim at which edges of a vertex cross its plane [m].
+    """Return a length [m] that is negative if a vertex behind a disc went through the disc.
 
-    The vertex p, relative to the centre of the disc, lies behind the plane at ``depth`` [m], in the direction -n.  A
-    negative result means that the vertex touches the disc: it went through the disc, so that all its edges cross the
-    plane inside of the rim by more than ``depth``.  A positive result means that an edge touches the rim from the side.
-    Edges that cross the plane farther from the vertex than their midpoint are ignored.  The result is infinite if no
-    edge crosses the plane.
+    The vertex p, relative to the centre of the disc, lies behind the disc's plane at ``depth`` [m], in the direction
+    -n.  Each edge of the vertex that leads back through the plane crosses it at a distance from the centre.  The result
+    is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the plane.  A
+    negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise the edges
+    pass the rim from the side.  Edges that cross the plane farther from the vertex than their midpoint are ignored.
     """
     (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
@@ -161,11 +162,11 @@ def tip_past_rim(
 
 
 _WAYS = 12
-"""Number of unit vectors that sample the surface next to an apex (down the side) or a foot (along the cap).
+"""Number of unit vectors that stand for edges of an apex (down the side of the cone) or of a foot (along the cap).
 
-They are evenly spaced around the axis.  A face can touch the apex or the foot only if none of them points into the face
-steeper than :data:`bodies.contacts.surface.surface_vertex.ASTRAY`.  The steepest of 12 vectors along a cap has at least
-cos(15 deg) = 0.966 of the largest sine.
+An apex or a foot is treated as a corner with these edges, evenly spaced around the axis.  A face can touch it only if
+no edge points into the face steeper than :data:`bodies.contacts.surface.surface_vertex.ASTRAY`.  The steepest of 12
+edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all directions.
 """
 
 
@@ -185,7 +186,10 @@ def set_back(first: Frustum) -> Numbers:
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield the apex of a cone: place [m], unit vectors down the side, name. Other frustums yield nothing."""
+    """Yield position [m], edges (:data:`_WAYS` unit vectors down the side, flattened) and name of the apex of a cone.
+
+    Other frustums, which have no apex, yield nothing.
+    """
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:
@@ -193,13 +197,16 @@ def apex_of(first: Frustum) -> Iterator[Corner]:
 
 
 def feet_of(first: Frustum) -> Iterator[Corner]:
-    """Yield all feet: place [m], unit vectors in the plane of the cap, name."""
+    """Yield position [m], edges (:data:`_WAYS` unit vectors in the cap's plane, flattened) and name of each foot."""
     for i, foot in enumerate(first.feet):
         yield foot, _round(first, 1.0, 0.0), f"foot {i}"
 
 
 def _round(first: Frustum, away: float, along: float) -> Numbers:
-    """Return unit vectors evenly around the axis, with parts ``away`` across and ``along`` it, in one flat tuple."""
+    """Return ``_WAYS`` unit vectors at even angles around the axis, flattened: three components for each vector.
+
+    Each has the component ``away`` perpendicular to the axis and ``along`` along it.
+    """
     axes = np.array(first.frustum[AXIS - 2 : AXIS + 7]).reshape(3, 3)
     angles = [2.0 * math.pi * i / _WAYS for i in range(_WAYS)]
     ways = [axes @ np.array([away * math.cos(angle), away * math.sin(angle), along]) for angle in angles]

@@ -1,4 +1,7 @@
-"""Contacts of a cylinder, cone or disc with a triangle mesh, which need not be convex."""
+"""Contacts of a cylinder, cone or disc with a triangle mesh: a rim with a patch, and the list of all contacts.
+
+The mesh need not be convex.
+"""
 
 from __future__ import annotations
 
@@ -124,7 +127,7 @@ class FrustumMesh(ContactKinematics):
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
             surface = surface_numbers(second, patches)
-            # patches without faces have only edges or corners, which have contacts of their own
+            # a rim touches faces here; edges and corners have contacts of their own, so skip patches without faces
             for patch in sorted(set(patches.of_faces)):
                 yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
 
@@ -174,7 +177,10 @@ def _rounded_vertices(
 
 
 def _crossings(numbers: Numbers) -> int:
-    """Return the number of contacts of an edge of the mesh with the side and the halves of the rims."""
+    """Return the number of contacts of one edge of a mesh with the side and the half rims of a frustum.
+
+    ``numbers`` are those of the frustum (:func:`bodies.shapes.frustum.frustum_numbers`).
+    """
     if numbers[SIDE] == 0.0:
         return 2
     return 5 if numbers[1] > 0.0 else 3
