@@ -95,8 +95,4 @@ def _class_of(function: Callable[..., System], members: Mapping[str, Any], field
     # inspect.getsource finds the text of the function, by which a study knows what it ran
     namespace["__wrapped__"] = staticmethod(function)
     made: Any = new_class(function.__name__, (Scenario,), exec_body=lambda content: content.update(namespace))
-    made = dataclasses.dataclass(frozen=True)(made)
-    # help() is to show the signature of the constructor. Otherwise it shows the signature of the function, in which
-    # the defaults are dataclass fields instead of values
-    made.__signature__ = inspect.Signature([*inspect.signature(made.__init__).parameters.values()][1:])
-    return made
+    return dataclasses.dataclass(frozen=True)(made)
