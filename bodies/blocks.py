@@ -13,7 +13,10 @@ from nonsmooth.types import Floats
 Vector3: TypeAlias = tuple[float, float, float]
 """A vector of three numbers, as compiled functions take and return it."""
 POSE = VELOCITY
-"""How many numbers a pose has: position [m], then rotation matrix, row by row; the block of a frame begins with it."""
+"""Length of a pose: position [m], then rotation matrix by rows.
+
+It is the index of ``VELOCITY``, because the block of a frame begins with the pose and the velocity follows.
+"""
 
 
 def places_behind_frame(n_q: int, n_u: int) -> tuple[int, int, int, int]:
@@ -32,7 +35,8 @@ def put(out: Floats, place: int, x: float, y: float, z: float) -> None:
 def rotation_of(a: float, b: float, c: float, d: float) -> tuple[float, ...]:
     """Rotation matrix of a unit quaternion (scalar first), row by row.
 
-    Between two normalisations the length L of the quaternion drifts from 1; the result is then L^2 times a rotation.
+    In a step of the integrator the length L of the quaternion drifts from 1, until it is normalised again.  Meanwhile
+    the result is L^2 times a rotation.
     """
     xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
     yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)

@@ -32,12 +32,15 @@ class BoxBody(SolidBody):
 
     @property
     def centred_shape(self) -> Box:
-        """The box."""
+        """The box, with its centre at the origin of the body frame and its edges rounded by ``rounding``."""
         return Box(self.half_x, self.half_y, self.half_z, rounding=self.rounding)
 
     @property
     def spin(self) -> int:
-        """-1, also for a cube: the spin is integrated in body axes, as contact points and forces turn with the box."""
+        """-1: no axis of symmetry is used, also for a cube, because the contact points turn with the box.
+
+        The angular velocity is integrated in body axes.
+        """
         return -1
 
     @property

@@ -215,9 +215,10 @@ class FreeBody(Body):
         """Offset of the angular velocity in u, 3, for a symmetric top; else -1.
 
         The offset makes the engine integrate the angular velocity in space axes.  In these axes the angular velocity of
-        a symmetric top changes slowly, that of another body as fast as the body turns.  The price is accuracy: between
-        steps, the components along body axes follow from the attitude, and have its error.  A ball does not pay this
-        price, because its free angular velocity is constant in both kinds of axes.
+        a symmetric top changes slowly, the angular velocity of any other body as fast as the body turns.  Space axes
+        cost accuracy: between steps, the components along body axes are computed from the attitude and contain the
+        error of the attitude.  A ball gains nothing from space axes, because its free angular velocity is constant in
+        both kinds of axes: for a ball the result is -1.
         """
         return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
 
@@ -243,7 +244,16 @@ class FreeBody(Body):
         return max([gyration, *(shape.length for shape in self.frames[0])])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
-        """Return q and u from position [m], orientation (unit quaternion), velocity [m/s], angular_velocity [rad/s]."""
+        """Return coordinates q and velocities u of the body.
+
+        Parameters
+        ----------
+        **start
+            Keywords of the start, each by default zero or the unit rotation: ``position`` of the mass centre in world
+            axes [m], shape [3]; ``orientation``, the unit quaternion (w, x, y, z) from body axes to world axes;
+            ``velocity`` of the mass centre in world axes [m/s], shape [3]; ``angular_velocity`` in body axes [rad/s],
+            shape [3].
+        """
         values = read_start(type(self).__name__, _WORDS, start)
         q = np.concatenate([values["position"], values["orientation"]])
         return q, np.concatenate([values["velocity"], values["angular_velocity"]])

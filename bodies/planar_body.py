@@ -111,7 +111,7 @@ class PlanarBody(Body):
 
     @property
     def length_scale(self) -> float:
-        """Largest length of its shapes, at least its radius of gyration [m]."""
+        """Length scale of the body [m]: the larger of its radius of gyration and the length of its longest shape."""
         return max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:

@@ -116,7 +116,7 @@ def _picture(solution: ns.Solution, path: Path) -> None:
 
 
 def _criteria(found: tuple[Criterion, ...]) -> str:
-    rows = [("number", "value", "from", "to", "source", "")]
+    rows = [("number", "value", "from", "to", "source", "result")]
     rows += [(*_row(one), "met" if one.fulfilled else "NOT MET") for one in found]
     return markdown(rows)
 

@@ -60,7 +60,7 @@ def check_count(thing: str, value: Any, rule: str, remedy: str, least: int = 1) 
 
 
 def floats(thing: str, value: Any) -> NDArray[np.float64]:
-    """New array of floats from a value; InvalidInput if it does not consist of numbers, such as texts and booleans."""
+    """Return a value as a new array of floats.  Raise InvalidInput if it has texts, booleans or other non-numbers."""
     try:
         if np.asarray(value).dtype.kind in "USb":
             raise TypeError("texts and truth values are no numbers")

@@ -1,7 +1,7 @@
-"""Functions for plug-ins whose evaluators the engine calls: helpers, rows of tables, support functions.
+"""Helpers for functions of plug-ins that the engine compiles and calls, such as the ``evaluator`` of a body.
 
-The decorator ``compiled`` marks a function that evaluators may call. ``block_at`` returns the floats of a table from an
-offset on. ``call_support`` returns the farthest point of a shape in a direction [m].
+The decorator ``compiled`` marks a function that such functions may call. ``block_at`` returns the floats of an array
+from an offset on. ``call_support`` returns the farthest point of a shape in a direction [m].
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Descriptions of arrays, in the form of xarray and of the CF conventions."""
+"""Describe arrays for xarray by attributes of the CF conventions: a name in words, and the unit."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ def lazy_names(package: str, file: str) -> Names:
         if name not in modules:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
         module = modules[name]
-        # a stub may name modules of its own package, too
+        # the stub file (.pyi) may also list submodules of the package: the name is then the submodule itself
         if module in (package, "."):
             return importlib.import_module(f"{package}.{name}")
         value = getattr(importlib.import_module(module, package), name)

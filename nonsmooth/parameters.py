@@ -97,9 +97,10 @@ def rules(owner: type) -> Rules:
 
 
 def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
-    """Error for a function with an argument that is no parameter, often a field that `parameter` does not declare.
+    """Return the error for a component's function with an argument ``name`` that is not a parameter of the component.
 
-    ``asking`` names the function at the begin of the message, ``offered`` are the known parameters.
+    The usual cause is a field of the component that is declared without ``parameter(...)``. ``asking`` names the
+    function at the beginning of the message; ``offered`` are the parameters that the function can have as arguments.
     """
     declared = f'{name}: float = parameter(0.2, doc="what it is")'
     remedy = f"A field of the class is a parameter if it is declared as one: {declared}."
@@ -167,7 +168,10 @@ Value: TypeAlias = float | tuple[float, ...] | SharedNumbers
 
 
 class _Checked(Readable):
-    """Class of components: a missing or unknown argument gets an error that names it, as a wrong value does."""
+    """Metaclass of components: a missing or unknown argument raises an error of nonsmooth that names the argument.
+
+    The error is UnknownName or MissingArgument instead of Python's TypeError.
+    """
 
     def __call__(cls, *given: Any, **named: Any) -> Any:  # noqa: N805 -- the object is a class
         try:
@@ -178,7 +182,7 @@ class _Checked(Readable):
 
 
 def _documented(owner: type) -> str | None:
-    """Docstring of a class of components, with a section for those declared parameters that it does not describe."""
+    """Docstring of a component class, extended by a section on the declared parameters that the docstring omits."""
     text = inspect.cleandoc(owner.__doc__ or "")
     fields = {name: value.metadata for name, value in vars(owner).items() if isinstance(value, dataclasses.Field)}
     lines = [
@@ -195,7 +199,15 @@ def _with_unit(rule: Rule) -> str:
 
 
 def _check_arguments(owner: type, given: Sequence[Any], named: Mapping[str, Any]) -> None:
-    """Raise UnknownName or InvalidInput if the constructor of a dataclass has no such argument, or one is missing."""
+    """Check the arguments of the constructor of the dataclass ``owner``; do nothing for other classes.
+
+    Raises
+    ------
+    UnknownName
+        A named argument is unknown to the constructor.
+    MissingArgument
+        A required argument is missing.
+    """
     if not dataclasses.is_dataclass(owner):
         return
     fields = {field.name: field for field in dataclasses.fields(owner) if field.init}

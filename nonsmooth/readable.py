@@ -30,5 +30,5 @@ class Readable(ABCMeta):
 
 
 def _is_shown(attribute: Any) -> bool:
-    """True for a method or property, False for a value."""
+    """True if dir() of the class lists a public attribute: True for a method or property, False for a plain value."""
     return inspect.isroutine(attribute) or isinstance(attribute, _SHOWN)

@@ -23,9 +23,9 @@ def scenario(
 ) -> Callable[[Callable[..., System]], Any]:
     """Turn a function that returns a system into a :class:`nonsmooth.interfaces.Scenario`.
 
-    The function becomes a class of its own name, which is used, registered, studied and tested as any scenario.  Each
-    argument of the function is a parameter of the scenario; ``t_end`` is one more, and is passed on to a function that
-    takes it.
+    The result is a class with the name of the function.  It is used, registered, studied and tested as any scenario.
+    Its parameters are the arguments of the function and the end time ``t_end``.  The function receives ``t_end`` only
+    if it has an argument of this name.
 
     Parameters
     ----------
@@ -84,7 +84,10 @@ def _fields(name: str, declared: Mapping[str, inspect.Parameter], t_end: float) 
 
 
 def _class_of(function: Callable[..., System], members: Mapping[str, Any], fields: Mapping[str, Any]) -> Any:
-    """Frozen dataclass of the scenario, which has the function's name, so that pickle finds it."""
+    """Make the scenario class of a function, a frozen dataclass, with methods ``members`` and parameters ``fields``.
+
+    The class has the name and the module of the function, so that pickle finds it there.
+    """
     namespace: dict[str, Any] = {name: getattr(function, name) for name in ("__module__", "__qualname__", "__doc__")}
     namespace |= members
     namespace |= {name: field for name, (_, field) in fields.items()}
@@ -92,7 +95,4 @@ def _class_of(function: Callable[..., System], members: Mapping[str, Any], field
     # inspect.getsource finds the text of the function, by which a study knows what it ran
     namespace["__wrapped__"] = staticmethod(function)
     made: Any = new_class(function.__name__, (Scenario,), exec_body=lambda content: content.update(namespace))
-    made = dataclasses.dataclass(frozen=True)(made)
-    # without this help() shows the signature of the function, in which a default is a dataclass field and no value
-    made.__signature__ = inspect.Signature([*inspect.signature(made.__init__).parameters.values()][1:])
-    return made
+    return dataclasses.dataclass(frozen=True)(made)

@@ -1,4 +1,4 @@
-"""Parts of your own engine: compiled steps, and the numbers that they work with."""
+"""Tools to write an engine plug-in: add compiled steps, and declare the numbers of the workspace that they use."""
 
 from __future__ import annotations
 
@@ -29,10 +29,11 @@ __all__ = [
 
 
 def step(own: type[Singleton], signature: str = "void(ws)") -> Callable[[Callable[..., Any]], str]:
-    """Decorator of a step ``(ws, *numbers)``, which is compiled at its first call. The result is the name for ``call``.
+    """Decorator of a step of an engine, a function ``(ws, *numbers)``, which is compiled at its first call.
 
-    A step may call the kernels and entry points of :mod:`nonsmooth.engine`, and those of :func:`kernel`, by their
-    names. The machine code is kept in the user's cache folder, under a digest of everything that it depends on.
+    The decorated function becomes a name: ``call(name, *numbers)`` in :meth:`Engine.advance` runs the step. A step may
+    call the kernels and entry points of :mod:`nonsmooth.engine`, and functions with the decorator :func:`kernel`. The
+    machine code is stored in the user's cache folder, under a digest of everything that it depends on.
 
     Parameters
     ----------

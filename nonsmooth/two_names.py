@@ -1,9 +1,9 @@
 """The packages bodies, laws and scenarios have two names each: ``nonsmooth.bodies`` and ``bodies`` are one module.
 
-They are folders next to that of nonsmooth. Under its longer name a package is loaded from its folder by path, so that a
-file ``bodies.py`` or ``laws.py`` in a user's working folder does no harm. Its shorter name is free for such a file. If
-nothing hides the package, its shorter name and those of its modules give the modules of the longer names: a class must
-not exist twice.
+The packages are folders next to the folder of nonsmooth. Under its long name, a package is loaded from its folder by
+path. So a file ``bodies.py`` or ``laws.py`` in a user's working folder does no harm, and the short name stands for the
+user's file. If the user has no such file, the short name gives the same module object as the long name, so that no
+class exists twice. The same holds for the modules in a package.
 """
 
 from __future__ import annotations
@@ -22,7 +22,10 @@ _PREFIX = "nonsmooth."
 
 
 def load_from_folder(name: str) -> None:
-    """Replace the module ``nonsmooth.bodies``, which is being imported, with the package in the folder ``bodies``."""
+    """Replace the module ``name``, such as ``nonsmooth.bodies``, by the package in the folder ``bodies``.
+
+    The module calls this function while it is imported.
+    """
     file = _HOME / name.removeprefix(_PREFIX) / "__init__.py"
     spec = spec_from_file_location(name, file, submodule_search_locations=[str(file.parent)])
     assert spec is not None
@@ -32,7 +35,10 @@ def load_from_folder(name: str) -> None:
 
 
 def join_names(name: str) -> None:
-    """If a package is being imported as ``bodies``, give it the module of ``nonsmooth.bodies``."""
+    """Make a package that is imported by its short name, such as ``bodies``, the same object as ``nonsmooth.bodies``.
+
+    ``name`` is the ``__name__`` of the package. A long name changes nothing.
+    """
     if name.startswith(_PREFIX):
         return
     sys.modules[name] = importlib.import_module(_PREFIX + name)
@@ -58,7 +64,7 @@ class _SameModule(Loader):
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         module = importlib.import_module(_PREFIX + spec.name)
-        # the import system writes its specification into the module
+        # after this call the import system overwrites `module.__spec__`; `exec_module` restores it
         self._spec = module.__spec__
         return module
 

@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry, forget_watch, watch_address
 
 _FIRST = 8192
-"""Work before the first interrupt check [evaluations of a contact], which takes some milliseconds.
+"""Work done before the first interrupt check [evaluations of a contact]; this work takes some milliseconds.
 
 Shorter calls have no check, because threads wait for each other at a check.
 """
@@ -145,9 +145,9 @@ class Watch:
 def _looks(of: weakref.ref[Watch]) -> Generator[float, float, None]:
     """Interrupt check as a generator: it receives the time of the run at each check [s], and yields the work budget.
 
-    Python handles a signal that came during the call of the engine before the next instruction of the check. In a
-    generator this instruction is inside of ``try``. In a function it would be the first line, so that the exception
-    would be raised outside of ``try``.
+    During a call of the engine, Ctrl-C stays pending. Python raises its exception when the engine calls the check, at
+    the first instruction of Python code there. In a generator this instruction lies inside ``try``. In a function it
+    would lie before ``try``, so the exception would not be caught.
     """
     answer = 0.0
     while True:
@@ -156,7 +156,7 @@ def _looks(of: weakref.ref[Watch]) -> Generator[float, float, None]:
             watch = of()
             assert watch is not None
             answer = watch.look(t)
-            # a reference in this frame would keep the watch alive
+            # drop the reference: while the generator waits, it would prevent Python from freeing an unused watch
             del watch
         except GeneratorExit:
             return

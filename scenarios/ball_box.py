@@ -168,9 +168,10 @@ class BallBox(Scenario):
         return {"q": q.ravel().tolist(), "u": u.ravel().tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return numbers of events, impacts and closed contacts, kinetic energy / energy of the fall, time, height.
+        """Return the results of a run: numbers of events, of impacts, and of contacts that are closed at the end.
 
-        ``settled_at`` is the time at which the balls have settled [s], ``height`` the top of the highest ball [m].
+        Also ``kinetic_share``, the kinetic energy at the end relative to the energy of the fall, ``settled_at``, the
+        time at which the balls have settled [s], and ``height``, the top of the highest ball at the end [m].
         """
         return {
             "events": len(solution.events),

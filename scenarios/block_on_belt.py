@@ -26,7 +26,10 @@ Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
 _LENGTH = 10.0
-"""Length of the spring relative to the reach of the block, so that the spring stays nearly level."""
+"""Natural length of the spring relative to its largest possible elongation, ``BlockOnBelt.reach``.
+
+A long spring stays nearly level when the block moves.
+"""
 
 
 @final

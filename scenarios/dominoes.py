@@ -28,7 +28,10 @@ Floats = NDArray[np.float64]
 _GRAVITY = 9.81
 _DENSITY = 1000.0
 _NARROWER = 0.9
-"""Width of every second domino, relative to its neighbours, so that no two corners meet."""
+"""Width of every second domino, relative to its neighbours.
+
+Corners then never meet corners of the next domino; a contact of two corners has no unique normal.
+"""
 _MOVES = 1e-4
 """Angular velocity above which a domino has been struck [rad/s]; round-off is far below."""
 

@@ -112,7 +112,11 @@ class EggOnTable(Scenario):
         return np.asarray(np.sum(u[:, 3:] * np.array(self.body().inertia) * n, axis=1) * heights)
 
     def upright_spin(self) -> float:
-        """Return the upright egg's spin for constant A Omega h [rad/s]: A b / (C a) times the spin at the start."""
+        """Return the spin of the egg [rad/s] when it is upright, if L_z h (:meth:`jellett`) remains constant.
+
+        For an egg that starts on its side (tilt of 90 degrees) it is A b / (C a) times the spin at the start.  A and C
+        are the moments of inertia across and along the long axis, b and a the semi-axes across and along.
+        """
         across, _, along = self.body().inertia
         height = math.hypot(self.semi_across * math.sin(self.tilt), self.semi_long * math.cos(self.tilt))
         start = across * math.sin(self.tilt) ** 2 + along * math.cos(self.tilt) ** 2
@@ -160,11 +164,11 @@ class EggOnTable(Scenario):
         }
 
     def balance(self, solution: Solution) -> float:
-        """Return the largest error of the balance of L . r, relative to L . r at the start.
+        """Return the largest deviation of L . r from its balance over the samples, relative to L . r at the start.
 
-        r is the vector from the contact point to the mass centre.  A force in the contact point has no moment along r,
-        so that L . r changes only by the integral of L . r' over time.  The integral is taken of a spline through the
-        samples.
+        L is the angular momentum about the mass centre, r the vector from the contact point to the mass centre.  A
+        force in the contact point has no moment along r, so that L . r changes only by the integral of L . r' over
+        time.  The integral is taken of a spline through the samples.
         """
         from scipy.interpolate import CubicSpline
 

@@ -100,9 +100,10 @@ class PolyhedronStack(Scenario):
 
     @property
     def stands(self) -> bool:
-        """True if the uppermost prism does not slide far enough to tip, and no prism below slides or tips.
+        """True if the tower withstands the push: the uppermost prism does not tip, and no prism below slides or tips.
 
-        Far enough is half the inner radius of the prism below it.
+        The uppermost prism must slide less than half the inner radius of the prism below it.  For the prisms below,
+        friction times height must be less than 0.6 of this inner radius.
         """
         inner = self.radius * self.taper ** (len(_SIDES) - 2) * math.cos(math.pi / _SIDES[-2])
         return self.way < 0.5 * inner and self.friction * self.height < 0.6 * inner

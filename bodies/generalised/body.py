@@ -160,7 +160,11 @@ class GeneralisedBody(Body):
 
     @property
     def scales(self) -> tuple[Vector, Vector]:
-        """Scales of coordinates and velocities; the work's scale is the kinetic energy at the velocity scales [J]."""
+        """Scales of the coordinates q and of the velocities u, in the units of these.
+
+        If the body has a ``power``, the last coordinate is the work of this power.  The scale of the work is the
+        kinetic energy at the velocity scales [J].
+        """
         q = np.array([coordinate.scale for coordinate in self.coordinates])
         u = np.array([coordinate.rate_scale for coordinate in self.coordinates])
         if self.power is None:

@@ -1,4 +1,8 @@
-"""Checks of the functions of a body: sizes and finite values at one state, derivatives by finite differences."""
+"""Checks of the user's functions of a body.
+
+Outputs must have the right size and be finite.  Functions that are derivatives of others must agree with finite
+differences of them.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +22,10 @@ from .equations import GUARD, LEADING, Equations, UserFunction, own_names, place
 Vector = NDArray[np.float64]
 
 _STEP = 1e-3
-"""Step of the finite differences, relative to the scales of q and u; their error is of its fourth power."""
+"""Step of the finite differences, relative to the scales of q and u.
+
+The differences are of fourth order: their relative error is of the order of step^4, 1e-12.
+"""
 _ALLOWED = 1e-6
 _LOOK = "Look at the signs of the potential's derivatives and at the terms quadratic in u"
 _ASIDE = 0.01
@@ -245,7 +252,8 @@ class Sampler:
         where = f"at q = {q.tolist()}, u = {u.tolist()}"
         try:
             self._call(0.0, np.concatenate([q, beyond]), np.concatenate([u, beyond]), out)
-        except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # functions that run uncompiled
+        except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+            # only functions that run uncompiled raise these exceptions
             raise InvalidInput(
                 f"{self.name}", f"must have functions that do not fail {where}", error, "Look at its functions."
             ) from error

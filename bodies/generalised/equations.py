@@ -1,4 +1,8 @@
-"""Makes a body's compiled function from the user's functions of mass, force and so on, and a probe for their checks."""
+"""Makes two compiled functions of a body from the user's functions of mass, force, potential and so on.
+
+The evaluator writes the body's output block for the engine.  The probe writes the output of each user function
+separately, so that checks can examine it.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +59,11 @@ class UserFunction(NamedTuple):
 
 @dataclass(frozen=True)
 class Equations:
-    """The functions of a body; ``frames`` have no shapes, so that bodies with equal functions share compiled code."""
+    """The user's functions that define a body.
+
+    The frames in ``frames`` have no shapes, so that bodies with equal functions but different shapes share compiled
+    code.
+    """
 
     n: int
     mass: Function
@@ -85,11 +93,14 @@ class Equations:
 
 
 GUARD = 16
-"""Number of floats before and after each function's output in the probe; a change shows a wrong index."""
+"""Number of floats before and after the output of each user function in the array of :func:`probe`.
+
+If a function changes one of these floats, it has used a wrong index.
+"""
 
 
 def places(equations: Equations) -> tuple[tuple[UserFunction, int], ...]:
-    """Return every function with the offset of its output in the probe's array."""
+    """Return every user function with the index at which its output begins in the array of :func:`probe`."""
     found, start = [], GUARD
     for part in equations.parts():
         found.append((part, start))
@@ -136,7 +147,10 @@ def evaluator(equations: Equations) -> Callable[..., None]:
 
 @functools.cache
 def probe(equations: Equations) -> Callable[..., None]:
-    """Return ``probe(t, q, u, out, ...)``, which writes each function's output at its offset of :func:`places`."""
+    """Return ``probe(t, q, u, out, ...)``, which writes the output of each user function separately, for checks.
+
+    The output of each function begins at its index in ``out`` from :func:`places`.
+    """
     lines = []
     for part, start in places(equations):
         call = _call(equations, part.variable, start)
@@ -153,7 +167,10 @@ def _call(equations: Equations, variable: str, start: int) -> str:
 
 
 def _function(equations: Equations, name: str, lines: list[str]) -> Callable[..., None]:
-    """Return a function made from source lines; its arguments are t, q, u, out and the body's constants."""
+    """Return the Python function ``name`` whose body consists of the source ``lines``.
+
+    Its arguments are t, q, u, out and the body's constants.  The lines call the user's functions, which are compiled.
+    """
     parts = equations.parts()
     names = sorted({own for part in parts for own in own_names(part.function, part.role)})
     scope: dict[str, Any] = {

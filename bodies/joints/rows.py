@@ -132,7 +132,10 @@ class RowsJoint(Joint, ABC):
 
     @property
     def ends(self) -> Vector:
-        """Points of the joint in the frames of the first and the second body [m], shape [2, 3]."""
+        """Positions of the joint in pictures, one in the frame of the first and one in that of the second body [m].
+
+        Shape [2, 3].
+        """
         return np.array([self.first, self.second], dtype=float)
 
 
@@ -171,10 +174,11 @@ def _square(frame: Floats) -> float:
 
 @compiled
 def _carried(frame: Floats, out: Floats, place: int, along: float, i: int) -> float:
-    """Return component i of the acceleration of a point fixed in a frame, without its term -d_i omega^2.
+    """Return component i of the acceleration of a point fixed in a frame, without the term -d_i omega^2 [m/s^2].
 
-    The point is at index ``place`` of ``out``, with the offset d from the origin of the frame.  The term belongs to
-    omega x (omega x d) = omega (omega . d) - d omega^2, with omega . d = ``along``.
+    The point is at index ``place`` of ``out``; d is its offset from the origin of the frame, omega the angular velocity
+    of the frame.  The centripetal part of the acceleration is omega x (omega x d) = omega (omega . d) - d omega^2.  The
+    caller passes ``along`` = omega . d and adds the last term itself.
     """
     j, k = (i + 1) % 3, (i + 2) % 3
     return (

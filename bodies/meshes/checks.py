@@ -167,19 +167,21 @@ MOST_PAIRS = 2_000_000_000
 """Largest number of pairs of triangles that are examined; so many pairs take minutes."""
 _CHUNK = 2_000_000
 _STRIPS, _WIDE = 1000, 4.0
-"""Strips into which `count_crossings` divides the surface: largest number; least width over mean triangle extent.
+"""Limits of the strips into which `count_crossings` divides the surface across one axis.
 
-Narrow strips have fewer pairs to compare, but a triangle must not belong to many of them.
+``_STRIPS``: largest number of strips.  ``_WIDE``: least width of a strip, relative to the mean extent of the triangles
+along this axis.  Narrow strips have fewer pairs to compare, but a triangle must not belong to many strips.
 """
 _ROUNDED = 1e-12
-"""Bound of the round-off of a swept coordinate, relative to the largest extent of the surface.
+"""Bound of the round-off of the coordinate along which boxes are sorted, relative to the surface's largest extent.
 
-Strip i is shifted by 2 i times the extent, so that coordinates reach 2000 extents, with an error of 2000 * 2^-52.
+The coordinates of strip i are shifted by 2 i times the extent.  With 1000 strips they reach 2000 extents, with an error
+of 2000 * 2^-52 extents.
 """
 _SHALLOW = 1e-6
-"""Least distance of both ends of a crossing edge from the triangle's plane, relative to the largest extent.
+"""Least distance from a triangle's plane, relative to the largest extent, of both ends of an edge that crosses it.
 
-Neighbours overlap by less because files hold single precision or few digits.
+Smaller overlaps of neighbouring triangles are round-off of files with single precision or few digits, and not counted.
 """
 
 
@@ -201,14 +203,16 @@ def count_crossings(vertices: Vector, faces: Integers) -> int:
     corners = vertices[faces]
     low, high = np.min(corners, axis=1), np.max(corners, axis=1)
     size = float(np.max(np.max(high, axis=0) - np.min(low, axis=0)))
-    # sweep along the axis on which the triangles are shortest, relative to the extent of the surface
+    # sort along the axis along which the triangles are shortest relative to the extent of the surface: there the fewest
+    # boxes overlap
     axes = np.argsort(np.sum(high - low, axis=0) / np.maximum(np.ptp(vertices, axis=0), 1e-300))
     triangle, strip, width = _strips(low[:, axes[1]], high[:, axes[1]])
     begin_of_strip = 2.0 * size * strip
     start, end = (begin_of_strip + side[triangle, axes[0]] - np.min(low[:, axes[0]]) for side in (low, high))
     order = np.argsort(start, kind="stable")
     triangle, strip, start, end = triangle[order], strip[order], start[order], end[order]
-    # all strips share one coordinate, each shifted by twice the extent; round-off grows with the shift
+    # the strips are laid along one coordinate, each shifted by two extents from the strip before, so that one sorted
+    # array serves all strips; the tolerance allows for the round-off of the shift
     ends = np.searchsorted(start, end + _ROUNDED * size, side="right")
     counts = np.maximum(ends - np.arange(len(triangle)) - 1, 0)
     total, begin = 0, 0

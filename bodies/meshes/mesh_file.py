@@ -103,7 +103,7 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
 
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
-            # later checks report vertices that are not finite
+            # ignore warnings about nan and overflow: later checks report vertices that are not finite by an error
             warnings.simplefilter("ignore")
             loaded = trimesh.load_mesh(str(path), process=False)
             return (

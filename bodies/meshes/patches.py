@@ -18,32 +18,48 @@ from .features import Bools, Features
 from .topology import Integers
 
 _AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
-"""Largest number of pairs of near faces that are examined at once, which limits the memory; largest number in all.
+"""Largest numbers of pairs of near faces.
 
-With more pairs in all, the mesh is refused.
+``_AT_ONCE``: pairs that are examined together, which limits the memory.  ``MOST_PAIRS``: pairs of a mesh in all; a mesh
+with more pairs is refused by :class:`nonsmooth.errors.InvalidInput`.
 """
 _SAMPLE = 1000
-"""Number of faces whose near pairs are counted to estimate the cost of all; smaller surfaces cost little."""
-_COSTS = np.array([[3500.0, 6.5e-5], [0.0, 2.9e-7], [90.0, 0.0], [170.0, 3e-6]])
-"""Memory [B] and time [s] to prepare contacts, for each item of four kinds, one kind a row.
+"""Number of faces in the sample whose pairs of near faces are counted to estimate the cost of all pairs.
 
-In this order: triangles, edges and corners; all pairs of near faces; pairs examined at once; pairs in conflict.
+The pairs of a surface with fewer faces are not counted, because they cost little.
+"""
+_COSTS = np.array([[3500.0, 6.5e-5], [0.0, 2.9e-7], [90.0, 0.0], [170.0, 3e-6]])
+"""Memory [B] and time [s] per item to prepare the contacts of a mesh: columns 0 and 1, one kind of item a row.
+
+The kinds are, in this order: triangles, convex edges and corners; pairs of near faces; pairs of near faces that are
+examined together (at most ``_AT_ONCE``); pairs of faces in conflict, which a body may touch together.
 """
 _MUCH, _LONG = 1.2e8, 2.0
 """Memory [B] and time [s] for the preparation of contacts above which a notice announces it."""
 Reach: TypeAlias = Callable[[Integers, Integers], Vector]
 Search: TypeAlias = Callable[[int], Iterator[tuple[Integers, Integers, Bools]]]
-"""``search(every)`` yields near pairs of faces, one in ``every``: two numbers of faces, and if they are in conflict."""
+"""Function ``search(every)`` that yields pairs of near faces as three arrays.
+
+The arrays are the numbers of the first faces, the numbers of the second faces, and whether a body may touch both
+faces together (a conflict).  With ``every`` above 1, only pairs with every such face are found, as a sample.
+"""
 _ABOVE = 1e-9
-"""Height over a plane, relative to the size of the surface, above which a face protrudes from the plane."""
+"""Height over the plane of another face, relative to the size of the surface, above which a face protrudes from it.
+
+A smaller height is round-off of faces in one plane.  A body may touch two faces together only if each protrudes from
+the plane of the other.
+"""
 _AROUND = 1.1
-"""Factor on the distance at which a body can touch two faces: it may overlap a little, or not touch yet."""
+"""Safety factor on the largest distance of two faces that a body can touch together.
+
+Contacts are also evaluated at small overlaps and at small gaps, at which a body reaches farther than at touch.
+"""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Patches:
-    """Numbers of the patches, from 0, to which faces, convex edges and corners of a surface belong.
+    """Division of a surface into patches: the number of the patch, from 0, of each face, convex edge and corner.
 
     Attributes
     ----------
@@ -63,22 +79,27 @@ class Patches:
 
 @lru_cache(maxsize=4)
 def patches_for_ball(features: Features, radius: float) -> Patches:
-    """Return patches for a ball of a radius r [m]; points with normals n, m that it touches are r |n - m| apart."""
+    """Return patches of a surface for contacts with a ball of the radius r [m].
+
+    If the ball touches two faces with the normals n and m, its contact points are r |n - m| apart.
+    """
     normals = features.planes[:, :3]
     return _patches(features, 2.0 * radius, lambda i, j: radius * np.linalg.norm(normals[i] - normals[j], axis=1))
 
 
 @lru_cache(maxsize=4)
 def patches_for_body(features: Features, diameter: float) -> Patches:
-    """Return patches for a convex body with a diameter [m]; the diameter of a vertex is 0."""
+    """Return patches of a surface for contacts with a convex body of the given diameter [m]; for a vertex it is 0."""
     return _patches(features, diameter, lambda i, _: np.full(len(i), diameter))
 
 
 def _patches(features: Features, most: float, reach: Reach) -> Patches:
-    """Return patches for a body that can touch two faces at points up to ``reach`` apart, at most ``most`` [m].
+    """Return patches of a surface for a body; faces that the body can touch together are in different patches.
 
-    A body that touches two faces from outside lies over both planes, so that each face has a point over the plane of
-    the other: the faces are in conflict.  Faces without conflict, such as all faces of a convex surface, can share a
+    ``reach(i, j)`` returns the largest distance of two points, on the faces i and j, that the body can touch together
+    [m]; ``most`` is the largest value of this function [m].  Two faces are in conflict if their distance is at most
+    ``reach``, and if each has a point above the plane of the other.  Otherwise a convex body cannot touch both from
+    outside.  Faces without conflict, such as all faces of a convex surface, can share a
     patch.  An edge or a corner can join a patch if its faces have no conflict with the faces of this patch.
 
     Faces are taken in the order in which convex edges join them.  A face gets the patch of a neighbour if it can,
@@ -127,7 +148,10 @@ class _Colours:
         self._count = 0
 
     def of(self, faces: Iterable[int], preferred: list[int]) -> int:
-        """Return the first colour without a face in conflict with ``faces``; try the ``preferred`` colours first."""
+        """Return the colour (number of a patch) for ``faces``: the first one that no face in conflict with them has.
+
+        The ``preferred`` colours are tried before the others.
+        """
         own = list(faces)
         taken = set[int]().union(*(self._of[other] for face in own for other in self._excludes[face]))
         colour: int = next(colour for colour in (*preferred, *range(self._count + 1)) if colour not in taken)
@@ -208,7 +232,10 @@ def _points(features: Features) -> tuple[Vector, Integers]:
 
 
 def _height(points: Vector, starts: Integers, planes: Vector, faces: Integers) -> Vector:
-    """Return the largest height of each face of ``faces`` over the plane in the same row [m], shape [n]."""
+    """Return the largest height of the face ``faces[i]`` over the plane ``planes[i]``, for each i [m], shape [n].
+
+    The vertices of face f begin at row ``starts[f]`` of ``points`` (:func:`_points`).
+    """
     if len(faces) == 0:
         return np.zeros(0)
     counts = np.diff(starts, append=len(points))[faces]
@@ -219,9 +246,10 @@ def _height(points: Vector, starts: Integers, planes: Vector, faces: Integers) -
 
 
 def _near(middles: Vector, radii: Vector, reach: float, stride: int) -> Iterator[tuple[Integers, Integers]]:
-    """Yield two arrays of numbers of balls: pairs with a distance of at most ``reach`` [m], each pair once.
+    """Yield all pairs of balls with a distance of at most ``reach`` [m], each pair once, as two arrays of indices.
 
-    With a ``stride`` above 1, only pairs of every stride-th ball with others are found.
+    The balls have the centres ``middles`` and the ``radii`` [m]; each ball encloses a face.  With a ``stride`` above 1,
+    only pairs with every stride-th ball are found, as a sample from which the number of all pairs is estimated.
 
     Raises
     ------

@@ -200,7 +200,8 @@ def _rings(faces: Integers) -> list[list[int]]:
                 break
             ring.append(after)
         else:
-            # the ring does not close, because triangles are wound against each other; the check of edges reports that
+            # skip this ring: it does not close, because neighbouring triangles have opposite orientations, which the
+            # check of edges reports
             following.pop(ring[-1], None)
     return rings
 
@@ -230,7 +231,10 @@ def _turned(faces: Integers, flipped: np.ndarray) -> Integers:
 
 
 def _flips(faces: Integers) -> np.ndarray:
-    """Return which triangles must be turned to be wound like the first triangle of their shell, shape [m]."""
+    """Return True for each triangle whose vertex order must be reversed, shape [m].
+
+    After that, all triangles of a shell are oriented like the first triangle of the shell.
+    """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import breadth_first_order
 

@@ -88,14 +88,16 @@ class FunctionMotion(Motion):
     duration : float
         Time over which the functions are checked [s]; give the end of the run, or a period.
     shortest_change : float
-        Shortest time over which it changes [s], for example the period of its fastest vibration; bounds the steps.
+        Shortest time in which the motion changes appreciably [s], such as the period of its fastest vibration.  It
+        limits the steps of the engine.
     orientation, angular_velocity, angular_acceleration : callable, optional
         Of the frame: unit quaternion (scalar first), (x, y, z) in world axes [rad/s], [rad/s^2]; all three or none.
 
     Raises
     ------
     InvalidInput
-        If a function raises, returns something else than floats of the right number, or does not belong to the others.
+        A function raised an exception or did not return a tuple of the right number of finite floats; a velocity or
+        acceleration is not the derivative of the function before it; or the functions of the rotation are incomplete.
     """
 
     position: Function

@@ -31,22 +31,28 @@ _BELOW = 1e-7
 _FLAT = TriangleMesh, ConvexHull, Box, Sphere
 """Classes of shapes for which libraries give distances to round-off, if both shapes are among them."""
 _LEAST = 1e-12
-"""Distance [m] up to which bodies count as overlapping, because a library cannot distinguish the two."""
+"""Distance [m] up to which bodies are reported as overlapping.
+
+A library returns a distance of 0, within round-off, for touching and for overlapping bodies alike.
+"""
 
 
 class Library(GeometryMaker):
     """A library that computes unsigned distances; each library has its final subclass.
 
-    Errors of distances of centimetres are mostly below 1e-11 m.  The stated error is larger.  For convex solids it is
-    the excess of the distance over a lower bound by support functions.  For meshes it is more than the worst error
-    found in many poses.  The relative error of nearest points may be the square root of the relative error of the
-    distance.
+    Errors of distances of centimetres are mostly below 1e-11 m.  The ``error`` of a result is an upper bound.  For
+    convex solids it is the distance minus a lower bound from support functions.  For meshes it is ``part``, which is
+    larger than the worst error found in many poses.  The relative error of nearest points may be the square root of the
+    relative error of the distance.
     """
 
     @property
     @abstractmethod
     def part(self) -> float:
-        """Largest error of distances of meshes and round solids, relative to distance plus size."""
+        """Largest error of a distance from a mesh or a round solid, divided by the sum of distance and size.
+
+        The size is the extent of the smaller solid.
+        """
 
     @abstractmethod
     def unsigned(self, first: Made, one: Place, second: Made, two: Place) -> tuple[float, Vector, Vector]:
@@ -93,7 +99,10 @@ class Library(GeometryMaker):
     def _judged(
         self, first: Made, one: Place, second: Made, two: Place, distance: float, way: Vector
     ) -> tuple[Vector, float | None]:
-        """Return the normal of two cores, and for convex cores the excess of the distance over its lower bound [m].
+        """Check a library's distance of two solids; return the unit normal and a bound of the distance's error [m].
+
+        The bound is the distance minus its lower bound from support functions.  It is None unless both solids are
+        convex.  ``way`` leads from the first nearest point to the second [m].
 
         Raises
         ------
@@ -138,7 +147,10 @@ def _size(first: Made, second: Made) -> float:
 
 
 def _between(first: Made, one: Place, second: Made, two: Place, normal: Vector) -> float:
-    """Return the distance of two planes across a normal that touch the cores of convex solids [m]; may be negative."""
+    """Return the width along ``normal`` of the gap between the cores of two convex solids [m].
+
+    It is the distance of the cores' supporting planes across the normal, and negative if the cores overlap along it.
+    """
     assert isinstance(first.shape, ConvexShape)
     assert isinstance(second.shape, ConvexShape)
     low = two[0] + two[1] @ second.shape.support(two[1].T @ -normal)
@@ -147,12 +159,12 @@ def _between(first: Made, one: Place, second: Made, two: Place, normal: Vector) 
 
 
 def _stands(solid: Made, place: Place, origin: Vector) -> Place:
-    """Return position relative to ``origin`` [m] and axes of a solid's geometry in the world."""
+    """Return the pose of a solid's geometry: its position in the world relative to ``origin`` [m], and its axes."""
     return place[0] - origin + place[1] @ solid.place, place[1] @ solid.axes
 
 
 def _inside(solid: Made, place: Place, point: Vector) -> bool:
-    """Return whether a point is inside of a mesh, which a library treats as a hollow surface; else False."""
+    """Return True if the solid is a mesh with the point inside of it, because libraries treat meshes as hollow."""
     if not isinstance(solid.shape, TriangleMesh):
         return False
     own, (low, high) = place[1].T @ (point - place[0]), solid.box

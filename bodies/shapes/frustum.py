@@ -24,7 +24,11 @@ In this order: heights of the lower and the upper rim, height of the feet, lengt
 components are three apart), radial and axial component of the side's normal, rounding radius.
 """
 _THINNEST = 1e-5
-"""Least radius of the largest ball inside of a rounded body's core, relative to the largest size of the body."""
+"""Least inscribed radius of a rounded body's core, relative to the largest size of the body.
+
+The inscribed radius is the radius of the largest ball inside of the core.  A body with a thinner core is refused
+(:func:`check_rounding`).
+"""
 
 
 class Frustum(ConvexShape):
@@ -49,7 +53,10 @@ class Frustum(ConvexShape):
     @property
     @abstractmethod
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """Radius and centre of each rim in the body frame [m], set back from the faces by the height of the feet."""
+        """Radius and centre of each rim that touches planes, in the body frame [m].
+
+        The rims are moved inwards by the height of the feet, so that a body on a face rests on its feet only.
+        """
 
     @property
     @final
@@ -102,10 +109,16 @@ def frustum_numbers(
 ) -> tuple[float, ...]:
     """Return the numbers that describe a frustum to compiled functions.
 
-    They are the radii of the lower and the upper rim [m], their heights over the centre along the axis [m], the height
-    of the feet [m], the length of the side from rim to rim [m], the centre in the body frame [m], the rotation from the
-    frustum's axes to the body's axes, row by row, with the axis as the third column, the radial and the axial component
-    of the side's outward normal, and the rounding radius [m].
+    In this order (feet are small support points on each flat face):
+
+    - radii of the lower and the upper rim [m] (2);
+    - heights of both rims over the centre, along the axis [m] (2);
+    - height of the feet [m];
+    - length of the side from rim to rim [m];
+    - centre in the body frame [m] (3);
+    - rotation from the frustum's axes to the body's axes, row by row; the axis is the third column (9);
+    - radial and axial component of the side's outward normal (2);
+    - rounding radius [m].
 
     Parameters
     ----------

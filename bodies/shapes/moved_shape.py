@@ -74,7 +74,7 @@ class MovedShape(SmoothShape):
 
     @property
     def length(self) -> float:
-        """Bound of the distance of the farthest point from the origin of the body frame [m]."""
+        """Upper bound of the distance of the farthest point from the origin of the body frame [m]."""
         return self.shape.length + float(np.linalg.norm([self.x, self.y, self.z]))
 
     def support(self, direction: Vector) -> Vector:

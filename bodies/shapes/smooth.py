@@ -106,9 +106,10 @@ def farthest(core: tuple[float, ...]) -> float:
 def extent(core: tuple[float, ...]) -> float:
     """Return the distance of the farthest point from the centre of the core [m].
 
-    For powers of 2 and more it is the largest semi-axis, because the core lies in the ellipsoid.  A core with smaller
-    powers is, in the squares of the coordinates, a core of the same kind.  The squared distance, the sum of these
-    squares, is the support function of that core.
+    For powers of 2 and more it is the largest semi-axis, because the core lies in the ellipsoid with the same
+    semi-axes.  For smaller powers, take the squares of the coordinates as new coordinates X, Y, Z.  In these, the core
+    is again a body of the same kind, with other powers.  The largest squared distance X + Y + Z is a value of this
+    body's support function.
     """
     return _corner(core) + core[5]
 

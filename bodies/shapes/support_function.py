@@ -9,15 +9,25 @@ from nonsmooth.compiled import call_support, compiled
 from nonsmooth.types import Floats
 
 Support: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float]
-"""Support function h [m], gradient (the farthest point) [m], xx, yy, zz, yz, xz, xy of its second derivative [m]."""
+"""Support function h [m] and its derivatives: ten numbers.
+
+The gradient of h (3) is the farthest point [m].  The second derivative of h follows, by its elements xx, yy, zz, yz, xz
+and xy [m].
+"""
 
 
 OF_FUNCTION = math.inf
-"""Value of the power of a core whose farthest points come from a user's function."""
+"""Marker in place of the powers of a core: the farthest points come from a user's function.
+
+No core with semi-axes and powers has an infinite power.
+"""
 FUNCTION = 18
 """Index of the address of the user's function in the numbers of a core; its parameters follow."""
 _TURN = 3e-4
-"""Angle over which the points of a user's function are differentiated [rad]; the error is of its fourth power."""
+"""Step of the finite differences of a user's farthest points [rad].
+
+The differences are of fourth order: their error is of the order of step^4, 1e-14 of the size.
+"""
 
 
 @compiled
@@ -128,7 +138,11 @@ def boxy_gauge_of(core: Floats, x: float, y: float, z: float) -> Support:
 def _norm_and_gradient(
     a: float, b: float, c: float, p: float, q: float, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
-    """Return ((|a x|^q + |b y|^q)^(p/q) + |c z|^p)^(1/p) and its derivative, powers above 1."""
+    """Return the support function of a superellipsoid [m] and its gradient [m].
+
+    The support function is h = ((|a x|^q + |b y|^q)^(p/q) + |c z|^p)^(1/p), with semi-axes a, b, c [m] and powers p and
+    q above 1.
+    """
     ax, by, cz = a * abs(x), b * abs(y), c * abs(z)
     larger, smaller = max(ax, by), min(ax, by)
     r, gx, gy = 0.0, 1.0, 0.0
@@ -143,7 +157,11 @@ def _norm_and_gradient(
 
 @compiled
 def norm_of(a: float, b: float, c: float, p: float, q: float, x: float, y: float, z: float) -> Support:
-    """Return ((|a x|^q + |b y|^q)^(p/q) + |c z|^p)^(1/p), its gradient and its second derivatives; powers from 2 on."""
+    """Return the support function of a superellipsoid [m], its gradient and its second derivatives.
+
+    The support function is h = ((|a x|^q + |b y|^q)^(p/q) + |c z|^p)^(1/p), with semi-axes a, b, c [m] and powers p and
+    q of at least 2.
+    """
     if p == 2.0 and q == 2.0:
         aa, bb, cc = a * a, b * b, c * c
         h = math.sqrt(aa * x * x + bb * y * y + cc * z * z)

@@ -93,7 +93,11 @@ class SupportShape(SmoothShape):
 
     @functools.cached_property
     def length(self) -> float:
-        """Upper bound of the distance of the farthest point from the origin [m], by ``_LOOKS`` directions."""
+        """Upper bound of the distance of the farthest point from the origin [m].
+
+        It is the largest distance of the farthest points along ``_LOOKS`` directions, divided by the cosine of the
+        largest angle from any direction to the nearest of these.
+        """
         directions, reach = spiral(_LOOKS)
         return max(float(np.linalg.norm(p)) for p in self.farthest_of(directions)) / math.cos(reach)
 
@@ -127,13 +131,22 @@ class SupportShape(SmoothShape):
         return self._integrals[2]
 
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
-        """Return a mesh of farthest points [m], along directions on meridians and parallels of the sphere."""
+        """Return vertices [m], shape [n, 3], and triangles, shape [m, 3], of a mesh of the surface.
+
+        The vertices are the farthest points along directions on a grid of ``fineness`` meridians of the sphere.
+        """
         sphere, triangles = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
         return self.farthest_of(sphere), triangles
 
 
 def _check(shape: SupportShape) -> None:
-    """Raise InvalidInput if a shape is not convex, too sharp or too flat, by its farthest points in all directions."""
+    """Check a shape by its farthest points along many directions.
+
+    Raises
+    ------
+    InvalidInput
+        The shape is not convex, too sharp or too flat, or depends on the length of the direction.
+    """
     name = f"{type(shape).__name__}.support"
     directions, _ = spiral(_LOOKS)
     points = shape.farthest_of(directions)
@@ -176,9 +189,10 @@ Support = Callable[[Vector], Vector]
 """A function that returns the farthest points [m] along directions, shape [n, 3] both."""
 _TURN = 1e-3
 _WAYS, _FIRST, _LAST, _CLOSER = 4, 0.15, 1e-4, 0.8
-"""Searches of :func:`largest_radius` for a flat place.
+"""Limits of the searches for a flat place in :func:`largest_radius`.
 
-Their number; first and last step of the direction [rad]; ratio of a step to the step before.
+``_WAYS``: number of searches, each from another direction.  ``_FIRST`` and ``_LAST``: first and last angle by which a
+search turns its direction [rad].  ``_CLOSER``: ratio of this angle to the angle before.
 """
 _ROUND = [(math.cos(0.25 * math.pi * i), math.sin(0.25 * math.pi * i)) for i in range(8)]
 _COARSEST, _TIMES = 24, 4
@@ -186,7 +200,10 @@ _COARSEST, _TIMES = 24, 4
 
 
 def spiral(count: int) -> tuple[Vector, float]:
-    """Return unit vectors all round, shape [count, 3], and a bound [rad] of any direction's angle to the nearest."""
+    """Return ``count`` unit vectors spread over the sphere, shape [count, 3], and the mesh width of this set [rad].
+
+    The mesh width is an upper bound of the angle from any direction to the nearest of the vectors.
+    """
     i = np.arange(count) + 0.5
     z, angle = 1.0 - 2.0 * i / count, math.pi * (1.0 + math.sqrt(5.0)) * i
     r = np.sqrt(1.0 - z * z)
@@ -224,13 +241,20 @@ def largest_radius(support: Support, directions: Vector, points: Vector) -> floa
 
 
 def _ways(directions: Vector, step: float, count: int = len(_ROUND)) -> Vector:
-    """Return the vectors that turn directions by the angle ``step`` [rad] to sides all round, shape [count, n, 3]."""
+    """Return the vectors that, added to cos(step) times a direction, tilt it by ``step`` [rad]; shape [count, n, 3].
+
+    The n directions are tilted to ``count`` sides, 45 degrees from side to side.
+    """
     t, u = _across(directions)
     return np.array([math.sin(step) * (c * t + s * u) for c, s in _ROUND[:count]])
 
 
 def _chords(support: Support, directions: Vector, step: float) -> Vector:
-    """Return the largest distance of the farthest points on opposite sides of each direction [m], shape [n]."""
+    """Return the largest chord of the shape near the farthest point along each direction [m], shape [n].
+
+    A chord joins the farthest points along two directions: the given one, tilted by ``step`` [rad] to opposite sides.
+    A long chord shows a flat place.
+    """
     along, ways = math.cos(step) * directions, _ways(directions, step, len(_ROUND) // 2)
     one, other = (support(sides.reshape(-1, 3)) for sides in (along + ways, along - ways))
     return np.asarray(np.max(np.linalg.norm(one - other, axis=1).reshape(len(ways), -1), axis=0))

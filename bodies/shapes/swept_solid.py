@@ -102,7 +102,11 @@ def _prism(n: int) -> Vector:
 
 
 def _add_wedge(sums: _Sums, one: Vector, two: Vector, middle: Vector, angle: float, radius: float) -> None:
-    """Add the wedge of a cylinder about an edge, with the opening ``angle`` [rad] and the bisector ``middle``."""
+    """Add the integrals of 1, x and x x^T over a wedge of a cylinder to ``sums``.
+
+    The axis of the cylinder is the edge from ``one`` to ``two`` [m].  The wedge has the opening ``angle`` [rad] and the
+    bisector ``middle``, a unit vector.
+    """
     way = two - one
     length = float(np.linalg.norm(way))
     across = np.cross(way / length, middle)
@@ -139,7 +143,8 @@ def draw_swept(core: Polytope, radius: float, fineness: int) -> tuple[Vector, Ve
     for f, face in enumerate(core.faces):
         fan = [(corner[face[0], f], corner[a, f], corner[b, f]) for a, b in itertools.pairwise(face[1:])]
         triangles.append(np.array(fan).reshape(-1, 3))
-    # the arc round a vertex from one of its faces to the next, counter-clockwise as seen from outside
+    # arcs[vertex][face]: the arc about the vertex from this face to the next, counter-clockwise as seen from outside;
+    # its entries: the next face, the indices of the arc's points without the last, the unit vectors to these points
     arcs: dict[int, dict[int, tuple[int, Integers, Vector]]] = {v: {} for v in range(len(vertices))}
     shares = np.arange(steps)[:, None] / steps
     for one, two, left, right in core.edges:

@@ -62,5 +62,9 @@ class Anisotropic(AnisotropicFrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """Return True if the force lies in the ellipse and, under slip, where the ellipse is normal to the slip."""
+        """Return True if the tangential force obeys the law, within the tolerance [N].
+
+        The force must lie within the friction ellipse.  During slip it must be the point of the ellipse whose outward
+        normal is opposite to the slip velocity.
+        """
         return lies_in_half_ellipses(self, slip, normal_force, tangential_force, tolerance)

@@ -63,5 +63,9 @@ class Directional(AnisotropicFrictionLaw):
         tangential_force: tuple[float, float],
         tolerance: float,
     ) -> bool:
-        """Return True if the force lies in the bound and, under slip, where the bound is normal to the slip."""
+        """Return True if the tangential force obeys the law, within the tolerance [N].
+
+        The force must lie within the friction bound, which consists of half ellipses in the tangent plane.  During slip
+        it must be the point of the bound whose outward normal is opposite to the slip velocity.
+        """
         return lies_in_half_ellipses(self, slip, normal_force, tangential_force, tolerance)

@@ -1,4 +1,7 @@
-"""Solver of the impact problem with Coulomb's friction cone at velocity level, for laws that map velocities."""
+"""Solver of the impact problem with Coulomb's friction cone at velocity level.
+
+It serves impact laws that give the velocities after an impact from the velocities before it, such as Newton's law.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,10 @@ from .pyramid import solve_on_pyramids
 
 _SWEEPS = 100
 _NARROW = (0.0, 0.25, 0.06, 0.015, 0.004, 0.001, 3e-4, 1e-4)
-"""Angles between facets in successive trials [rad]: narrow facets approach the cone near the friction impulse."""
+"""Angles between the facets of the pyramids in successive trials [rad]; 0 stands for evenly spaced facets.
+
+Facets in a narrow fan about the last friction impulse approximate the cone near this impulse.
+"""
 _COMPLIANCES = (1e-9, 1e-7, 1e-5, 1e-3)
 
 
@@ -70,7 +76,8 @@ def solve_cone(
             for compliance in _COMPLIANCES:
                 tried = p.copy()
                 if find_zero(n, matrix, free, kept, lower, mu, compliance, False, tried) == 1:
-                    # trial -1 starts from the caller's impulses, such as 0, and needs no reduction of the norm
+                    # the pyramids of trials from 0 on may give unnecessarily large impulses: reduce these; trial -1
+                    # starts from the caller's impulses, such as 0
                     if trial >= 0:
                         _lessen(n, matrix, free, kept, lower, mu, tried)
                     _write_inside(n, kept, lower, mu, tried, out)
@@ -115,9 +122,9 @@ def _write_inside(n: int, base: Array, least: Array, friction: Array, p: Array, 
 def solve_rebound(n: int, delassus: Floats, rates: Floats, shift: Floats, out: Floats, friction: Floats) -> None:
     """Solve for the impulses of an impact; if it has no solution, for the impulses of the inelastic impact.
 
-    ``shift`` [m/s] sets the rebound: it is added to the rates after the impact in the conditions of :func:`solve_cone`,
-    such as e times the rates before.  A wedged body cannot rebound, because the impulse that opens one contact
-    compresses another one.
+    ``shift`` [m/s] sets the rebound.  The conditions of :func:`solve_cone` hold for the rates after the impact plus
+    this shift, which is e times the rates before the impact in Newton's law.  A wedged body has no such solution: the
+    impulse that opens one contact compresses another one.  The impact is then solved with ``shift`` 0, as inelastic.
     """
     none, least = np.zeros(3 * n), np.zeros(n)
     for i in range(3 * n):
@@ -133,12 +140,13 @@ def cone_deviation(
 ) -> float:
     """Return the largest violation of the conditions of :func:`solve_cone` by impulses [m/s]; 0 for a solution.
 
-    The arguments are those of :func:`solve_cone`.  Each condition is written as an equation whose residual is a
-    velocity:
+    The arguments, P and xi are those of :func:`solve_cone`.  Each condition is written as an equation whose residual is
+    a velocity:
 
     - complementarity: min(G_NN (P_N - least), xi_N) = 0;
-    - friction: G_T times the difference of P_T - base_T and its projection, 0 if P_T - base_T is the point of the
-      friction disc nearest to P_T - base_T - xi_T / G_T, with the sum G_T of both tangential diagonal entries of G.
+    - friction: G_T (D - proj(D - xi_T / G_T)) = 0, with D = P_T - base_T.  The function proj gives the nearest point of
+      the friction disc of the radius mu (P_N - base_N).  G_T is the sum of the contact's two tangential diagonal
+      entries of G.
     """
     n = len(friction)
     xi = (rates + shift + delassus @ impulses).reshape(n, 3)

@@ -1,12 +1,15 @@
 """Impact problem with Coulomb's cone at velocity level, by Newton's method for a zero of its natural map.
 
-With xi = G P + c, impulses P are a solution if a step against xi, projected to the admissible impulses, returns P:
+G is the Delassus matrix, c are the given velocities, P the impulses, and xi = G P + c the velocities that result.
+Impulses P are a solution if a step against xi, projected to the admissible impulses, returns P:
 
     P_N = max(least, P_N - xi_N / g_N),
     P_T = projection of P_T - xi_T / g_T on the disc of radius mu (P_N - base_N) about base_T,
 
-Here g_N is the normal entry of the contact's diagonal block of G, and g_T the trace of its tangential part, or g_N if
-the contact cannot move along the tangents.  Any positive numbers give the same solutions.
+``least`` is the lower bound of the normal impulse P_N, ``base`` the impulse about which the friction disc is centred.
+g_N is the normal entry of the contact's diagonal block of G.  g_T is the trace of the tangential part of this block, or
+g_N if the contact cannot move along the tangents.  The solutions do not depend on the values of g_N and g_T, which must
+only be positive.
 """
 
 from __future__ import annotations
@@ -19,29 +22,40 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Array
 
 _EXACT = 1e-11
-"""Residual that is zero within round-off, relative to the largest given velocity."""
+"""Largest residual of a solution, relative to the largest given velocity; ``_ROUND_OFF`` allows for round-off."""
 _ROUND_OFF = 1e-15
-"""Round-off of a residual, relative to the largest velocity that an impulse causes at its own contact."""
+"""Round-off of a residual for each unknown, which a solution's residual may also have.
+
+It is relative to the largest velocity that an impulse causes at its own contact.
+"""
 _STEPS = 30
 _HALVINGS = 10
 _ROUNDS = 20
 _UNBOUNDED = 1e5
-"""Velocity that an impulse causes at its own contact, over the largest given velocity, above which P is unbounded.
+"""Largest velocity that an impulse may cause at its own contact, relative to the largest given velocity.
 
-The round-off of so large impulses is 1e-10 of the given velocity, so that no solution is accurate enough.
+If an impulse causes a larger one, the impulses count as unbounded: their round-off, 1e-10 of the given velocity,
+exceeds the accuracy ``_EXACT`` required of a solution.
 """
 
 
 @compiled
 def _tangential_scale(matrix: Array, i: int) -> float:
-    """Return g_T [1/kg] of the contact whose normal row in G is i."""
+    """Return the sum g_T of the two tangential diagonal entries of G [1/kg] for the contact whose normal row is i.
+
+    If the sum is 0, return the normal entry: any positive scale serves a contact that cannot move along the tangents.
+    """
     trace = matrix[i + 1, i + 1] + matrix[i + 2, i + 2]
     return trace if trace > 0.0 else matrix[i, i]  # type: ignore[no-any-return]
 
 
 @compiled
 def sweep(n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, p: Array) -> None:
-    """Do one projected Gauss-Seidel sweep over the impulses ``p`` [N s]; arguments as in :func:`find_zero`."""
+    """Improve the impulses ``p`` [N s] by one projected Gauss-Seidel sweep, as a start for Newton's method.
+
+    The sweep updates the impulses of one contact after the other, with the other impulses fixed.  The arguments are
+    those of :func:`find_zero`.
+    """
     width = 3 * n
     for a in range(n):
         i = 3 * a
@@ -72,7 +86,11 @@ def _miss(
     missed: Array,
     slope: Array,
 ) -> float:
-    """Write by how much ``p`` misses the map [m/s] and the derivative of that; return its square."""
+    """Write the residuals of the natural map at the impulses ``p``, and their derivatives; return the squared norm.
+
+    The residuals ``missed`` are velocities [m/s], shape [3 n]; ``slope`` are their derivatives by the impulses [1/kg].
+    The other arguments are those of :func:`find_zero`.
+    """
     width = 3 * n
     square = 0.0
     for a in range(n):
@@ -117,7 +135,10 @@ def _miss(
 
 @compiled
 def _largest_given(n: int, matrix: Array, free: Array, least: Array) -> float:
-    """Return the largest component of c, and of c with the least impulses, as a scale of velocities [m/s]."""
+    """Return the scale of velocities [m/s]: the largest component of the given velocities, in two states.
+
+    The states are: without impulses, and with the least normal impulses.
+    """
     largest = 0.0
     for i in range(3 * n):
         given = free[i]
@@ -129,7 +150,10 @@ def _largest_given(n: int, matrix: Array, free: Array, least: Array) -> float:
 
 @compiled
 def is_unbounded(n: int, matrix: Array, free: Array, least: Array, p: Array) -> bool:
-    """Return whether impulses are so large that their round-off exceeds the accuracy required by :func:`find_zero`."""
+    """Return True if the impulses ``p`` exceed the bound ``_UNBOUNDED``: no accurate solution has so large impulses.
+
+    Their round-off exceeds the accuracy required by :func:`find_zero`, whose arguments these are.
+    """
     bound = _UNBOUNDED * _largest_given(n, matrix, free, least)
     made = 0.0
     for i in range(3 * n):
@@ -149,11 +173,12 @@ def find_zero(
     from_none: bool,
     p: Array,
 ) -> int:
-    """Improve the impulses by Newton's method until they solve the problem; return 1 if they do, else 0.
+    """Solve the equations of the natural map by Newton's method; return 1 if a solution was found, else 0.
 
-    Impulses need not be unique.  A small compliance of every contact makes them unique.  Further rounds count the
-    compliance from the impulses of the round before, which removes its effect.  If the first round counts it from zero
-    impulses, the solution has nearly the least norm.
+    Impulses need not be unique.  Therefore Newton's method solves a regularised problem in each round, in which every
+    contact has a small compliance: the velocities are G P + c + C (P - P_0).  C is a diagonal matrix, and P_0 are the
+    impulses of the round before.  As the rounds converge, P - P_0 becomes 0, and the compliance has no effect.  If P_0
+    is 0 in the first round, the solution has nearly the least norm.
 
     Parameters
     ----------
@@ -162,13 +187,13 @@ def find_zero(
     matrix : array
         G [1/kg], shape [3 n, 3 n].
     free, base : array
-        c [m/s], and the impulses that are subtracted before the friction condition [N s], shape [3 n].
+        Given velocities c [m/s], and the impulses that are subtracted before the friction condition [N s], shape [3 n].
     least, friction : array
         Least normal impulses [N s], and coefficients mu, shape [n].
     compliance : float
-        Compliance of the contacts, relative to their diagonal entries of G.
+        Entries of C, relative to g_N and g_T of the contact.
     from_none : bool
-        Whether the first round counts the compliance from zero impulses; Newton's method always starts from ``p``.
+        True if P_0 is 0 in the first round, False if it is ``p``; Newton's method always starts from ``p``.
     p : array
         Impulses P: a start, then the solution [N s], shape [3 n].
     """

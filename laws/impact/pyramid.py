@@ -31,8 +31,9 @@ mislead the choice of pivots.
 def _angle(facet: int, a: int, narrow: float, p1: float, p2: float) -> float:
     """Return the direction of a facet of a pyramid in the tangent plane [rad].
 
-    If ``narrow`` is 0, the facets are evenly spaced.  Else five facets lie close round the friction impulse (p1, p2),
-    and three others close the pyramid.
+    If ``narrow`` is 0, the facets are evenly spaced, and turned by a small angle that depends on the contact's number
+    ``a``.  Else five facets form a fan about the direction of the friction impulse (p1, p2), at the angles 0, +-narrow
+    and +-4 narrow [rad].  Three further facets at 90, 180 and 270 degrees from this direction complete the pyramid.
     """
     if narrow == 0.0:
         return 2.0 * math.pi * facet / _FACETS + 0.1 * a
@@ -50,15 +51,16 @@ def solve_on_pyramids(
 
     If Lemke's method ends on a ray, the problem has no solution.
 
-    The arguments are those of :func:`laws.impact.natural_map.find_zero`; ``narrow`` [rad] is the angle between the
-    facets next to the friction impulse in ``p``, or 0 for evenly spaced facets.
+    ``p`` holds an estimate of the impulses on entry, and the solution on return [N s].  ``narrow`` is the angle between
+    the facets about the direction of the estimated friction impulse [rad], or 0 for evenly spaced facets.  The other
+    arguments are those of :func:`laws.impact.natural_map.find_zero`.
     """
     width, m = 3 * n, _PARTS * n
     ways, weights, offsets, z = np.zeros((width, m)), np.zeros((m, m)), np.zeros(m), np.zeros(m)
     start = base.copy()
     for a in range(n):
         i, first = 3 * a, _PARTS * a
-        # unknowns are scaled by the contact's normal entry of G
+        # the unknown impulses of a contact are scaled by 1 / sqrt(G_NN), so that their coefficients are of order 1
         unit = 1.0 / math.sqrt(matrix[i, i])
         ways[i, first] = unit
         for facet in range(_FACETS):

@@ -1,9 +1,9 @@
-"""The path of the slip velocity in an impact of one contact, in which its direction turns: Keller's equations.
+"""Slip velocity during an impact of one contact with friction, by Keller's equations: its direction turns.
 
 G is the Delassus matrix of the contact, with b = G_nn, c = G_tn and A = G_tt.  The slip velocity s changes with the
-normal impulse p by ds/dp = c - mu A e, e = s / |s|.  The path has a parameter with dp = |s| dparameter.  Over it, the
-direction of s and the logarithm of its length change by smooth functions of the direction alone, also at the end of
-slip.
+normal impulse p by ds/dp = c - mu A e, e = s / |s|.  The states that s runs through are the path of the impact.  The
+path parameter tau is defined by dp = |s| dtau.  The derivatives of the direction of s and of log |s| by tau are smooth
+functions of the direction alone, also at the end of slip.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ The gap rate is in [m/s]; the work is the work of the normal impulse [J].
 """
 
 _STRAIGHT = 1e-9
-"""Rate of the slip angle below which a slip is straight, relative to the trace of the Delassus matrix.
+"""Turning rate below which the slip direction is constant during an impact, relative to the Delassus matrix's trace.
 
-The rate is the derivative of the angle [rad] by the parameter of the path, in [1/kg] as the matrix.
+The turning rate is the derivative of the slip angle [rad] by the path parameter, in [1/kg] as the matrix.
 """
 _SINGULAR = 1e-14
-"""Determinant of the tangential block of the Delassus matrix, relative to its squared trace, that counts as zero.
+"""Determinant, relative to the squared trace, up to which the Delassus matrix's tangential block counts as singular.
 
-The block is singular if a mechanism allows its contact to slip along one line only.
+It is singular if the mechanism allows the contact to slip in one direction and its opposite only.
 """
 _LEAST = 1e-300
 
 
 @compiled
 def way_of_slip(angle: float, g: Matrix, mu: float) -> tuple[float, float]:
-    """Return the derivatives of slip angle and logarithm of slip speed by the parameter of the path [1/kg].
+    """Return the derivatives of the slip angle and of the logarithm of the slip speed by the path parameter [1/kg].
 
-    ``angle`` [rad] is the present direction of slip.  The parameter is defined at the top of this module.
+    ``angle`` [rad] is the direction of slip.  The path parameter tau is defined at the top of this module.
     """
     x, y = math.cos(angle), math.sin(angle)
     along, across = g[3] - mu * (g[4] * x + g[5] * y), g[6] - mu * (g[7] * x + g[8] * y)
@@ -53,7 +53,10 @@ def runs_straight(angle: float, g: Matrix, mu: float) -> bool:
 
 @compiled
 def _rates(path: Path, h: float, by: Path, g: Matrix, mu: float) -> Path:
-    """Return the derivative of the path by its parameter at ``path + h by``."""
+    """Return the derivatives of all seven components of a state by the path parameter, at the state ``path + h * by``.
+
+    ``by`` holds derivatives of the components, so that this is the state after a step ``h`` of the path parameter.
+    """
     angle, slip, rate = path[0] + h * by[0], path[1] + h * by[1], path[5] + h * by[5]
     turning, growing = way_of_slip(angle, g, mu)
     t1, t2 = -mu * math.cos(angle), -mu * math.sin(angle)
@@ -62,7 +65,10 @@ def _rates(path: Path, h: float, by: Path, g: Matrix, mu: float) -> Path:
 
 @compiled
 def along_path(path: Path, g: Matrix, mu: float, h: float) -> Path:
-    """Return the path after a step ``h`` of its parameter, by the classical method of Runge and Kutta."""
+    """Return the state of the impact after one step ``h`` of the path parameter [kg], from the state ``path``.
+
+    It is one step of the classical method of Runge and Kutta.
+    """
     a = _rates(path, 0.0, path, g, mu)
     b = _rates(path, 0.5 * h, a, g, mu)
     c = _rates(path, 0.5 * h, b, g, mu)
@@ -81,10 +87,12 @@ def along_path(path: Path, g: Matrix, mu: float, h: float) -> Path:
 
 @compiled
 def friction_from_rest(g: Matrix, mu: float) -> tuple[float, float]:
-    """Return the tangential impulse per normal impulse of a contact without slip, which sticks or starts to slip.
+    """Return the tangential impulse (t1, t2) per unit of normal impulse for a contact that does not slip yet.
 
-    c = G_tn and A = G_tt are blocks of the Delassus matrix G.  If friction cannot hold the contact, slip starts in the
-    direction of a unit vector e that stays constant: c - mu A e = l e with l > 0.  There is one such direction.
+    c = G_tn and A = G_tt are blocks of the Delassus matrix G.  If |A^-1 c| <= mu, the contact sticks, and the result is
+    -A^-1 c.  Otherwise the contact starts to slip in the direction of a unit vector e, which stays constant, and the
+    result is -mu e.  The change of the slip velocity with the normal impulse, c - mu A e, must be in the direction of
+    e: c - mu A e = l e with a number l > 0 [1/kg].  There is one such direction.
     """
     a, b, d = g[4], 0.5 * (g[5] + g[7]), g[8]
     x, y = _solved(a, b, d, g[3], g[6])

@@ -32,7 +32,7 @@ class HertzCompliant(CompliantNormalLaw):
 
     @property
     def force(self) -> Callable[..., float]:
-        """Function of the normal force [N], of indentation x [m], as in the formula of the class."""
+        """Function that computes the normal force [N] from the indentation x [m], by the formula of the class."""
         return _force
 
     @property

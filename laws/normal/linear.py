@@ -33,7 +33,10 @@ class LinearCompliant(CompliantNormalLaw):
 
     @property
     def force(self) -> Callable[..., float]:
-        """Function of the normal force [N], of indentation x [m] and its rate x' [m/s]: the formula of the class."""
+        """Function that computes the normal force [N] from the indentation x [m] and its rate x' [m/s].
+
+        Its formula is that of the class.
+        """
         return _force
 
     @property

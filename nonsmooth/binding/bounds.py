@@ -20,7 +20,8 @@ from nonsmooth.errors import PluginError
 from nonsmooth.parameters import Value
 
 _MOST = 5000
-"""Number of reads and writes after which a trial ends, because the longest functions of shapes would take too long."""
+"""Largest number of reads and writes in a trial, which then ends without a fault. Some functions of shapes make so many
+that a complete trial would take too long."""
 FRAMES = (
     (0.0, 0.0, 0.0, *np.eye(3).ravel(), *(FRAME - 12) * (0.0,)),
     (0.21, -0.13, 0.37, 0.8, -0.6, 0.0, 0.48, 0.64, -0.6, 0.36, 0.48, 0.8, 0.1, -0.2, -0.3, 1.0, 2.0, 3.0, *6 * (0.0,)),
@@ -30,9 +31,9 @@ FRAMES = (
 The frames are apart and rotated against each other. The first frame is at rest, the second one moves.
 """
 _TRIALS = 8
-"""Largest number of sets of parameters with which a function is tried.
+"""Largest number of parameter sets with which one function is tried. Further sets are not tried.
 
-Sets of equal length that agree in their first ``_BEGINNING`` numbers are tried once.
+Two sets count as one if they have the same length and the same first ``_BEGINNING`` numbers.
 """
 _BEGINNING = 32
 _tried: defaultdict[tuple[Any, ...], set[tuple[float, ...]]] = defaultdict(set)
@@ -80,7 +81,10 @@ def try_out(
     owner: str,
     given: Sequence[float | Sequence[float]] = FRAMES,
 ) -> None:
-    """Call a function as plain Python on blocks with bounds; skip the call if it was made with equal parameters.
+    """Try a function in plain Python, to find reads and writes outside of its blocks.
+
+    The function is called with blocks that check each index. The trial is left out if the function was tried with
+    equal parameters before, or with the largest number of parameter sets.
 
     Parameters
     ----------

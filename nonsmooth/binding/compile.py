@@ -129,9 +129,9 @@ def refused(function: Callable[..., Any], form: str) -> Refusal | None:
 def bind_in_python(
     function: Callable[..., Any], form: str, owner: str, method: Callable[..., Any], why: Refusal
 ) -> tuple[int, tuple[float, ...]]:
-    """Address, and empty block of parameters, of a function that runs in Python as it calls a method in Python.
+    """Address and block of parameters of a function that runs in Python, because it calls the Python method ``method``.
 
-    A warning names the ``method`` and the reason ``why`` it cannot be compiled.
+    The block is empty. A warning names the method and the reason ``why`` it cannot be compiled.
     """
     shim = _shim_in_python(function, form, ())
     address = interpreted.address(shim, form)
@@ -145,7 +145,7 @@ def vector_place(function: Callable[..., Any], form: str, heap: Sequence[float],
 
 
 def parameter_place(function: Callable[..., Any], form: str, name: str) -> int:
-    """Position of the value of a parameter in the block of parameters of :func:`bind`."""
+    """Index of a parameter's value in the block of numbers that :func:`bind` returns for the function."""
     return FORMS[form].n_recorded + parameter_names(function, form).index(name)
 
 
@@ -188,7 +188,11 @@ def _shim_in_python(function: Callable[..., Any], form: str, vectors: tuple[bool
 
 
 def _parts(form: str, vectors: tuple[bool, ...]) -> dict[str, str]:
-    """Parts of the text of a shim by name: arguments, the call, the result after an exception, and the last lines."""
+    """Texts that complete the template of a shim, by name.
+
+    "arguments" are those of the shim, and "call" is its call of the function. "failure" sets the result after an
+    exception. "ending" are the lines after the call, which store arguments and return the result.
+    """
     its = FORMS[form]
     item = "at(p, {0} * n)" if form == "map" else "p[{0}]"
     items = ["at(p, int(p[{0}]))" if vector else item for vector in vectors]
@@ -220,10 +224,10 @@ def _record(form: Form) -> str:
 def in_python(
     function: Callable[..., Any], form: str, values: Mapping[str, Value], move: Callable[..., Any]
 ) -> Callable[..., Any]:
-    """Python function with the arguments of the form that calls a function of a law or body without compilation.
+    """Python function that has the arguments of ``form`` and calls a law's or body's function without compilation.
 
-    An exception of the function is raised, so a message can name it. In compiled code, the function moves pointers by
-    ``at``; here it calls ``move(block, offset)``, which returns the block from the float ``offset`` on.
+    An exception of the function passes through, so that a message can name it. In compiled code, the function moves
+    pointers by ``at``. Here it calls ``move(block, offset)``, which returns the block from the float ``offset`` on.
     """
     vectors = _vectors(values, parameter_names(function, form))
     scope = {"law": interpreted.in_python(function, move), "at": move}
@@ -238,14 +242,18 @@ def _made(text: str, scope: dict[str, Any]) -> Callable[..., Any]:
 
 
 _RAISING = ("RAISE_VARARGS", "BUILD_LIST", "BUILD_MAP", "BUILD_SET")
-"""Bytecode instructions of functions that may raise an exception: ``raise``, and the making of a list, dict or set.
+"""Bytecode instructions by which a function is taken as one that may raise an exception.
 
-An index or a key of the container may be missing.
+They are those of ``raise``, and of the making of a list, dict or set: a later access to the container may use an index
+or a key that is missing.
 """
 
 
 def _may_raise(function: Callable[..., Any]) -> bool:
-    """True if a function may raise an exception, or a function that it names, directly or through other functions."""
+    """True if a function may raise an exception.
+
+    This includes the functions that it calls, directly or through other functions.
+    """
     waiting, seen = [inspect.unwrap(function)], set()
     while waiting:
         one = waiting.pop()
@@ -264,12 +272,18 @@ def _may_raise(function: Callable[..., Any]) -> bool:
 
 
 def _is_table(value: Any) -> bool:
-    """True if a value is a tuple that a function may index. A tuple of strings only holds names of arguments."""
+    """True if a value is a tuple in which a function may look up numbers by an index, which may be out of range.
+
+    A tuple that contains nothing but strings is excluded: Python stores names of arguments in such tuples.
+    """
     return type(value) is tuple and any(not isinstance(item, str) for item in value)
 
 
 def evaluate(address: int, parameters: tuple[float, ...], x: float) -> float:
-    """Value at ``x`` of the function of one number at an address, with its block of parameters from :func:`bind`."""
+    """Call the function of a single number that is at ``address``; return its value at ``x``.
+
+    ``parameters`` is its block of parameters, which :func:`bind` returned together with the address.
+    """
     return float(caller("scalar", address, np.array(parameters, dtype=float))(x))
 
 

@@ -21,7 +21,7 @@ from nonsmooth.engine.native.kernel import PLAIN, at, unshared
 
 _Pointer = ctypes.POINTER(ctypes.c_double)
 _SECONDS = 5e-3
-"""Time after which :func:`cost` times no further call [s], so that it hardly delays the start of a run."""
+"""Longest total time of the calls that :func:`cost` measures [s]. It is so short that a run hardly starts later."""
 _CALLS = 100
 _alive: list[Any] = []
 _raised: dict[Callable[..., Any], str] = {}
@@ -60,7 +60,7 @@ def let_go() -> bool:
 def address(shim: Callable[..., Any], form: str) -> int:
     """Address of a C function that calls a Python function; it is valid until the process ends.
 
-    ``form`` is the name of the arguments and the result in :data:`nonsmooth.engine.native.forms.FORMS`.
+    ``form`` names the C signature, the types of arguments and result (:data:`nonsmooth.engine.native.forms.FORMS`).
     """
     callback = FORMS[form].prototype(_Pointer)(shim)
     _alive.append(callback)
@@ -68,9 +68,11 @@ def address(shim: Callable[..., Any], form: str) -> int:
 
 
 def cost(shim: Callable[..., Any], form: str, numbers: tuple[float, ...]) -> str:
-    """Measured time of a call of a Python function by its address, as text.
+    """Sentence with the measured time of a call from the engine to a Python function.
 
-    In place of a function that takes arrays, an empty function is timed.
+    A function that takes arrays besides its parameters cannot be called without valid input. So an empty function is
+    timed in its place, and the sentence says that a call takes longer. ``form`` names the signature, and ``numbers`` is
+    the block of parameters.
     """
     kinds, prototype = tuple(FORMS[form].arguments.values()), FORMS[form].prototype(_Pointer)
     heap = (ctypes.c_double * (len(numbers) + 1))(*numbers)

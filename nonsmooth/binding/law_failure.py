@@ -1,6 +1,6 @@
-"""Find the function of a law that gave no finite value in the engine, and the input for which it did.
+"""Find the law function that returned a value in the engine that is not finite, and the input of this call.
 
-The engine stores this input in front of the function's parameters.
+The engine stores the input of such a call in front of the function's parameters.
 """
 
 from __future__ import annotations
@@ -22,7 +22,10 @@ REMEDY = "It must return a finite number; with NONSMOOTH_PLAIN=1 a debugger can 
 
 
 class Finding(NamedTuple):
-    """Message on a function that gave no finite value, and whether it fails again if called with the same input."""
+    """Result of the search for the failure of a law function whose value in the engine was not finite.
+
+    ``text`` is the message for the user. ``again`` is True if a second call with the same input fails, too.
+    """
 
     text: str
     again: bool
@@ -41,12 +44,15 @@ def first_without_value(findings: Iterable[Finding | None]) -> str:
 def without_value(
     heap: NDArray[np.float64], part: LawFunction, state: Sequence[float] | NDArray[np.float64] = (), where: str = ""
 ) -> Finding | None:
-    """Message on a function that gave no finite value in the engine, with the last such input; None without failure.
+    """Message on the last call of a law function in the engine whose value was not finite, with the call's input.
+
+    The result is None if all values were finite.
 
     Parameters
     ----------
     heap : array
-        The floats of the engine's memory, from the block of the function's parameters to their end.
+        The engine's memory from the beginning of the function's block on, which has the stored input and then the
+        parameters.
     part : LawFunction
         The function.
     state : sequence of float

@@ -49,7 +49,10 @@ class LawFunction(NamedTuple):
 def law_functions(
     friction: TangentialLaw, impact: ImpactLaw | None = None, normal: NormalLaw | None = None
 ) -> Iterator[LawFunction]:
-    """Functions of the laws of a contact that the engine calls by address, except those of impact maps."""
+    """Yield the functions of a contact's laws that the engine calls by address.
+
+    The function of an impact map is not among them, because it belongs to all contacts at once and not to this contact.
+    """
     if isinstance(friction, TractionLaw):
         yield LawFunction(
             _CONTACT.traction_function, _CONTACT.traction_parameters, friction, friction.traction, "traction"

@@ -63,9 +63,10 @@ def _reason(message: str) -> str:
 
 
 def _place(message: str, file: str, first: int) -> tuple[str, int]:
-    """File and line of the first place outside of numba in a compiler's message, which is the innermost call.
+    """File and line of the code that the compiler refuses, read from its message.
 
-    Without such a place in the message: ``file`` and ``first``.
+    The message lists places from the innermost call outwards, so the first place outside of numba is taken. If the
+    message has no such place, the result is ``file`` and ``first``, which are those of the compiled function.
     """
     for found in _PLACES.finditer(message):
         named, line = found["file"] or found["path"], int(found["line"] or found["number"])

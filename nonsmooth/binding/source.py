@@ -37,10 +37,10 @@ def described(function: Callable[..., Any]) -> str:
 
 
 def raised(function: Callable[..., Any], error: BaseException) -> str:
-    """Text on an error that a call of a function has raised: the error, a line, and the file where it arose.
+    """Text on an error that a call of a function has raised, such as "raises ValueError(...) (line 3, `f(x)`)".
 
-    The line is the last one in the function's own file through which the error passed. The file is named only if the
-    error arose further on, in a function that this line calls.
+    The line is the last one of the traceback that is in the function's own file. If a function of another file raised
+    the error, that file is named, too.
     """
     frames = traceback.extract_tb(error.__traceback__)
     last = _last_own(function, frames)
@@ -49,7 +49,10 @@ def raised(function: Callable[..., Any], error: BaseException) -> str:
 
 
 def line_of(function: Callable[..., Any], error: BaseException) -> str:
-    """Text in brackets: the last line of a function's own file through which an error passed, with its source."""
+    """Text on the line of a function's file where an error was raised or passed on, such as " (line 3, `return x`)".
+
+    It is the last line of the error's traceback that is in this file. Without such a line, it is the function's first.
+    """
     file, line = place_of(function)
     last = _last_own(function, traceback.extract_tb(error.__traceback__))
     return _line(file, last.lineno if last is not None and last.lineno is not None else line)

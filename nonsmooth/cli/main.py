@@ -14,7 +14,7 @@ from nonsmooth.cli.report.messages import complain, discard_output, warn_plainly
 from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning, UnknownName
 
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
-"""Exit statuses."""
+"""Exit statuses: the command succeeded, the command failed, and the arguments are wrong, respectively."""
 
 
 class _Version(argparse.Action):
@@ -52,7 +52,7 @@ def parser(words: Sequence[str]) -> argparse.ArgumentParser:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Execute one command; return the exit status.
+    """Execute one command; return the exit status: 0 after success, 1 after a failure, 2 if the arguments are wrong.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def _execute(words: Sequence[str]) -> int:
-    """Execute one command; return the exit status. Errors become lines on standard error."""
+    """Execute one command; return the exit status of :func:`main`. Errors become lines on standard error."""
     named = _command(words)
     if named and named not in COMMANDS:
         complain(str(UnknownName("command", named, COMMANDS)))

@@ -25,7 +25,7 @@ class PainlevePolicy(StrEnum):
     """
 
     IMPACT = "impact"
-    """Velocities jump by an impact of the closed contact, which does not collide, by the contact's impact law."""
+    """Velocities jump: the contact's impact law is applied to the closed contact, although no gap closes."""
     COMPLIANT = "compliant"
     """Velocities jump by an impact of the closed contact without loss of energy, as by a stiff spring."""
     REFUSE = "refuse"
@@ -63,7 +63,7 @@ class EventDriven(Engine):
 
     @property
     def uses_flow(self) -> bool:
-        """True: the motion between events is that of the built-in flow."""
+        """True: the built-in flow integrates the equations of motion between events."""
         return True
 
     @property
@@ -75,7 +75,11 @@ class EventDriven(Engine):
         """Accept every system, because this engine can run all that a system can declare."""
 
     def counts(self, n_slots: int) -> Mapping[str, int]:
-        """Return the number of contacts for which the workspace has room in the tableau of Lemke's method."""
+        """Return the number of contacts that Lemke's method may solve together, as ``{"n_pivoted": number}``.
+
+        The workspace holds a tableau of this size. ``n_slots`` is the number of contacts that may be near each other at
+        one time.
+        """
         return {"n_pivoted": pivoted_contacts(solver_of(self.solver), n_slots)}
 
     def settings(self, time_scale: float) -> Mapping[Any, float]:

@@ -19,7 +19,8 @@ VIEWS = {
 }
 """Directions from the scene to the eye, by their names."""
 _FAR = 6.0
-"""Extent of the whole motion, relative to the extent of the bodies at a time, above which the camera follows them."""
+"""If the extent of the moving bodies over all times exceeds this multiple of their largest extent at one time, the
+camera follows the bodies.  Otherwise the camera is at rest and shows the whole motion."""
 _ROOM = 0.06
 """Margin of the picture on each side of the scene, relative to the larger extent of the scene."""
 
@@ -27,14 +28,15 @@ _ROOM = 0.06
 @final
 @dataclass(frozen=True, eq=False)
 class Camera:
-    """Directions of a picture, and the part of the plane of projection that it shows at each time.
+    """Parallel projection of a film to pictures: axes of the picture, and the visible rectangle at each time.
 
     Attributes
     ----------
     across, up, towards : array
         Unit vectors to the right, upwards and to the eye, shape [3] each.
     low, high : array
-        Corners of the picture at each time, across and up [m], shape [n, 2].
+        Lower left and upper right corner of the visible rectangle at each time, along ``across`` and ``up`` [m],
+        shape [n, 2] each.
     """
 
     across: Floats

@@ -24,8 +24,8 @@ _ROUND, _TURNED = 100, 0.72
 """Least number of triangles of a solid that gets a pattern to show its rotation, and brightness of the dark parts of
 the pattern, where 1 is the colour itself."""
 _CELLS, _MOST_CELLS = 10, 40
-"""Least and largest number of chequered cells along the rectangle that shows an infinite plane.  In between, a cell
-is as long as twice the film's ``unit`` [m]."""
+"""Least and largest number of chequered cells along the longer side of the rectangle that shows an infinite plane.  If
+the number stays within these limits, a cell is two of the film's ``unit`` long [m]; otherwise its length is adapted."""
 
 
 @final
@@ -151,7 +151,11 @@ def _colour(scene: Scene, body: int) -> str:
 
 
 def _meshes(look: Look, unit: float) -> Iterator[tuple[bool, ShadedMesh]]:
-    """Meshes for the look of a frame; True with a mesh that shows a line, False with a solid or a point."""
+    """Yield pairs (is_line, mesh) for the parts of a frame's look: its solid, its lines and its points.
+
+    ``is_line`` is True if the mesh shows a line.  Lines and points are drawn as bars and dots, whose radii are
+    proportional to ``unit`` [m].
+    """
     if len(look.triangles):
         middle = 0.5 * (look.vertices.min(axis=0) + look.vertices.max(axis=0))
         centre = look.vertices[look.triangles].mean(axis=1) - middle

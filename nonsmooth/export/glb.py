@@ -54,7 +54,10 @@ class Arrows:
 
 
 def arrows(solution: Solution) -> Iterator[Arrows]:
-    """Arrows of each contact that takes part in an impact: the impulses on the bodies that move."""
+    """Yield for each contact with impacts the arrows that show its impulses [N s].
+
+    An arrow shows the impulse on the contact's second body, or on the first body if only the first one is movable.
+    """
     # `recorded` also accepts an engine that records no contacts; it then gives no arrows
     found = Impulses.recorded(HistoryRequest(solution, np.zeros(0)))
     side = sides(solution.system)[found.impulse_contact][:, None]
@@ -81,8 +84,8 @@ def arrows(solution: Solution) -> Iterator[Arrows]:
 
 _KNOTS = Rule("most times that are stored, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _IMPULSE, _ARM = "#d55e00", 1.6
-"""Colour of the arrows that show impulses, and length of the arrow of the run's strongest impulse, relative to
-``Film.unit``."""
+"""Colour of the arrows that show impulses (hexadecimal RGB), and length of the longest arrow relative to ``Film.unit``,
+respectively.  The longest arrow shows the strongest impulse of the run."""
 
 
 @final
@@ -141,7 +144,8 @@ def _packed(film: Film, keys: NDArray[np.float32], impulses: Iterable[Arrows]) -
 def quaternions(axes: Floats) -> Floats:
     """Unit quaternions, scalar last, shape [n, m, 4], of axes of shape [n, m, 3, 3].
 
-    Of the two quaternions of a rotation, each is the one that is nearer to the quaternion before it.
+    The quaternions q and -q are the same rotation.  The signs are chosen so that q changes little from each time to the
+    next one, because viewers interpolate between times.
     """
     from scipy.spatial.transform import Rotation
 

@@ -67,7 +67,7 @@ class Tree:
         return self.known[key]
 
     def keys(self, times: NDArray[np.float32]) -> int:
-        """Add the times of tracks [s], shape [n]; return the number of their accessor."""
+        """Store the key times of tracks [s], shape [n], in the buffer; return the index of their glTF accessor."""
         return self.buffer.add(times, min=[float(times[0])], max=[float(times[-1])])
 
     def move(self, node: int, time: int, how: str, **tracks: Floats) -> None:
@@ -78,7 +78,7 @@ class Tree:
         node : int
             Number of the node.
         time : int
-            Number of the accessor of the times, from :meth:`keys`.
+            Index of the glTF accessor of the key times, from :meth:`keys`.
         how : str
             Interpolation between the times, "LINEAR" or "STEP".
         tracks : array

@@ -112,7 +112,8 @@ def face_normals(corners: Floats) -> Floats:
 def corner_normals(mesh: ShadedMesh) -> Floats:
     """Unit normal at each corner of each triangle, shape [m, 3, 3], for smooth shading.
 
-    It is the mean of the normals of the faces at the vertex that meet the triangle's face without a visible edge.
+    It is the mean normal of those faces at the vertex whose angle to the triangle is less than 0.6 rad.  So the surface
+    is shaded as smooth, except at sharp edges.
     """
     normals = face_normals(mesh.vertices[mesh.triangles])
     vertex, face = mesh.triangles.ravel(), np.repeat(np.arange(len(mesh.triangles)), 3)

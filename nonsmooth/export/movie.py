@@ -49,9 +49,9 @@ class Movie:
     view : str
         Direction of view: "corner", "front" along y, "side" along -x or "top".
     speed : float
-        Time of the run that passes in one second watched [1].
+        Simulated time per time of the film [1]; 0.5 shows the motion at half its speed.
     frames_per_second : float
-        Pictures in one second watched [1/s].
+        Number of pictures per second of the film [1/s].
     size : int
         Longer side of the drawn scene [pixels]; the shorter side depends on the motion.
     """

@@ -82,7 +82,10 @@ def drawn(film: Film, marks: Marks, camera: Camera, size: int) -> Iterator[Pixel
 
 
 def _dots(figure: Figure, axes: Axes, marks: Marks) -> dict[str, Any]:
-    """Drawn points of the kinds of marks that occur, by the word of the kind."""
+    """Matplotlib scatter of each kind of mark that occurs in the run, by the name of the kind, such as "impact".
+
+    The scatters are made without points; each picture sets the points.
+    """
     seen = [word for k, word in enumerate(WORDS) if any(len(one[k]) for one in marks.places)]
     found = {
         word: axes.scatter([], [], s=90 if word == "impact" else 36, edgecolors="white", linewidths=0.8, zorder=3,

@@ -41,7 +41,11 @@ class Vtk:
         check_number("export: count", self.count, _COUNT)
 
     def write(self, solution: Solution, path: Path) -> None:
-        """Write the files of a run; older files remain until all are written."""
+        """Write a VTP file for each time, and the PVD file ``path`` that lists these files.
+
+        The VTP files are in the folder beside ``path`` whose name ends with "_vtp".  Files of an earlier export remain
+        until all new files are written, and are then replaced.
+        """
         times = np.linspace(float(solution.track.time[0]), solution.t_end, int(self.count))
         film, folder = Film.of(solution, times), path.with_name(f"{path.stem}_vtp")
         width = len(str(len(times) - 1))

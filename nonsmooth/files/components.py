@@ -223,7 +223,7 @@ def _abstract(owner: type) -> bool:
 
 
 def _component_class(hint: Any) -> Any:
-    """Class or interface of the components that a type hint allows; None if it allows no component."""
+    """Class or interface of components in a type hint: the first if there are several; None without such a class."""
     for one in _options(hint):
         if isinstance(one, type) and (issubclass(one, _BASES) or dataclasses.is_dataclass(one)):
             return one

@@ -40,7 +40,10 @@ def parse(path: Path) -> TomlTable:
 
 
 def changed(tables: TomlTable, changes: Mapping[str, Any], path: Path) -> TomlTable:
-    """Copy of tables with new values at some dotted keys; a number in a key is an index of an array, from 0.
+    """Copy of parsed TOML tables in which some values are replaced.
+
+    ``changes`` maps dotted keys, such as "bodies.ball.radius", to new values. A number in a key is an index of an
+    array, which counts from 0.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Scenario of a file, for the command line."""
+"""A scenario that is read from a scenario file; the command line runs it like an installed scenario."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ _SAMPLES = 2000
 @final
 @dataclass(frozen=True)
 class FileScenario(Scenario):
-    """Scenario whose system is read from a file. It has no figures and adds no coordinates to q and u."""
+    """Scenario whose system is read from a file.
+
+    It draws no figures. Its results are q and u; it defines no further coordinates, such as an angle.
+    """
 
     title: ClassVar[str] = "A scenario file"
 
@@ -27,7 +30,7 @@ class FileScenario(Scenario):
 
     @classmethod
     def of(cls, system: System, t_end: float) -> FileScenario:
-        """Scenario of a system, whose numbers can be varied as if it was read from a file.
+        """Scenario of a system; its numbers can be varied as if the system was read from a file.
 
         Raises
         ------
@@ -57,7 +60,7 @@ class FileScenario(Scenario):
         return self.setup.build()
 
     def resolved(self) -> Mapping[str, Any]:
-        """Title, times, and the values that were set on the command line."""
+        """Title, end time and sample interval of the run [s], and the values that the command line has set."""
         said = {"title": self.setup.title, "t_end": self.t_end, "sample_interval": self.sample_interval}
         return {**self.setup.changes, **said}
 
@@ -81,7 +84,7 @@ class FileScenario(Scenario):
         return FileScenario(self.setup.varied(changes))
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """No coordinates in addition to q and u of the results: an empty mapping."""
+        """No coordinates of its own: an empty mapping."""
         return {}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:

@@ -1,4 +1,4 @@
-"""Forces or impulses of contacts outside of their friction cones."""
+"""Find contacts whose force or impulse is outside of the friction cone of their law."""
 
 from __future__ import annotations
 
@@ -26,16 +26,18 @@ It is this part of the bound, plus this part of the largest normal force (or imp
 def beyond_cones(
     contacts: Sequence[Contact], number: Integers, first: Integers, normal: Floats, friction: Floats, speed: Floats
 ) -> NDArray[np.bool_]:
-    """True for entries that pull, or have more friction than their law allows; shape [m].
+    """Find forces or impulses of contacts that are outside of the friction cone: booleans, shape [m].
+
+    The array is True for a contact whose bodies attract each other, and for one with more friction than the law allows.
 
     Parameters
     ----------
     contacts : sequence of Contact
         Contacts of the system.
     number : array
-        Contact of each entry, shape [m].
+        Number of the contact of each force or impulse, shape [m].  Those of one instant follow each other.
     first : array
-        First entry of each instant, then the number of entries, shape [n + 1].
+        Index of the first force or impulse of each instant, and m as last number, shape [n + 1].
     normal : array
         Normal forces [N] or impulses [N s], shape [m].
     friction : array
@@ -65,7 +67,10 @@ def beyond_cones(
 
 
 def _value(coefficient: Callable[[float], float], speed: float) -> float:
-    """Coefficient [1] of a law at a slip speed [m/s]; infinite if it has no value there, such as log(speed) at rest."""
+    """Coefficient of friction of a law at a slip speed [m/s].
+
+    It is infinite if the law has no value at this speed, such as log(speed) at rest.  An infinite bound is not checked.
+    """
     try:
         return coefficient(speed)
     except (ArithmeticError, ValueError):
@@ -73,9 +78,9 @@ def _value(coefficient: Callable[[float], float], speed: float) -> float:
 
 
 def _largest_of_instants(normal: Floats, first: Integers) -> Floats:
-    """Largest magnitude of all normal forces or impulses at the instant of each entry, shape [m], in their unit.
+    """For each normal force or impulse, the largest magnitude of all that have the same instant; shape [m], same unit.
 
-    ``first`` is as in :func:`beyond_cones`.
+    ``normal`` and ``first`` are as in :func:`beyond_cones`.
     """
     counts = np.diff(first)
     starts = first[:-1][counts > 0]

@@ -42,7 +42,10 @@ class NearContacts:
 
     @classmethod
     def of(cls, request: HistoryRequest) -> NearContacts:
-        """Evaluate the contacts whose bodies are near each other, at the times of a request."""
+        """Evaluate the chosen contacts at the times of a request; NaN if a contact is not in the neighbour list.
+
+        The neighbour list has the contacts of bodies that are near each other, open contacts too.
+        """
         memory, contact, chosen = request.replay.laid.memory, owners.ContactRecord, request.contacts
         table = np.empty((3, len(request.times), len(chosen)))
         here = np.empty((3, len(request.solution.system.contacts)))
@@ -106,7 +109,11 @@ class ClosedContacts:
 
     @classmethod
     def of(cls, request: HistoryRequest) -> ClosedContacts:
-        """Evaluate all closed contacts at the times of a request, also contacts that the request does not name."""
+        """Evaluate all closed contacts at the times of a request.
+
+        Contacts that the request does not name are evaluated, too, because the forces of all contacts are solved
+        together.
+        """
         replay, row = request.replay, request.times
         read, at = _ClosedReader(replay.laid), replay.closed(row)
         found = len(row) * [read.none]
@@ -162,7 +169,10 @@ def _slips(memory: Any, slots: Integers | slice) -> Floats:
 
 @final
 class _ClosedReader:
-    """Reader of the closed contacts in the memory of the engine."""
+    """Reader of numbers, modes, gaps and forces of the closed contacts from the engine's memory.
+
+    ``none`` is the result if no contact is closed.
+    """
 
     none = np.zeros((0, 2), dtype=np.int64), np.zeros((0, 20))
 

@@ -39,7 +39,7 @@ def distances(
     solution : Solution
         The run.
     first, second : Body or str
-        Two bodies of its system, or their names; all of their shapes count.
+        Two bodies of its system, or their names.  The distance is the least one of all pairs of their shapes.
     times : float or array, optional
         Times within the run [s]; by default the samples.
     by : str, optional
@@ -53,7 +53,8 @@ def distances(
     Raises
     ------
     InvalidInput, NoDistance, MissingPackagesError
-        As of :func:`nonsmooth.distance`.  Also: the system has no such body, or a time is outside of the run.
+        In the cases that :func:`nonsmooth.distance` describes.  InvalidInput also if both bodies are the same, if a
+        body is not one of the system, or if a time is outside of the run.
     """
     system = solution.system
     numbers = numbers_of(_WHERE, system, ["body"], [first, second])["body"]

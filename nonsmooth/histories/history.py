@@ -88,9 +88,10 @@ class History(Mapping[str, NDArray[Any]]):
     def of(
         cls, time: Floats, arrays: tuple[LabelledArray, ...], labels: Mapping[str, tuple[str, ...]], **more: Any
     ) -> History:
-        """History of arrays; their ``dimensions`` name all axes but the axis of time, which comes first.
+        """Make a history of arrays whose first axis is time; their ``dimensions`` name the other axes.
 
-        Labels of axes that no array has are dropped.
+        ``labels`` has the labels of the entries along each axis, by the name of the axis; those of axes that no array
+        has are dropped. ``more`` are further attributes of the history.
         """
         used = dict.fromkeys(axis for one in arrays for axis in one.dimensions)
         known = {**FIXED_LABELS, **labels}
@@ -177,7 +178,7 @@ def to_dataset(
 
 
 def spoken(time: Floats, over: str) -> str:
-    """Times as text: "t = 0.5 s" for a single time, else number, least and greatest, as "200 times, 0 to 1 s".
+    """Text on times: "t = 0.5 s" for a single time, and number and range of several times, "200 times, 0 to 1 s".
 
     ``over`` is the noun for an entry, "time" or "impulse".
     """

@@ -137,7 +137,7 @@ class StateReplay:
         return np.asarray(_MODES[self.codes(times)])
 
     def closed(self, times: Floats) -> Integers:
-        """Indices of the times at which a contact is closed."""
+        """Indices of the times at which at least one contact of the system is closed."""
         events = self._events
         modes = _MODES[events.codes >> AFTER & CODE]
         closing = np.repeat(np.arange(len(events)), np.diff(events.first))[modes != Mode.OPEN]
@@ -196,14 +196,15 @@ class StateReplay:
                 look(i)
 
     def visit_near(self, times: Floats, states: Floats, look: Callable[[int], None]) -> None:
-        """Call ``look(i)`` while the contacts of near bodies at ``times[i]`` are listed and evaluated.
+        """For each time, set the model to the state, list and evaluate the contacts of near bodies, and call ``look``.
 
-        ``states`` is the result of :meth:`states` at the times.
+        ``look(i)`` reads the model at ``times[i]``.  ``states`` is the result of :meth:`states` at the times.
         """
         memory = self.laid.memory
         y = memory[owners.Island.y][: self.laid.n_y]
         with self._alone:
-            # the neighbour list is made anew for each time, so the model's contacts belong to no event any more
+            # `_put_event` is the event whose modes the model has. Neighbour list and modes are set anew for each time
+            # here. With -2 (no event), the next `_put` sets the modes again
             self._put_event = -2
             for i, row in enumerate(self._row(times).tolist()):
                 memory[owners.Island.time], y[:] = times[i], states[i]
@@ -213,7 +214,8 @@ class StateReplay:
 
     def _visit_stored(self, rows: Integers, look: Callable[[int], None]) -> None:
         with self._alone:
-            # the states below get no modes, so the modes that the model still has belong to no event any more
+            # `_put_event` is the event whose modes the model has. Only states are set here, no modes: those of an
+            # earlier event remain and do not fit. With -2 (no event), the next `_put` sets the modes again
             self._put_event = -2
             for i, row in enumerate(rows.tolist()):
                 self._put_state(row)
@@ -252,7 +254,7 @@ class StateReplay:
         memory[owners.Island.y][:] = self._y[row]
 
     def _put_modes(self, event: int) -> None:
-        """Make the neighbour list, and close the contacts that were closed after an event, with slip directions."""
+        """Make the neighbour list, and give each contact the mode and the slip direction that it had after an event."""
         memory, events, n = self.laid.memory, self._events, self._events.n_contacts
         contact = owners.ContactRecord
         listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)

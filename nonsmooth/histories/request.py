@@ -70,7 +70,10 @@ class HistoryRequest:
         return [self.solution.system.bodies[number] for number in self.numbers("body")]
 
     def columns(self, of: str) -> Integers:
-        """Numbers of the columns of the chosen bodies in q (``of="n_q"``) or u (``of="n_u"``) of all bodies."""
+        """Indices of the columns that belong to the chosen bodies, in the array of all coordinates or all velocities.
+
+        ``of`` is "n_q" for the coordinates q and "n_u" for the velocities u.
+        """
         sizes = [getattr(body, of) for body in self.solution.system.bodies]
         first = np.cumsum([0, *sizes])
         return np.concatenate(
@@ -138,9 +141,10 @@ def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | Non
 
 
 def _found(where: str, system: System, known: Mapping[str, Sequence[object]], part: object) -> list[tuple[str, int]]:
-    """Pairs (kind, number) of the parts that the user may mean by ``part``, at least one.
+    """Find the parts of a system to which ``part`` refers: an object, a name or a number that the user gave.
 
-    The errors are those of :func:`numbers_of`.
+    Returns one pair (kind, number) at least, such as ("contact", 3).  There are several pairs if parts of different
+    kinds have the name.  Raises the errors of :func:`numbers_of`.
     """
     several = " or ".join(known)
     if isinstance(part, (int, np.integer)) and not isinstance(part, bool):
@@ -167,7 +171,8 @@ def _found(where: str, system: System, known: Mapping[str, Sequence[object]], pa
 
 
 _PLURALS = {"contact": "contacts", "body": "bodies", "joint": "joints"}
-"""Kind of a part -> name of the attribute that lists such parts in a system, and their names in ``system.names``."""
+"""For each kind of part, the attribute of a system that lists its parts.  The attribute of ``system.names`` with their
+names is called the same."""
 
 
 def _parts(system: System, kind: str) -> Sequence[object]:

@@ -50,7 +50,7 @@ class States:
 @final
 @dataclass(frozen=True)
 class Modes:
-    """Modes of contacts at given times: those after the last event at or before each time.
+    """Modes of contacts at given times; at the time of an event, the modes after it.
 
     Attributes
     ----------
@@ -168,7 +168,10 @@ class Energies:
 
     @classmethod
     def of(cls, request: HistoryRequest) -> Energies:
-        """Evaluate the bodies at the times of a request, in one pass."""
+        """Compute energies, works and losses at the times of a request.
+
+        Each state is visited once, and all of these quantities are computed from it.
+        """
         laid, account = request.replay.laid, request.solution.energy
         memory, bodies, first = laid.memory, laid.system.bodies, laid.n_q + laid.n_u
         y, tails, totals = memory[owners.Island.y], memory[owners.BodyRecord.tail][: len(bodies)], owners.Totals
@@ -234,7 +237,7 @@ class Joints:
 
     @classmethod
     def of(cls, request: HistoryRequest) -> Joints:
-        """Solve for the forces at the times of a request."""
+        """Compute the joint forces at the times of a request; the engine solves the equations of motion for them."""
         joints = _readers(request.replay.laid)
         chosen = [joints[number] for number in request.numbers("joint")]
         table = np.zeros((3, len(request.times), len(chosen), 3))
@@ -257,9 +260,13 @@ class _JointReader:
     along: Floats
 
     def __call__(self) -> tuple[Floats, Floats, Floats]:
-        """Point [m]; force [N] and moment about the point [N m] on the second body; in world axes, shape [3] each."""
+        """Point of action of the joint [m], and its force [N] and moment about this point [N m] on the second body.
+
+        All of them are in world axes, shape [3] each.
+        """
         axes, moments, points = (self.rows[:, at : at + 3] for at in (AXIS, MOMENT, POINT_B))
-        # rows that hold an angle have a zero axis and no point, so the point is that of the first other row
+        # a row that constrains a rotation has a zero axis and no point of action. So the point of the first row that
+        # constrains a translation is used
         holding = np.flatnonzero(np.any(axes != 0.0, axis=1))
         point = points[holding[0]] if len(holding) > 0 else self.origin
         return point, self.along @ axes, self.along @ (moments + np.cross(points - point, axes))

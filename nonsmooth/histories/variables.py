@@ -51,9 +51,11 @@ class Variable:
     description : str
         The quantity in words.
     reading : callable
-        Function of a request that evaluates the run at its times and returns an object, such as ``States.of``.
+        ``reading(request)`` evaluates the run at the times of the request and returns an object with the results, for
+        example ``States.of``.
     values : callable
-        Function that takes the variable from that object.  The array has the axis of time first, and then ``axes``.
+        ``values(results)`` returns the array of this variable from the object that ``reading`` returned.  Its first
+        axis is ``over``; ``axes`` follow.
     over : str
         First axis, "time", or "impulse" for variables of the impulses of events.
     """
@@ -74,12 +76,15 @@ class Variable:
 
 
 def _row(name: str, unit: str, axes: tuple[str, ...], description: str, reading: Any, over: str = "time") -> Variable:
-    """Row of a variable that is an attribute, of the same name, of the class ``reading``."""
+    """Table row of the variable ``name``, which is read from the attribute ``name`` of the class ``reading``."""
     return Variable(name, unit, axes, description, reading.of, attrgetter(name), over)
 
 
 def _closed(name: str, unit: str, axes: tuple[str, ...], description: str, if_open: float) -> Variable:
-    """Row of an attribute of :class:`ClosedContacts`; its value is ``if_open`` while a contact is open."""
+    """Table row of the variable ``name``, which is read from the attribute ``name`` of :class:`ClosedContacts`.
+
+    The value of the variable is ``if_open`` while a contact is open.
+    """
     return Variable(
         name,
         unit,
@@ -92,7 +97,7 @@ def _closed(name: str, unit: str, axes: tuple[str, ...], description: str, if_op
 
 _CONTACT, _JOINT, _FRAME, _XYZ, _SIDES = ("contact",), ("joint",), ("frame",), ("axis",), ("side",)
 _ROWS = (
-    # rows of states and modes
+    # variables of the states of bodies and of laws, and of the modes of contacts
     _row("q", "", ("coordinate",), "coordinates, see coordinate_units", States),
     _row("u", "", ("velocity",), "velocities, see velocity_units", States),
     _row(
@@ -106,7 +111,7 @@ _ROWS = (
     _row("rotation", "1", (*_FRAME, *_XYZ, "column"), "axes of the frame as columns", Frames),
     _row("velocity", "m/s", _FRAME + _XYZ, "velocity of the origin", Frames),
     _row("angular_velocity", "rad/s", _FRAME + _XYZ, "angular velocity, in world axes", Frames),
-    # rows of the whole system: energies, works and losses
+    # variables of the whole system: energies, works and losses
     _row("kinetic_energy", "J", (), "kinetic energy of the free bodies", Energies),
     _row("potential_energy", "J", (), "potential energy of the free bodies", Energies),
     _row("driven_work", "J", (), "work of driven bodies since the start", Energies),
@@ -128,11 +133,11 @@ _ROWS = (
     _closed("contact_normal", "1", _XYZ, "unit normal from the first to the second body", np.nan),
     _closed("slip_velocity", "m/s", _XYZ, "tangential velocity of the second body relative to the first", np.nan),
     _closed("beyond_cone", "1", (), "true if the force is outside of the friction cone", 0.0),
-    # rows of joints, about the forces on the second body
+    # variables of joints: force and moment are those that the joint exerts on its second body
     _row("joint_point", "m", _JOINT + _XYZ, "point of the joint on the second body", Joints),
     _row("joint_force", "N", _JOINT + _XYZ, "force on the second body", Joints),
     _row("joint_moment", "N m", _JOINT + _XYZ, "moment on the second body about the point", Joints),
-    # rows of impulses in events, one entry for each contact that an event lists
+    # variables of impulses: each array has one entry for every contact that an event lists, event by event
     _row("impulse_event", "1", (), "number of the event", Impulses, "impulse"),
     _row("impulse_contact", "1", (), "number of the contact", Impulses, "impulse"),
     _row("normal_impulse", "N s", (), "normal impulse", Impulses, "impulse"),

@@ -53,9 +53,10 @@ class Body(Component, ABC):
         return ()
 
     def strokes(self, q: Vector) -> Vector:
-        """Return the ends of lines to draw at coordinates q [m], shape [n, 2, 3], in world axes; none by default.
+        """Return the ends of n lines that show the body at coordinates ``q`` [m], shape [n, 2, 3]; n = 0 by default.
 
-        The lines show parts without a frame, such as the links of a mechanism. Their number must not change.
+        The points are in world axes.  The lines show parts without a frame, such as the links of a mechanism.  The
+        number n must not depend on ``q``.
         """
         return np.zeros((0, 2, 3))
 
@@ -88,8 +89,9 @@ class Body(Component, ABC):
     def spin(self) -> int:
         """Offset in u of an angular velocity in body axes that the engine integrates in space axes; -1 if none.
 
-        The quaternion's rate must be half the product of the quaternion and this angular velocity.  In space axes, the
-        angular velocity of a symmetric top changes only as slowly as its axis turns.
+        The quaternion's rate must be half the product of the quaternion and this angular velocity.  The reason is fast
+        symmetric tops: in body axes a force on the top turns as fast as the top spins.  In space axes the force and the
+        angular velocity change slowly.
         """
         return -1
 
@@ -112,8 +114,8 @@ class Body(Component, ABC):
     def scales(self) -> tuple[Vector, Vector]:
         """Sizes of q and u below which the tolerance of a step is absolute, not relative; shapes [n_q] and [n_u].
 
-        By default they follow from the units: the length of the body, the speed of a fall through this length, and 1
-        for angles, pure numbers and all other units.
+        By default each size follows from the unit: :attr:`length_scale` L for m; sqrt(9.81 L), about the speed of a
+        fall through L, for m/s; this speed divided by L for rad/s; 1 for every other unit, such as rad or 1.
         """
         length = self.length_scale
         speed = math.sqrt(9.81 * length)

@@ -26,13 +26,13 @@ class CandidateSearch:
     function : callable
         A plain function ``find(a, b, out, ...)`` of the frame blocks of the bodies.  On entry, ``out[0]`` is a distance
         [m].  The function writes to ``out[0]`` the number of pairs of features that may be within this distance.  From
-        ``out[1]`` on it writes three numbers for each pair, at most one pair more than there are contacts.  The first
-        number of a pair is not 0.
+        ``out[1]`` on it writes three numbers for each pair.  It writes at most one pair more than there are contacts:
+        this pair shows that the contacts are too few.  The first number of a pair is not 0.
     values : mapping
         Parameters of the function by name.
     counts : mapping
-        First number of a pair -> how many values its second and its third number may have, which are integers from 0.
-        Pairs that are read from a file are checked with them.
+        First number of a pair -> (m, n): the second number of the pair is an integer from 0 to m - 1, the third one an
+        integer from 0 to n - 1.  Pairs that are read from a file are checked by these limits.
     """
 
     function: Callable[..., None]

@@ -61,5 +61,5 @@ class ConvexSolid(SolidRegion):
         return self._whole.place[None, :]
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """Return False, because the piece shows which points are inside."""
+        """Return False always, because the single convex piece of this solid already decides if a point is inside."""
         return False

@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from nonsmooth.system.system import System
 
 FIRST_CODE = 100
-"""Least code of an end cause of a single engine. :mod:`nonsmooth.engine.memory.modes` has the smaller codes."""
+"""Smallest code of a cause, defined by a single engine, for which this engine ends a run (:class:`EndCause`).
+
+Smaller codes are the causes in :mod:`nonsmooth.engine.memory.modes`, which all engines share.
+"""
 
 
 @final
@@ -31,7 +34,7 @@ class Measure:
     unit : str
         SI unit, "1" for a pure number.
     meaning : str
-        What the number is, in a few words.
+        Description of the number, in a few words.
     """
 
     name: str
@@ -42,7 +45,7 @@ class Measure:
 @final
 @dataclass(frozen=True)
 class EndCause:
-    """A cause for which only one engine ends a run.
+    """A cause that an engine defines itself, and for which it ends a run.
 
     Attributes
     ----------
@@ -51,9 +54,9 @@ class EndCause:
     name : str
         Name of the cause, which ``Solution.cause`` gives.
     reason : str
-        What happened, as a sentence without its full stop.
+        Description of the event, as a sentence without its full stop.
     remedy : str
-        What the user can do, as a whole sentence.
+        Advice for the user, as a whole sentence.
     is_failure : bool
         Whether the run failed.
     """
@@ -101,7 +104,10 @@ class Engine(Component, ABC):
 
     @property
     def uses_flow(self) -> bool:
-        """True if the engine moves the system between events by the built-in flow, and sets its tolerances."""
+        """True if the engine uses the built-in integrator (:mod:`nonsmooth.engine.flow`) between events.
+
+        Its ``settings`` then give the tolerances of the integrator.
+        """
         return False
 
     @property
@@ -121,9 +127,9 @@ class Engine(Component, ABC):
 
     @property
     def promised_residual(self) -> float | None:
-        """Largest part of the exchanged energy that its account may lack in a good run.
+        """Largest energy residual of a good run, relative to the exchanged energy; a run above it is suspect.
 
-        Without a promise ``ws.tolerance.relative`` and ``ws.tolerance.impact`` decide.
+        If it is None, the default, ``ws.tolerance.relative`` and ``ws.tolerance.impact`` decide.
         """
         return None
 

@@ -38,7 +38,8 @@ class SolidRegion(ABC):
 
     The contract:
 
-    1. The pieces lie within the solid and cover its boundary. They fill the solid unless ``hollow`` is True.
+    1. The convex pieces (:meth:`pieces`) lie within the solid and cover its boundary. If ``hollow`` is False, they also
+       fill its inside; if ``hollow`` is True, they leave out its inside.
     2. The surface from which contacts compute gaps is nowhere farther than ``set_back`` [m] from the boundary.
     """
 
@@ -68,11 +69,15 @@ class SolidRegion(ABC):
     @property
     @abstractmethod
     def inner(self) -> Vector:
-        """Points inside, as far from the boundary as possible [m], shape [n, 3]; at least one."""
+        """One or more points deep inside the solid [m], shape [n, 3], as far from its boundary as possible.
+
+        If such a point lies in another solid, the two solids overlap.
+        """
 
     @abstractmethod
     def holds(self, point: Vector, margin: float) -> bool:
-        """Return True if a point is inside of a solid that is ``hollow``, more than ``margin`` [m] below its boundary.
+        """Return True if a point lies in a ``hollow`` solid, more than ``margin`` [m] below its boundary.
 
-        For a solid that its pieces fill, return False: the pieces show which points are inside.
+        A solid that is not ``hollow`` returns False for every point: its pieces fill it, so each point inside the solid
+        is found in a piece.
         """

@@ -146,7 +146,7 @@ class Difference:
 
     @classmethod
     def unpacked(cls, content: bytes) -> Difference:
-        """The difference whose :meth:`packed` bytes these are.
+        """Return the difference that ``content`` describes; :meth:`packed` made these bytes.
 
         Raises
         ------

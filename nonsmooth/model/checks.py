@@ -139,13 +139,19 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allow
 
 
 def _remedy_of_joint(model: LaidOut, tie: Tie, what: str) -> str:
-    """Remedy for a joint that is open at the start ("residual"), or that opens ("rate"), perhaps by a driven body."""
-    remedy = "Place the bodies where the joint is closed; joints that contradict each other cannot all be closed."
+    """Remedy for a joint that is open at the start ("residual"), or whose joined points separate ("rate")."""
+    contradiction = "Joints that contradict each other cannot all be closed."
+    if what == "residual":
+        return f"Place the bodies where the joint is closed. {contradiction}"
+    remedy = (
+        "A body that turns about the joint needs velocity [m/s, world axes] and angular_velocity [rad/s, body axes] in "
+        "System.place: the joined points must have the same velocity."
+    )
     driven = next((body for body in (tie.first, tie.second) if body.n_u == 0), None)
-    if what != "rate" or driven is None:
-        return remedy
-    name = model.system.name_of(driven)
-    return f"If {name!r} moves there, give the other body its velocity or let its motion begin at rest. {remedy}"
+    if driven is not None:
+        name = model.system.name_of(driven)
+        remedy += f" If {name!r} moves at the start, give the other body its velocity or let its motion begin at rest."
+    return f"{remedy} {contradiction}"
 
 
 def _check_mobility(model: LaidOut) -> None:

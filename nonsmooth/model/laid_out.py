@@ -165,9 +165,10 @@ def energies(bodies: tuple[Body, ...], rates: np.ndarray, numbers: np.ndarray) -
 def copied(memory: Memory) -> Memory:
     """Memory with the same content, for another thread. Buffers of output are empty, tables of functions are shared.
 
-    A function finds its table by a distance [floats] from the start of its parameters. A pointer of compiled code has
-    no bounds, so the distance may lead into the memory that owns the tables, which the copy keeps alive as ``owner``.
-    Without compiled code (``PLAIN``) there are arrays with bounds instead of pointers, and the tables are copied.
+    Only the first memory (``owner``) holds tables, and every copy keeps it alive. A function finds its table by a
+    distance [floats] from the start of its parameters. In a copy this distance leads into the first memory, because
+    pointers in compiled code have no bounds. Without compiled code (``PLAIN``) arrays with bounds replace the pointers,
+    so the tables are copied.
     """
     # the memory to be copied may itself share the tables of another one
     owner = memory if memory.owner is None else memory.owner

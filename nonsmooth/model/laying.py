@@ -39,10 +39,12 @@ class ArticulationLayout:
 def articulations(system: System) -> list[ArticulationLayout]:
     """The articulations (groups of bodies that joints tie together) of a system, in the order of its bodies.
 
-    Each body belongs to one articulation. Articulations are the shortest ranges of consecutive bodies such that no
-    joint ties movable bodies of two ranges. A body between two tied bodies belongs to their range even without a joint.
-    That costs time and does not change the motion. Each joint must have a movable body, one with velocities
-    (``n_u`` > 0). A driven body ties no others, because its motion is given.
+    An articulation is a range of consecutive bodies. It contains both movable bodies of each of its joints, and it is
+    as short as possible. Each body belongs to one articulation. A body between two jointed bodies belongs to their
+    articulation even without a joint. This costs time and does not change the motion.
+
+    A movable body has velocities (``n_u`` > 0), and each joint must have at least one. The motion of a driven body is
+    given, so two bodies with joints to the same driven body may belong to different articulations.
     """
     bodies = system.bodies
     # number of the last body that a joint ties to each body; the body itself without a joint
@@ -54,7 +56,7 @@ def articulations(system: System) -> list[ArticulationLayout]:
     first = 0
     while first < len(bodies):
         end = number = first
-        # the range of bodies is extended to the last body that is tied to a body in it
+        # extend the range until no joint leads from a body of the range to a body behind the range
         while number <= end:
             end = max(end, last[number])
             number += 1

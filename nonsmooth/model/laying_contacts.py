@@ -34,7 +34,7 @@ from nonsmooth.system.system import System
 
 _CONTACT = owners.ContactRecord
 Kinds: TypeAlias = Sequence[NDArray[np.int64]]
-"""The numbers of the contacts of each kind."""
+"""Indices of the contacts of each kind."""
 
 
 @dataclass
@@ -46,13 +46,13 @@ class Kind:
     fields : dict
         Fields of the declared contact, by their declarations.
     offsets : dict
-        Fields that are places in the block, from its start, by their declarations.
+        Offsets in the block, by the declarations of the fields that hold them.
     block : list of float
         The block.
     written : list of tuple
-        (place in the block, length) of numbers that the engine or a law writes.
+        (offset in the block, length) of numbers that the engine or a law writes.
     tables : list of tuple
-        (place in the block, place from which its distance counts, table).
+        (offset of a reference in the block, offset from which the reference counts, table that it refers to).
     """
 
     fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: Mode.OPEN})
@@ -62,17 +62,20 @@ class Kind:
     tables: list[tuple[int, int, SharedNumbers]] = field(default_factory=list)
 
     def store(self, declared: Any, values: Sequence[float]) -> int:
-        """Append values to the block; the result is their place, which is noted as the field ``declared``."""
+        """Append values to the block; return their offset, which becomes the field ``declared``."""
         start = self.offsets[declared] = len(self.block)
         self.block += values
         return start
 
     def output(self, declared: Any, size: int) -> None:
-        """Append ``size`` places for numbers that a law writes, and a mark; field ``declared`` gets their offset."""
+        """Reserve ``size`` floats of the block, which a law writes; their offset becomes the field ``declared``.
+
+        Sentinel numbers follow them. They reveal a law that writes more than ``size`` numbers.
+        """
         self.mark_written(declared, self.store(declared, output_block(size)), size)
 
     def mark_written(self, declared: Any, place: int, size: int) -> None:
-        """Mark ``size`` numbers of the block as written in a run; their place becomes the field ``declared``.
+        """Mark ``size`` numbers of the block as written in a run; their offset becomes the field ``declared``.
 
         A saved checkpoint holds such numbers, but no parameters.
         """
@@ -117,7 +120,7 @@ def lay_contacts(
 
 
 def by_kind(contacts: Contacts) -> Kinds:
-    """Numbers of the contacts of each kind. A kind shares the very same objects for geometry and laws."""
+    """Indices of the contacts of each kind. A kind shares the very same objects for geometry and laws."""
     # rows with the same kinematics and laws: their first contacts are of one kind, their second ones of another
     same = defaultdict[tuple[int, ...], list[int]](list)
     for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
@@ -328,14 +331,14 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
 
 
 _OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Fields of a contact with the places of its geometry's numbers in its block. New laws do not change these numbers."""
+"""Fields of a contact that hold offsets of the geometry's numbers; :func:`lay_laws` leaves these numbers unchanged."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
-    """Layout of ``system``, which differs in its laws only, in the memory of a model. That memory must hold no run.
+    """Lay out ``system``, which differs from ``model.system`` in its laws only, in the memory of ``model``.
 
-    Addresses and parameters of the laws are overwritten in place, so ``model`` must not be used any more. The geometry
-    does not change.
+    No run may be in progress in this memory. Addresses and parameters of the laws are overwritten in place, so
+    ``model`` must not be used any more. The geometry does not change.
 
     Raises
     ------
@@ -347,7 +350,8 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers.tolist()}
     for numbers in kinds:
-        # the contacts `numbers` have equal laws and geometry now; take one of them for each kind that they had before
+        # the contacts `numbers` have equal laws and geometry now, but their former laws may differ: take one contact
+        # for each combination of former laws and geometry
         examples = {former_kind[number]: number for number in numbers.tolist()}.values()
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):
@@ -356,10 +360,11 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
                 _refuse(contacts[number], former[number])
         for declared, value in after.fields.items():
             memory.declared(declared)[numbers] = value
-        # the parameters of the geometry come first and stay, as they may refer to tables; those of the laws follow
+        # overwrite only the parameters of the laws. The parameters of the geometry come first in the block and do not
+        # change; they may hold references to tables, which must not be overwritten
         of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
         first = min(of_laws, default=len(after.block))
-        # the block of each contact begins with the parameters of the geometry
+        # start of the block of each contact: the offset of the first parameter of the geometry
         starts = memory.declared(owners.ContactRecord.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
@@ -392,7 +397,10 @@ def _check_same(one: System, other: System) -> None:
 
 
 def _refuse(after: Contact, before: Contact) -> None:
-    """Raise InvalidInput for a contact whose new laws need a block of another length, or other places in it."""
+    """Raise InvalidInput: the new laws of a contact need another layout of parameters than its former laws.
+
+    The system must then be assembled anew. ``before`` and ``after`` are the contact with the former and the new laws.
+    """
     laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
     raise InvalidInput(
         f"with_laws_of: the laws of the {after}",

@@ -16,14 +16,16 @@ _STEPS = 5000
 _FARTHEST = 1e6
 _ROUND_OFF = 1e-9
 _NEAR = 1e-7
-"""Largest gap of a contact at the place where its solids touch, relative to its size.
+"""Gap up to which a contact decides the place at which two bodies touch, relative to the size of the contact.
 
-It is not 0, because distances of round solids are inexact. Features with a larger gap do not face each other.
+The place found from the solids is corrected until this gap is 0. A larger gap shows that the contact's features do not
+face each other, so the place is not corrected. The number is not 0, because distances of round solids are inexact.
 """
 _GRAZING = 1e4
-"""Largest correction of the place where the bodies touch, along the line, relative to the error of the gap.
+"""Largest correction, along the line, of the place at which the bodies touch, relative to the error of the gap.
 
-The search ends there because in grazing motion the gap hardly changes along the line.
+If no correction up to this size brings the gap to 0, the place is not corrected. This occurs in grazing motion, in
+which the gap hardly changes along the line.
 """
 
 
@@ -31,8 +33,8 @@ class Line:
     """The line along which a body can move without being turned.
 
     If all shapes of a contact have solids, a :class:`Passage` finds the place at which the solids touch.  For other
-    contacts the gap is followed: it changes no faster than the body moves, so a step as long as the least gap cannot
-    pass the place at which it vanishes.
+    contacts the body moves forward by the least gap, again and again, until this gap is zero.  The body cannot pass
+    through another body, because a gap changes no faster than the body moves.
 
     Parameters
     ----------
@@ -67,9 +69,10 @@ class Line:
         self._by_gap = np.flatnonzero(probe.contacts.repeated(rows)).tolist()
 
     def met(self) -> Vector:
-        """Coordinates of the body where it first touches another body along the line, or is ``height`` apart from it.
+        """Coordinates q of the body at its first contact with another body along the line, shape [n_q].
 
-        A body that overlaps is moved back until it overlaps with nothing.
+        If the ``height`` of the line is positive, the body stops before the contact, at this gap [m].  A body that
+        overlaps another body at its start is moved back along the line until it overlaps no body.
 
         Raises
         ------
@@ -102,9 +105,9 @@ class Line:
         return self._probe.gaps() - self._height
 
     def _least_gap(self, distance: float) -> float:
-        """Least gap less ``height`` [m] of the contacts with a shape without solid, after a move by ``distance`` [m].
+        """Least value of gap - ``height`` [m] after a move by ``distance`` [m] along the line; 0 is the goal.
 
-        It is inf if all shapes have solids. ``height`` is the gap to be reached.
+        Only contacts that have a shape without a solid are taken into account; without such contacts it is inf.
         """
         return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
 
@@ -162,7 +165,10 @@ class Line:
         return distance
 
     def _motion(self) -> tuple[Vector, Vector]:
-        """Coordinate rates dq/dt of a motion at 1 m/s without turning, and its direction, the nearest to ``way``."""
+        """Coordinate rates dq/dt of a translation at 1 m/s, shape [n_q], and the unit vector of its direction.
+
+        It is the direction nearest to ``way`` in which the body can move.
+        """
         probe = self._probe
         probe.frame(0)
         u = np.linalg.lstsq(probe.jacobian(0), np.concatenate([self._asked, np.zeros(3)]), rcond=None)[0]

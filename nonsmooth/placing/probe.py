@@ -41,7 +41,7 @@ class Probe:
 
     @classmethod
     def of(cls, system: System, body: Body) -> Probe:
-        """Probe of a body of a system, at its start."""
+        """Return the probe of ``body``, with all bodies of the system at their starts."""
         number = next(i for i, other in enumerate(system.bodies) if other is body)
         return cls(lay_out(system.about(body), EventDriven()), body, number)
 
@@ -93,7 +93,11 @@ class Probe:
         return self._part("tail", 0, self.body.n_q).copy()
 
     def gaps(self) -> Vector:
-        """Gaps of the body's contacts [m], shape [n]; lower bounds for contacts not on the neighbour list."""
+        """Gaps of the body's n contacts [m], shape [n].
+
+        Contacts with distant bodies are not on the neighbour list, so their gaps are not evaluated: their entries are
+        lower bounds of the gaps.
+        """
         self.model.list_contacts()
         gaps = np.asarray(self.model.gaps())
         margin = float(self.model.memory[owners.Island.list_margin])

@@ -83,7 +83,8 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     _move(system, body, 0.0, direction, start)
     probe = Probe.of(system, body)
     gaps = probe.gaps()
-    # the body was moved until solids meet, where the gap of the touching contact need not be exactly zero
+    # the body was moved until solids meet, to a tolerance. So the gap of a touching contact need not be exactly zero:
+    # a contact touches if its gap equals the smallest gap (or 0, if this gap is negative) within round-off
     touched = gaps <= max(float(np.min(gaps)), 0.0) + _ROUND_OFF * max(row.size for row in probe.contacts.rows)
     contact = probe.contacts[int(np.argmin(gaps))]
     own, other = (0, 1) if contact.first is body else (1, 0)

@@ -1,4 +1,4 @@
-"""Arguments of pictures: axes, times and contacts, and the common parts of the drawings over time."""
+"""Checks the arguments of plots (axes, times, contacts), and draws the parts that all plots over time share."""
 
 from __future__ import annotations
 
@@ -127,9 +127,10 @@ def over_time(ax: Axes, solution: Solution) -> None:
 
 
 def beside(ax: Axes, title: str = "", handles: Sequence[Artist] | None = None) -> None:
-    """Put a legend to the right of the axes; within them if the figure has no layout engine, which makes room outside.
+    """Put a legend to the right of the axes, or within the axes if the figure has no layout engine.
 
-    ``handles`` are the artists that the legend lists; by default all artists with a label.
+    A layout engine reserves space for a legend outside of the axes. ``handles`` are the artists that the legend lists;
+    by default all artists with a label.
     """
     outside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
     place: dict[str, Any] = outside if ax.figure.get_layout_engine() is not None else {"loc": "best"}

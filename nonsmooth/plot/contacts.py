@@ -1,4 +1,4 @@
-"""Gaps, velocities, forces and impulses of contacts over time."""
+"""Plots of the gaps, velocities, forces and impulses of contacts over time."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _SEEN = 1e-6
-"""Least gap to which the axis extends, up and down, relative to the smallest shape, so that round-off is not seen."""
+"""Least extent of the gap axis above and below zero, relative to the smallest contact, so that round-off stays hidden.
+"""
 
 
 def gaps(

@@ -23,7 +23,7 @@ _LAYERS = (
 )
 """Layers of the stack, the lowest first: variable, label, colour and hatch."""
 _SEEN = 1e-3
-"""Least peak of a layer that the legend names, relative to the largest sum; smaller layers cannot be seen."""
+"""A layer appears in the legend if its peak exceeds this fraction of the largest sum; smaller layers are invisible."""
 
 
 def energies(solution: Solution, ax: Axes | None = None, *, times: ArrayLike | None = None) -> Axes:

@@ -1,4 +1,4 @@
-"""Classes by name, from an installed plug-in or from a single Python file."""
+"""Loads a class by its name, from an installed plug-in or from a single Python file."""
 
 from __future__ import annotations
 

@@ -105,14 +105,15 @@ class ContactResult:
     def forces_are_unique(self) -> bool:
         """Whether only these forces give this motion, because :attr:`null_space` is empty.
 
-        True is a proof.  False means that the null space has directions.  If a force is at its bound, a change along a
-        direction may be possible with one sign only, or, rarely, not at all.
+        True is a proof.  If it is False, other forces usually give the same motion.  In rare cases the forces are
+        unique all the same: a force at its bound can change with one sign only, and such bounds may exclude every
+        direction of the null space.
         """
         return len(self.null_space) == 0
 
     @cached_property
     def proved_unique(self) -> bool:
-        r"""Whether a criterion proves that the motion is unique, and with a regular G the forces too.
+        r"""True if a criterion proves that the motion is unique.  If G is regular, the forces are then unique, too.
 
         For two solutions, f and f' with accelerations a and a', Eqs. (16) and (17) with mu_s = mu give
 
@@ -141,14 +142,16 @@ class ContactResult:
 
     @cached_property
     def motion_is_unique(self) -> bool | None:
-        """Whether no other motion fulfils the laws; None for more than six contacts without a proof.
+        """True if only this motion fulfils the laws, False if another motion does, None if this is not known.
 
-        True if :attr:`proved_unique`.  Also True if, for at most six contacts, a search through all combinations of
-        modes and all solvers find this motion only.  The search is complete if the directions of all slips are given.
-        It finds directions in which contacts at rest start to slide from several initial guesses, which is no proof.
+        1. The result is True if :attr:`proved_unique` is True.
+        2. Otherwise, for more than six contacts, the result is None.
+        3. Otherwise all combinations of modes are searched and all solvers are run.  The result is False if they find
+           another motion, else True.
 
-        False if another motion was found.  Sliding in which more normal force gives more approach does not count as a
-        motion, because it is unstable.
+        The search of step 3 is complete if the directions of all slips are given.  It may miss a motion in which a
+        contact at rest starts to slide, because it finds the direction from several initial guesses.  It omits unstable
+        motions, in which more normal force at a sliding contact causes more approach.
         """
         if self.proved_unique:
             return True

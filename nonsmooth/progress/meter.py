@@ -1,4 +1,7 @@
-"""Meters of progress in runs, time or a range: they decide when a display shows it, and estimate the remaining time."""
+"""Progress meters that count runs, the time that a run has reached, or orbits over a range of a parameter.
+
+A meter decides when the display is refreshed, and estimates the remaining time.
+"""
 
 from __future__ import annotations
 
@@ -130,7 +133,7 @@ class RangeCovered:
         self._show(value)
 
     def add(self, value: float) -> None:
-        """Count the orbit at a value."""
+        """Count one more orbit; ``value`` is the value of the parameter for which the orbit was computed."""
         self._count += 1
         self._least, self._most = min(self._least, value), max(self._most, value)
         self._show(value)

@@ -61,7 +61,8 @@ class BodyPair:
             bounded = [pair for pair in numbered if math.isfinite(min(pair[3].extent, pair[4].extent))]
             numbered = bounded or numbered[:1]
         self._numbered = numbered
-        # a single pair is prepared here, so that unsupported shapes raise at once; of several, each when it is near
+        # a single pair of shapes is prepared here, so that unsupported shapes raise an error at once. If there are
+        # several pairs, each pair is prepared when a query first finds its shapes near each other
         self._pairs: dict[tuple[int, int], ShapePair] = {}
         if len(self._numbered) == 1:
             self._pair(*self._numbered[0][0], *self._numbered[0][3:])

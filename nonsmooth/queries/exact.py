@@ -1,4 +1,4 @@
-"""Least gap of two shapes by their contact kinematics, called from Python."""
+"""Compute the least gap of two shapes: call the compiled kinematics of all their contacts, and take the least gap."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from nonsmooth.queries.result import EXACT, DistanceResult
 from nonsmooth.system.pairing import installed_pair
 
 _HALVINGS = 40
-"""Largest number of halvings of the search distance.  It is halved while a search for features finds more pairs than
-the kinematics has contacts."""
+"""Largest number of halvings of the distance within which near features are searched for.  The distance is halved as
+long as the search finds more pairs of features than the kinematics has contacts."""
 
 
 class _Given:
@@ -29,7 +29,10 @@ class _Given:
         self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Geometry block of each contact, and infinity: the features are given, so every gap is known."""
+        """Yield the geometry block of each contact, and the distance up to which all gaps are known [m].
+
+        This distance is infinite, because every pair of features has its own contact.
+        """
         for call in self._calls:
             out = np.zeros(GEOMETRY)
             call(a, b, out)
@@ -47,9 +50,9 @@ class _Searched:
         self._most = len(contacts)
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
-        """Geometry block of each pair of features within ``reach`` [m], and this distance.
+        """Yield the geometry block of each pair of near features, and the distance up to which all gaps are known [m].
 
-        The distance is halved until the number of pairs is at most the number of contacts.
+        This distance is ``reach``.  It is halved until the number of pairs within it is at most the number of contacts.
         """
         found, n = np.zeros(1 + CANDIDATE * (self._most + 1)), 0
         for _ in range(_HALVINGS):
@@ -99,7 +102,7 @@ class Contacts:
     def least(self, one: Place, two: Place) -> DistanceResult | None:
         """Least gap of the features that face each other, None if no features do.
 
-        The lower and the upper bound are set to the gap: kinematics proves no bounds.
+        The bounds ``lower`` and ``upper`` of the result equal the gap, because kinematics gives no bounds of its error.
         """
         a, b = np.zeros(FRAME), np.zeros(FRAME)
         for block, (position, axes) in zip((a, b), (one, two) if self._in_order else (two, one), strict=True):

@@ -75,14 +75,14 @@ def touching(size: Any) -> Any:
 @final
 @dataclass(frozen=True)
 class Ties:
-    """Pairs of bodies that a system declares, joins or excludes.
+    """Pairs of bodies with declared contacts, pairs that joints connect, and pairs excluded from contact.
 
     Attributes
     ----------
     declared, joined, excluded : Pairs
-        Pairs with contacts, with a joint, and pairs that the user excluded.
+        Pairs with declared contacts, with a joint between them, and pairs that the user excluded from contact.
     mechanisms : tuple of frozenset of int
-        Groups of bodies that joints tie together, directly or through others; a driven body may be in several groups.
+        Groups of bodies that joints connect, directly or through others; a driven body may be in several groups.
     """
 
     declared: Pairs
@@ -92,7 +92,7 @@ class Ties:
 
     @classmethod
     def of(cls, system: System) -> Ties:
-        """Declared, joined and excluded pairs of a system."""
+        """Collect these pairs of bodies, and the groups that joints connect, from a system."""
         number = {id(body): i for i, body in enumerate(system.bodies)}
 
         def pairs(bodies: Iterable[tuple[Body, Body]]) -> Pairs:
@@ -108,7 +108,7 @@ class Ties:
         )
 
     def same_mechanism(self, i: int, j: int) -> bool:
-        """True if joints tie two bodies together, directly or through others."""
+        """True if joints connect two bodies, directly or through others."""
         return any(i in group and j in group for group in self.mechanisms)
 
 
@@ -116,7 +116,7 @@ def _mechanisms(system: System, joined: Pairs) -> tuple[frozenset[int], ...]:
     groups: list[set[int]] = []
     for pair in joined:
         movable = {i for i in pair if system.bodies[i].n_u > 0}
-        # a driven body, such as the ground, ties no bodies to each other
+        # a driven body, such as the ground, does not connect the bodies that are joined to it
         met = [group for group in groups if group & movable]
         groups = [group for group in groups if not group & movable]
         groups.append(set().union(pair, *met))

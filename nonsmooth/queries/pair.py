@@ -43,9 +43,9 @@ class LibraryPair:
             return None
 
     def result(self, told: Separation) -> DistanceResult:
-        """Distance of two shapes that do not overlap.
+        """Distance of two shapes with its bounds, nearest points and normal, as a result for the user.
 
-        ``told`` is the library's answer: distance [m], its error [m], nearest points and normal.
+        ``told`` is the separation that the library computed for the shapes; they must not overlap.
         """
         gap, error = told.distance, told.error
         return DistanceResult(gap, gap - error, gap + error, told.first, told.second, told.normal, self.name)
@@ -93,7 +93,7 @@ def named_pair(name: str, first: Shape, second: Shape) -> LibraryPair:
 
 
 def library_names() -> tuple[str, ...]:
-    """Names of all libraries, in the order in which they are tried."""
+    """Names of the geometry libraries that can compute distances, in the order in which they are tried for a pair."""
     return tuple(_backends())
 
 
@@ -102,8 +102,9 @@ _ROUND_OFF, _LEAST = 1e-9, 1e-12
 [m]; the sum of both is allowed."""
 
 _MOST_PIECES = 2000
-"""Largest number of pieces of a surface for which the contacts of a pair are prepared.  Preparation takes about a
-second at this number, and many minutes for 100 000 pieces."""
+"""Largest number of pieces of a surface whose distance is computed by contacts, unless the user chooses "exact".  To
+prepare the contacts takes about a second for 2000 pieces, and many minutes for 100 000.  For more pieces, the distance
+is computed by a library or by planes."""
 
 
 @final
@@ -124,7 +125,8 @@ class ShapePair:
     Raises
     ------
     InvalidInput
-        If ``by`` names no method, or no method, or not this one, supports the shapes.
+        If ``by`` is the name of no method, or if the method ``by`` does not support the shapes.  Without ``by``: if no
+        method supports them.
     MissingPackagesError
         If the library is not installed.
     """
@@ -194,14 +196,16 @@ class ShapePair:
     def _of_surfaces(self, found: DistanceResult | None, one: Place, two: Place) -> DistanceResult:
         """Distance of surfaces that are not convex.
 
-        It is the gap by contacts if this gap is within the bounds of the library or, without these bounds, of the
-        planes.  Otherwise it is the distance by the library or the planes.
+        The gap by contacts is checked by the bounds that the library gives.  If the library gives no bounds, or wrong
+        ones, the bounds by planes are used.  The gap by contacts is returned if it is within the bounds.  Otherwise the
+        distance by the method that gave the bounds is returned.
         """
         told = None if self._library is None else self._library.separation(one, two)
         if told is not None and not told.overlap:
             assert self._library is not None
             bound = self._library.result(told)
-            # contact points lie on the shapes: a gap below the lower bound of the library proves this bound wrong
+            # contact points are points of the two shapes, so the distance of the shapes is at most the gap by contacts.
+            # If this gap is below the lower bound of the library, the bound is wrong, and planes are used instead
             if found is None or found.gap >= bound.lower:
                 return self._within(found, bound)
         return self._within(found, self._by_planes(*self._placed(one, two)))
@@ -213,8 +217,8 @@ class ShapePair:
         """
         if found is None:
             return bound
-        # allow for round-off, since lower and upper bound may be equal, and for shapes whose contacts use a surface
-        # that is set back from the boundary of the solid (``set_back``)
+        # margin for round-off, since the two bounds may be equal, and for solids whose contacts use a surface that is
+        # inside of the solid's boundary, by the distance `set_back`
         slack = _ROUND_OFF * abs(bound.gap) + _LEAST
         slack += sum(solid.set_back for solid in self._solids if solid is not None)
         if not bound.lower - slack <= found.gap <= bound.upper + slack:

@@ -63,9 +63,10 @@ class BodyFrames:
         self._out = np.zeros(self._n * self._width + body.n_q + body.n_u + body.n_u**2 + 2)
 
     def motion(self, t: float, q: Vector, u: Vector) -> Vector:
-        """Motion of all frames at a time [s], for coordinates and velocities, shape [n_frames, FRAME].
+        """Motion of all frames at time ``t`` [s], for coordinates ``q`` and velocities ``u``; shape [n_frames, FRAME].
 
-        The order of the numbers is that of :mod:`nonsmooth.engine.memory.blocks`.
+        A row has position, rotation matrix, velocity, angular velocity, acceleration and angular acceleration while
+        u' = 0, with the offsets and units of :mod:`nonsmooth.engine.memory.blocks`.
         """
         self._out[:] = 0.0
         # the compiled function takes the addresses of the arrays: a zero is appended because the empty array of a
@@ -74,5 +75,5 @@ class BodyFrames:
         return self._out[: self._n * self._width].reshape(self._n, self._width)[:, :FRAME].copy()
 
     def at(self, t: float, q: Vector, u: Vector) -> list[Place]:
-        """Places of all frames at a time [s], for coordinates and velocities."""
+        """Places (origin [m] and axes) of all frames at time ``t`` [s], for coordinates ``q`` and velocities ``u``."""
         return [(frame[:3], frame[3:12].reshape(3, 3)) for frame in self.motion(t, q, u)]

@@ -1,4 +1,4 @@
-"""Distance of two solids, or depth of their overlap, with bounds that planes prove."""
+"""Distance of two solids, or depth of their overlap, with lower and upper bounds from planes that separate them."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ _CLOSE, _ROUND_OFF = 1e-13, 1e-14
 """Allowed error of nearest points, and largest overlap that is treated as touching; both relative to the size
 of the two solids."""
 _SAME = 1e-9
-"""Largest difference between the gap computed by contacts and the gap between two planes along its normal, and largest
-error of its nearest points; relative to the size of the two solids."""
+"""Tolerance, relative to the size of the two solids, within which the result of a contact is accepted.  It limits the
+difference of the contact's gap from the gap between two planes normal to the contact's normal.  It also limits the
+difference between the vector that joins the contact's nearest points and the gap times the normal."""
 _MOST_PAIRS = 4_000_000
 
 
@@ -32,7 +33,9 @@ def whole(solid: Placed) -> Piece:
 
 
 def by_planes(one: Placed, two: Placed) -> DistanceResult:
-    """Distance of two solids, or minus the depth of their overlap, with nearest points and bounds by planes.
+    """Distance of two solids, or minus the depth of their overlap [m], with nearest points and bounds.
+
+    The lower and the upper bound of the distance or depth come from planes that separate or touch the solids.
 
     Raises
     ------
@@ -66,10 +69,11 @@ def deep(one: Placed, two: Placed) -> DistanceResult | None:
 
 
 def proved(found: DistanceResult, one: Placed, two: Placed) -> DistanceResult | None:
-    """Add bounds to ``found``, the distance of two convex solids by contacts; None if planes contradict it.
+    """Add bounds to ``found``, the distance of two convex solids by contacts; None if ``found`` fails a check.
 
-    If the solids are apart, two planes across the normal have the gap between them.  If the solids overlap, a
-    translation along the normal by the depth separates them, and the search for the depth finds no shorter one.
+    The first check: the two planes that touch the solids and are normal to the contact's normal must be the gap apart.
+    If the solids overlap, a second check follows: the search for the depth must find no translation that separates the
+    solids and is shorter than the depth by contacts.
     """
     tolerance = _SAME * _size(one, two) + one.solid.set_back + two.solid.set_back
     n, gap = found.normal, found.gap
@@ -118,7 +122,11 @@ def _overlapping(out: Penetration) -> DistanceResult:
 
 
 def _of_pieces(one: Placed, two: Placed) -> DistanceResult:
-    """Distance of two solids that do not overlap: the least distance of their pieces, pieces with near boxes first."""
+    """Distance of two solids that do not overlap: the least distance of their convex pieces.
+
+    The pairs of pieces are evaluated in the order of the distances of their bounding boxes, until no other pair can be
+    nearer.
+    """
     way = _middle(two) - _middle(one)
     reach = float(np.linalg.norm(two.support(-way) - one.support(way))) if np.any(way) else _size(one, two)
     (low, high), (below, above) = one.bounds, two.bounds

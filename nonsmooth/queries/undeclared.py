@@ -25,8 +25,8 @@ Places = Sequence[Sequence[Place]]
 _NAMED = 3
 """Largest number of pairs that a warning names; it gives only the number of further pairs."""
 _MOVED = 0.25
-"""Motion between two checked samples, relative to the smallest body: bodies that pass through each other move farther
-while they overlap."""
+"""A sample is checked for overlaps if a body has moved by this part of the smallest body's size since the last check.
+Bodies that pass through each other move farther than this while they overlap, so a check finds them."""
 
 
 class UndeclaredOverlap(NonsmoothWarning):
@@ -64,7 +64,7 @@ class Undeclared:
 
     @functools.cached_property
     def any(self) -> bool:
-        """True if the system has a pair of bodies without declared contact that may meet, at any distance."""
+        """True if two bodies of the system could meet and have no declared contact, however far apart they are."""
         if not self.system.declarations:
             return False
         shaped = [i for i, body in enumerate(self.system.bodies) if any(body.frames)]
@@ -76,9 +76,9 @@ class Undeclared:
         return moves and not said and not self.ties.same_mechanism(i, j)
 
     def warn_of_lone(self) -> None:
-        """Warn of movable bodies without any contact that could meet another body.
+        """Warn of movable bodies that have no declared contact but could meet another body.
 
-        Bodies with a joint or a load are left out, because it may hold them.
+        The warning leaves out bodies with a joint or a load, because the joint or load may keep them from other bodies.
         """
         bodies, names = self.system.bodies, self.system.names.bodies
         tied = ((tie.first, tie.second) for tie in (*self.system.joints, *self.system.loads))
@@ -114,7 +114,7 @@ class Undeclared:
 
     @property
     def least_move(self) -> float:
-        """Motion between two samples that are checked for overlaps [m]: a part of the smallest body."""
+        """Motion of a body [m] after which a sample is checked for overlaps: a quarter of the smallest body's size."""
         return _MOVED * min(map(size_of, self.system.bodies))
 
     def warn_of_run(self, before: Places, samples: Iterable[tuple[float, Places]]) -> None:
@@ -167,7 +167,10 @@ class Undeclared:
 
 
 def _overlap(one: Body, places: Sequence[Place], two: Body, others: Sequence[Place]) -> float:
-    """Lower bound of the overlap of solids of two bodies [m], 0 if they may touch."""
+    """Lower bound of the depth to which solids of two bodies overlap [m]; 0 if they are apart or merely touch.
+
+    An overlap within the tolerance is treated as touching.
+    """
     for a, b in itertools.product(_solids(one, places), _solids(two, others)):
         (low, high), (below, above) = a[0].bounds, b[0].bounds
         if np.any(low > above) or np.any(below > high):

@@ -1,4 +1,4 @@
-"""Description of a run in its folder: attributes, the engine, the system as a text, and the file of a state.
+"""Writes and reads the description of a run in its folder: attributes, engine, system as text, and files of states.
 
 A state is an npz file with arrays of numbers. Reading it executes no code of the file.
 """

@@ -62,7 +62,10 @@ class Unavailable(Engine):
 
 
 _NONE: dict[str, Any] = {"limits": {}}
-"""Counters of an unfinished run that are mappings: there is no count of what limited the steps. All numbers are 0."""
+"""Default values of those :class:`Counters` that are not numbers, for an unfinished run; all other defaults are 0.
+
+``limits``, the number of steps by the reason that limited their length, is empty.
+"""
 
 
 def open_solution(
@@ -140,7 +143,10 @@ def stored_setup(output: Output, folder: SolutionFolder, trust: bool) -> Setup:
 
 
 def _engine_or_its_name(output: Output, folder: SolutionFolder, trust: bool) -> Engine:
-    """Engine that ran, or its placeholder if the folder names a class in Python."""
+    """Engine that ran. If the folder names a class of Python code that is not installed, the result is a placeholder.
+
+    The placeholder (:class:`Unavailable`) loads no code and cannot continue the run.
+    """
     table = folder.said("engine")
     recorded = bool(folder.attributes.get("records_contacts", 0))
     return Unavailable(table, recorded) if named_elsewhere(table) else stored_engine(output, folder, trust)

@@ -1,4 +1,4 @@
-"""Output of a run: the folder of its results, and their origin."""
+"""Output of a run: the folder for its results, and the versions of software and the machine that made the results."""
 
 from __future__ import annotations
 
@@ -70,7 +70,10 @@ class OtherVersions(NonsmoothWarning):
 
 @functools.cache
 def versions() -> Mapping[str, str]:
-    """Versions of the software, and the kind of machine. With others, the last bits of a run may differ."""
+    """Versions of nonsmooth and its packages, and the platform, by name.
+
+    With other versions or on another platform, the last bits of a run may differ.
+    """
     found = {
         "nonsmooth": version("nonsmooth"),
         "python": platform.python_version(),

@@ -15,7 +15,7 @@ from nonsmooth.storage.lock import WRITER
 
 
 def arrays_of_run(path: Path) -> ArrayFolder:
-    """Open the arrays of a run; errors as :meth:`nonsmooth.storage.array_folder.ArrayFolder.opened`."""
+    """Open the arrays of a run. Raises the errors of :meth:`nonsmooth.storage.array_folder.ArrayFolder.opened`."""
     return ArrayFolder.opened(path, "must be a folder of results", "Name a folder that `run` wrote.")
 
 

@@ -59,12 +59,12 @@ _LAST = f"{WRITER}/state-end.npz"
 _OWN = "scenario_coordinates"
 """Attribute with the names of the arrays that the scenario adds."""
 _LENGTHS = {"time": "time", "event": "event_time", "listing": "listed_contact"}
-"""Growing dimension -> name of the array that has its length."""
+"""Dimension that grows during a run -> name of an array whose length is the length of this dimension."""
 
 
 @contextlib.contextmanager
 def naming_damage(thing: str) -> Iterator[None]:
-    """Turn the errors of readers of damaged content into InvalidInput, which names the ``thing``.
+    """Context in which an error caused by damaged content becomes InvalidInput, whose message names ``thing``.
 
     Raises
     ------
@@ -142,7 +142,7 @@ class SolutionFolder:
 
     @classmethod
     def opened(cls, output: Output, lock: BaseFileLock | None = None) -> SolutionFolder:
-        """Open the folder of a run.
+        """Open the folder of a run. ``lock`` is the lock that the caller holds to write to it, None to read only.
 
         Raises
         ------
@@ -332,9 +332,10 @@ class SolutionFolder:
         self.begin(events, rows, state, wall)
 
     def begin(self, events: Events, rows: Floats, state: State, wall: float) -> None:
-        """Write the state from which a run begins or resumes, with the arguments of :meth:`append`.
+        """Write the state from which a run begins or resumes. The arguments are those of :meth:`append`.
 
-        A run that begins does not wait for the disk, so a run that is shorter than the commit interval never waits.
+        For a new run the files are not synced to the disk: only later commits (:meth:`append`) wait for the disk. So a
+        run that is shorter than the commit interval never waits.
 
         Raises
         ------

@@ -55,7 +55,8 @@ _FAILED_CHECKS = {
         "{allowed:.3g}. The rates that {evaluator} gives do not keep its length. "
     ),
 }
-"""Message for each failed check, by the status of the engine: contact or body, value found and value allowed."""
+"""Message for each failed check, by the status of the engine. It names contact or body, value found and value allowed.
+"""
 _CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report an error of nonsmooth."
 """Remedy for a contact or body whose evaluator returns numbers that contradict each other.
 
@@ -128,8 +129,8 @@ def _failed_check(model: LaidOut, status: Status) -> str:
 def _other_closed(model: LaidOut, contact: Contact) -> str:
     """Names of the other closed contacts that share a free body with ``contact``; "" if there are none.
 
-    Of several contacts between the same two bodies only the first is named. Contacts between the two bodies of
-    ``contact`` are not named.
+    Contacts between the same two bodies as ``contact`` are omitted. For every other pair of bodies only the first
+    contact is named.
     """
     modes = model.memory[owners.ContactRecord.mode][: len(model.active)]
     # only free bodies count: contacts cannot change the pose of a driven body, which has no velocities (n_u = 0)

@@ -36,7 +36,9 @@ from nonsmooth.system.system import System
 
 
 class FixedPlaces(NamedTuple):
-    """Positions, in the checkpoints of a model, of the numbers from which a final state is made; equal for all runs.
+    """Indices, in the checkpoints of a model, of the numbers from which a final state is made.
+
+    The indices are the same for all runs of the model.
 
     Attributes
     ----------
@@ -79,7 +81,8 @@ class FinalState(NamedTuple):
     blank : Checkpoint
         Content of the memory before any run.
     resumable : Checkpoint
-        The last content that does not depend on the end time.
+        Content from which a continued run starts. It was copied before any step that is shortened to reach the end
+        time.
     now : Checkpoint
         Content at the end of the run.
     n_known_events : int

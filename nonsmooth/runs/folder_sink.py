@@ -22,12 +22,14 @@ _STEPS_PER_CALL = 2000
 
 
 class OutputSink:
-    """Takes the results of a run at its checkpoints, from which another process can continue the run.
+    """Base class of outputs, which receive the results of a run at its checkpoints.
 
-    This class writes nothing: it serves a run whose results stay in memory. The order of calls:
+    This class ignores the results: it serves a run whose results stay in memory. A derived class writes the results to
+    a folder, from which another process can continue the run. The order of calls:
 
     1. ``begin`` with the checkpoint at the start of the run.
-    2. ``write`` with each checkpoint, while the memory holds it. ``write`` may drain the records.
+    2. ``write`` with each checkpoint, while the memory of the engine still has its content. ``write`` may copy the
+       engine's buffers of events and samples and empty them.
     3. ``finish`` with the solution of the whole run.
     4. ``close`` at the end, also if the run or a call failed.
     """
@@ -80,7 +82,7 @@ _FIRST_STEPS = 64
 _MOST_STEPS = 2000
 """Largest number of steps of the engine per call. A larger number saves no time."""
 _LARGEST_SIZE = 1 << 25
-"""Size of records in memory [bytes] above which the unwritten records are written, and the written ones dropped."""
+"""Largest size of records in memory [bytes]: above it, they are written to the folder and then removed from memory."""
 
 
 @final

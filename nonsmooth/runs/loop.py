@@ -28,9 +28,16 @@ from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.storage.files import FileError
 
 _CHECKPOINT_CALL = 16
-"""Time of the Python calls for a checkpoint of a small model, relative to the shortest time of a step, 1 us."""
+"""Cost of the Python calls of a checkpoint, as a number of steps of 1 us, the shortest time of a step.
+
+Near the end time a run takes so many steps without a new checkpoint. A continued run repeats them, which takes about as
+long as a checkpoint.
+"""
 _COPIED = 1 << 13
-"""Size of the part of a checkpoint that can be copied in 1 us, the shortest time of a step [bytes]."""
+"""Bytes of a checkpoint that are copied in 1 us, the shortest time of a step.
+
+The size of a checkpoint divided by this number is the cost of its copy, as a number of steps.
+"""
 Progress = Callable[[float, float], None]
 
 
@@ -62,7 +69,7 @@ class LoopEnd(NamedTuple):
     is_interrupted : bool
         True if the user interrupted the run.
     checkpoint : Checkpoint
-        The last content of the memory that does not depend on the end time. A continued run starts there.
+        Memory from which a continued run starts. It was copied before any step that is shortened to reach the end time.
     n_known_events : int
         Number of events after the checkpoint, which are recorded already.
     hint : str

@@ -55,7 +55,10 @@ from nonsmooth.storage.files import FileError
 from nonsmooth.system.system import System
 
 _LARGEST_UNREAD = 1 << 20
-"""Largest size of the checkpoints that a solution may hold [bytes], because a study holds many solutions at once."""
+"""Largest size of the two checkpoints that a solution keeps, from which its end is evaluated at the first use [bytes].
+
+If they are larger, the end is evaluated at once and they are freed, because a study holds many solutions at once.
+"""
 
 
 @final
@@ -410,8 +413,8 @@ class Model:
         energy = self._put_start(state)
         write_request(laid.memory, request)
         write_first_sample(laid.memory, request)
-        # with many contacts a checkpoint takes milliseconds, so the checkpoint of the default start is taken once; only
-        # a folder needs the time of the first sample in it
+        # with many contacts a checkpoint takes milliseconds, so all runs from the default start use the checkpoint that
+        # was taken once. It lacks the time of the first sample, so a run with a folder needs a checkpoint of its own
         is_known = state is self._start and output is None
         start = self._start_checkpoint if is_known else Checkpoint.of(laid.memory)
         sink = OutputSink()
@@ -427,7 +430,11 @@ class Model:
         return solution
 
     def _places_at_samples(self, rows: Floats) -> Iterator[tuple[float, list[list[Place]]]]:
-        """Time [s] and places of the frames at samples between which undeclared pairs move by a part of their size."""
+        """Yield the time [s] of chosen samples and the places of all frames then, to search for overlaps.
+
+        A sample is chosen if a coordinate has changed, since the last chosen sample, by more than a fraction of the
+        smallest body's size.
+        """
         laid = self._laid
         for t in states_at_samples(laid, rows, self._pairs_without_contact.least_move):
             laid.evaluate()
@@ -436,8 +443,8 @@ class Model:
     def _put_start(self, state: State) -> tuple[float, float]:
         """Put a state into the memory. Return kinetic and potential energy [J] at the start of the energy account.
 
-        The energy account of a run that continues another one begins at the start of that run. The engine records
-        no start event in such a run, so it is added here.
+        If a run continues an earlier run, its energy account begins at the start of the earlier run. The engine records
+        no start event in such a run, so this method adds the start event.
         """
         laid = self._laid
         if state is self._start:
@@ -471,7 +478,7 @@ class Model:
             if found.status == RunStatus.DONE and (overlap := interpenetration(laid, recorded.rows)):
                 found = RunOutcome(RunStatus.FAILED, overlap)
             unread = UnreadEnd(final, found, ending.status, wall, recorded)
-            # an UnreadEnd keeps two checkpoints of the memory; if they are large, read the end from it now
+            # an UnreadEnd keeps two checkpoints of the memory; if they are large, evaluate the end now to free them
             is_large = 2 * self._blank.size > _LARGEST_UNREAD
             solution = Solution(laid.system, recorded, unread.read() if is_large else unread)
             has_failed = found.status == RunStatus.FAILED

@@ -28,20 +28,21 @@ _NEGLIGIBLE = 0.1
 Without this omission the span could be long, although most of the change occurs in a short time.
 """
 _MODE_AFTER_FALLBACK = 4
-"""Column of ``Events.listed_memory`` with the mode of a contact after the time-stepping fallback.
+"""Column of ``Events.listed_memory`` with the mode that a contact gets at the end of the time-stepping fallback.
 
-For a contact without fallback this mode is open.
+The column has the mode "open" for a contact that is not in the fallback.
 """
 _N_NAMED = 4
 """Largest number of bodies that the message names."""
 
 
 def imbalance_span(solution: Solution) -> str:
-    """Sentence with the span of time in which most of the imbalance arose, and the bodies in contact, or "".
+    """Sentence with the span of time in which most of the energy imbalance arose, and the bodies in contact then.
 
     The imbalance [J] is the change of energy that no work and no loss explains, a function of time. Most of it arises
-    between its least and its greatest value. The bodies are those of contacts of the time-stepping fallback in that
-    span, because it solves for mean forces only. Without such contacts they are those of all contacts of the events.
+    between its least and its greatest value. If contacts are in the time-stepping fallback in this span, only their
+    bodies are named: the fallback computes only mean forces, so it is the likely cause. Otherwise the bodies of all
+    contacts of the events are named. The sentence is "" if the imbalance is constant or cannot be computed.
     """
     events = solution.events
     times = np.unique(np.concatenate([solution.t, events.time, [solution.t_end]]))
@@ -70,13 +71,12 @@ def imbalance_span(solution: Solution) -> str:
 def _span(imbalance: Floats) -> tuple[int, int]:
     """First and last index of the span between the least and the largest value of an imbalance [J].
 
-    Both ends move inward as long as the value there is within a tenth of the whole change.
+    The span is then shortened. It begins at the last index whose imbalance is near the value at the first end, and ends
+    at the first index whose imbalance is near the value at the last end. Near means within a tenth of the whole change.
     """
     first, last = sorted((int(np.argmin(imbalance)), int(np.argmax(imbalance))))
     if first == last:
         return first, last
-    # shorten the span: begin at the last index whose value is near the first value, and end at the first index whose
-    # value is near the last value
     within, negligible = imbalance[first : last + 1], _NEGLIGIBLE * float(np.ptp(imbalance))
     last = first + int(np.argmax(np.abs(within - within[-1]) <= negligible))
     first += int(np.flatnonzero(np.abs(within - within[0]) <= negligible)[-1])

@@ -26,7 +26,7 @@ from nonsmooth.solution.recorded import Recorded, row_of
 from nonsmooth.solution.state import Floats, Integers, State
 
 StoredRecords: TypeAlias = tuple[Events, Callable[[], Floats]]
-"""Events of an output folder, and a function that reads the samples there."""
+"""Records in an output folder: its events, and a function that reads its samples."""
 _START_PART, _END_PART = -1, -2
 """Keys of the parts before the first call and after the last one. The others have the number of their call."""
 _ROUND_OFF = 1e-9
@@ -35,7 +35,7 @@ _ACCOUNTED = places("totals.driven_work", "totals.restitution_loss", "totals.fri
 _ALWAYS = 1 << BEFORE | 1 << DURING | 1 << AFTER
 """Factor that turns the code of a mode into that of a contact with this mode before, during and after an event."""
 _STICK_CODE, _SLIDE_CODE = 1, 5
-"""Sums of the bits (closed 1, slipping 4; Eq. (29) of the paper) of a sticking and of a sliding contact."""
+"""Mode codes of a sticking contact (closed: 1) and of a sliding contact (closed and slipping: 1 + 4), Eq. (29)."""
 _FILLED = places(
     "output.n_events", "output.n_samples", "output.floats_used", "output.integers_used", "output.last_floats"
 ).tolist()
@@ -75,10 +75,11 @@ class Records:
 
     @property
     def n_events(self) -> int:
-        """Number of events so far, with events of an earlier process, without events that a continued run repeats.
+        """Number of distinct events so far, those of earlier processes included.
 
-        While a continued run repeats events, the count is less by the events yet to repeat, and may be negative.
-        So the difference of two counts is the number of events between two contents of the memory.
+        A continued run first repeats some recorded events. Until then the events still to be repeated are subtracted,
+        so the number may be negative. The difference of two numbers is therefore always the number of events between
+        two checkpoints.
         """
         _, integers = self.model.memory.cells
         stored = 0 if self.stored is None else len(self.stored[0])
@@ -118,9 +119,9 @@ class Records:
         The engine records no event there, because the run has started before.
         """
         # floats of an event: time, four energies, q, u before and after, the rest of the integrated state, totals of
-        # energies, and then numbers of the closed contacts. Impulses are 0. FACING is the side, 1 or -1, from which
-        # anisotropic friction is opposed, and AVERAGED the mode after the time-stepping fallback. A state has no values
-        # of them: here they are 1 and open
+        # energies, and then numbers of the closed contacts. Impulses are 0. A state lacks two of these numbers. FACING,
+        # the side (1 or -1) from which anisotropic friction is opposed, is set to 1. AVERAGED, the mode after the
+        # time-stepping fallback, is left at 0, which is "open"
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
@@ -222,7 +223,7 @@ class Records:
         return sum(array.nbytes for part in parts for array in part)
 
     def release(self, stored: StoredRecords) -> None:
-        """Drop the parts that were taken for writing; ``stored`` reads all events and samples written until now."""
+        """Free the records in memory that were written to disk; ``stored`` gives access to all written records."""
         before = 0 if self.stored is None else len(self.stored[0])
         for call in list(self._parts)[: self._n_taken]:
             del self._parts[call]

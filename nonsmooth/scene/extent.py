@@ -12,7 +12,7 @@ from nonsmooth.histories.arrays import Floats
 from nonsmooth.scene.scene import FrameLook, Scene
 
 _ROUND = 1.0
-"""Margin of a sheet around the moving bodies, relative to their size: with it, the bodies are seen to be on the sheet.
+"""A sheet extends beyond the moving bodies by this margin, relative to their size, so that they visibly are on it.
 
 A sheet is the drawn part of an unbounded plane.
 """
@@ -27,7 +27,9 @@ the box of all visible parts.
 @final
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """Box of all visible parts over a run. Of an unbounded plane (sheet) it has only the point nearest to its middle.
+    """Bounding box of all visible parts over a run.
+
+    Of an unbounded plane the box contains only the point that is nearest to the middle of the other parts.
 
     Attributes
     ----------
@@ -76,17 +78,17 @@ class Extent:
 
 
 def nearest(part: FrameLook, origin: Floats, axes: Floats, place: Floats) -> Floats:
-    """Point of a sheet nearest to a place at each time [m], shape [n, 3]."""
+    """Point of the unbounded plane ``part`` that is nearest to the point ``place``, at each time [m], shape [n, 3]."""
     normal = axes[:, part.frame, :, 2]
     height = np.einsum("ij,ij->i", place - origin[:, part.frame], normal) - part.look.vertices[0, 2]
     return np.asarray(place - height[:, None] * normal)
 
 
 def outlines(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> list[Floats]:
-    """Corners of the drawn part of each sheet, in order, in the axes of its frame [m], shape [n, 2].
+    """Corners of the drawn part of each unbounded plane (sheet), in order, in the axes of its frame [m], shape [n, 2].
 
-    It contains the run at all times, with a margin.  It ends at another sheet that does not move relative to it and
-    has all moving bodies in front of it: walls meet at their edges.
+    The drawn part contains the projections of all visible parts at all times, with a margin.  It is cut off at another
+    sheet that is fixed relative to it and has all moving bodies in front of it, so that walls meet at their edges.
 
     Parameters
     ----------
@@ -136,14 +138,21 @@ def _taken(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> tuple[
 
 
 def _rectangle(part: FrameLook, origin: Floats, axes: Floats, places: Floats, radii: Floats) -> Floats:
-    """Corners of the rectangle in a sheet that contains the projections of spheres at all times [m], shape [4, 2]."""
+    """Corners of the smallest rectangle that contains the projections of spheres on a plane at all times [m].
+
+    The result has shape [4, 2].  Rectangle and corners are in the first two axes of the plane's frame.  ``places`` and
+    ``radii`` are the centres and radii of the spheres [m].
+    """
     flat = (places - origin[:, part.frame, None]) @ axes[:, part.frame, :, :2]
     (a, b), (c, d) = (flat - radii[:, None]).min(axis=(0, 1)), (flat + radii[:, None]).max(axis=(0, 1))
     return np.array([(a, b), (c, b), (c, d), (a, d)])
 
 
 def _cut(corners: Floats, normal: Floats, level: float) -> Floats:
-    """Part of a convex polygon where ``corners @ normal + level`` is positive; the whole polygon if this is empty."""
+    """Cut a convex polygon by a line: return the part whose points fulfil ``point @ normal + level >= 0``.
+
+    If no such part exists, return the whole polygon.
+    """
     heights = corners @ normal + level
     kept = list[Floats]()
     for a, b, p, q in zip(corners, np.roll(corners, -1, axis=0), heights, np.roll(heights, -1), strict=True):

@@ -73,7 +73,8 @@ class Stroke:
 class Scene:
     """The visible parts of a system on their frames, and lines between frames.
 
-    Frames are numbered body by body.  The ends of links follow them, with the axes of the world.
+    Frames are numbered body by body.  The ends of links are numbered after them, each as a frame with the axes of the
+    world.
 
     Attributes
     ----------

@@ -26,7 +26,8 @@ The error in :func:`depth` is larger, because its result is only a lower bound.
 """
 _ROUND_OFF = 1e-14
 _MOST = 400
-"""Most steps of a search for the depth. The bound is valid after any number of steps, but less close."""
+"""Largest number of steps of a search for the depth of an overlap. If the search ends at this number, the lower bound
+of the depth that it returns is valid, but less tight."""
 
 _Face = tuple[float, Point, int, int, int]
 """Face of a polytope: distance of its plane from the origin [m], outward normal, and the numbers of its three corners.
@@ -43,8 +44,8 @@ class Penetration:
     Attributes
     ----------
     lower, upper : float
-        Bounds of its length [m]: no shorter translation than ``lower`` separates the sets; ``upper`` along the normal
-        does.
+        Bounds of the translation's length [m]. No translation shorter than ``lower`` separates the sets. A translation
+        along the normal by ``upper`` separates them.
     normal : Vector
         Unit vector of the translation of the second set, shape [3].
     first, second : Vector
@@ -59,7 +60,9 @@ class Penetration:
 
 
 def depth(one: Piece, two: Piece, tolerance: float) -> float:
-    """Lower bound, to 10 %, of the least translation that separates two convex sets [m]; 0 within a tolerance.
+    """Lower bound of the length of the shortest translation that separates two convex sets [m].
+
+    The bound is at most 10 % below the length.  It is 0 if the sets overlap by at most ``tolerance``.
 
     Parameters
     ----------
@@ -87,9 +90,10 @@ def depth(one: Piece, two: Piece, tolerance: float) -> float:
 
 
 def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
-    """Shortest translation that separates two convex sets, to 1e-3; None if a tolerance covers their overlap.
+    """Shortest translation that separates two convex sets; None if they overlap by at most ``tolerance``.
 
-    The search may end earlier for round sets.  The bounds of the result are valid in any case.
+    The bounds of its length differ by at most 1e-3 of the length.  For curved sets the search may end before this
+    accuracy is reached; the bounds are valid in any case.
 
     Parameters
     ----------
@@ -124,9 +128,10 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
 
 
 def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[Point]:
-    """Four differences of points of the two sets that span a volume; empty if the sets do not overlap.
+    """Corners of a tetrahedron with which the search for the depth starts; empty if the sets do not overlap.
 
-    Seen from outside of the tetrahedron, the first three are counter-clockwise.
+    Each corner is the difference of a point of the first set and a point of the second set.  Seen from outside of the
+    tetrahedron, the first three corners are counter-clockwise.
     """
     points: list[Vector] = []
     while len(points) < 4:
@@ -150,9 +155,9 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
 
 
 def _across(points: list[Vector]) -> Iterable[Vector]:
-    """Unit vectors, with both signs, at right angles to the plane of three points or the line of two.
+    """Unit vectors normal to the plane through three points, or to the line through two points, each with both signs.
 
-    For fewer than two points they are those of the axes.
+    For fewer than two points, the vectors are those of the coordinate axes.
     """
     if len(points) == 3:
         normal = np.cross(points[1] - points[0], points[2] - points[0])
@@ -170,7 +175,12 @@ def _across(points: list[Vector]) -> Iterable[Vector]:
 def _expanded(
     corners: list[Point], farthest: Callable[[Vector], Vector], tolerance: float, exact: float
 ) -> tuple[float, list[Point], Point]:
-    """Depth [m], 0 within the tolerance, and corners and normal of the polytope's face nearest to the origin."""
+    """Depth of an overlap [m], by a polytope that grows inside the set of differences (EPA).
+
+    Returns the depth, and corners and normal of the polytope's face nearest to the origin.  A depth of at most
+    ``tolerance`` [m] is returned as 0.  The relative error of the depth is at most ``exact``, unless the search reaches
+    its largest number of steps.
+    """
     points = list(corners)
     faces = [_face(points, *trio) for trio in ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2))]
     size = max(math.hypot(*point) for point in points)
@@ -190,9 +200,9 @@ def _expanded(
 
 
 def _pushed_out(points: list[Point], faces: list[_Face], least: float) -> list[_Face]:
-    """Faces of the convex hull of a polytope, whose faces are ``faces``, and of the last of ``points``, outside of it.
+    """Add the last of ``points``, which is outside of a convex polytope, as a corner; return the faces of the new hull.
 
-    Faces that the point is in front of by more than ``least`` [m] are replaced.
+    A face of the polytope is replaced if the point is more than ``least`` [m] in front of it.
     """
     top = points[-1]
     kept: list[_Face] = []

@@ -20,7 +20,8 @@ from nonsmooth.solids.placed import Placed, near_pairs, nested
 from nonsmooth.solids.separation import separation
 
 _EXACT = 1e-13
-"""Error of the gap at which the search along the line ends, relative to the extent of both solids plus ``height``."""
+"""The search along the line ends if the gap exceeds ``Passage.height`` by less than this.  It is relative to the sum
+of ``height`` and the extent of both solids, and slightly larger than round-off."""
 _MOST = 1000
 
 
@@ -36,7 +37,7 @@ class Passage:
     way : Vector
         Unit vector along which the first solid moves, shape [3].
     height : float
-        Gap at which the solids have met [m].
+        Gap at which the solids meet [m]: 0 if they meet when they touch.
     """
 
     one: Placed
@@ -52,7 +53,7 @@ class Passage:
 
     @functools.cached_property
     def tolerance(self) -> float:
-        """Largest amount by which the gap may be less than ``height`` while the solids have not met [m]."""
+        """Tolerance of the gap [m]: the solids have met if the gap is less than ``height`` by more than this."""
         sizes = [float(np.linalg.norm(high - low)) for low, high in (self.one.bounds, self.two.bounds)]
         # the second number is for a point, which has no size
         return max(1e-9 * min(sizes), 1e-15 * max(sizes))
@@ -84,21 +85,22 @@ class Passage:
 
     @property
     def _far(self) -> float:
-        """Displacement along ``way``, negative, at which the second solid is wholly in front of the first one [m]."""
+        """Negative displacement along ``way`` [m] that puts the first solid entirely behind the second one."""
         return -2.0 * (self._size + self.height)
 
     @functools.cached_property
     def _near(self) -> list[tuple[Piece, Piece]]:
-        """Pairs of pieces of the two solids whose gap is less than ``height`` by more than the tolerance."""
+        """Pairs of pieces of the two solids that have met: their gap is less than ``height``, beyond the tolerance."""
         pairs, least, still = near_pairs(self.one, self.two, self.height), self.tolerance, np.zeros(3)
         if self.height == 0.0:
             return [(a, b) for a, b in pairs if depth(a, b, least) > 0.0]
         return [(a, b) for a, b in pairs if separation(a, b, still, self.height, 0.1 * least)[0] < -least]
 
     def _first(self, pairs: list[tuple[Piece, Piece]], start: float) -> float:
-        """Least displacement along ``way`` at which the gap of a pair of pieces is ``height`` [m]; inf if it never is.
+        """Least displacement of the first solid along ``way`` [m] at which some pair of pieces has the gap ``height``.
 
-        At the displacement ``start`` the gaps of all pairs must be larger.
+        The search begins at the displacement ``start``, at which the gaps of all pairs must be larger than ``height``.
+        The result is inf if no pair comes so near.
         """
         least, best = _EXACT * (self._size + self.height), math.inf
         bounds = [

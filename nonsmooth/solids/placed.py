@@ -47,7 +47,10 @@ class Placed:
 
     @property
     def inner(self) -> Vector:
-        """Points inside the solid [m], shape [n, 3]."""
+        """Points of the solid that are as far inside as possible [m], in world axes, shape [n, 3].
+
+        They decide whether this solid is completely inside a hollow one.
+        """
         return self.position + self.solid.inner @ self.rotation.T
 
     def holds(self, point: Vector, margin: float) -> bool:
@@ -92,9 +95,10 @@ def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Lower bound of the depth of one solid inside the other, which is hollow [m]; 0 if it is within the tolerance.
+    """Lower bound of the depth [m] to which a solid is inside a hollow one; 0 if neither solid is inside the other.
 
-    The pieces of the two must not overlap by more than the tolerance.
+    A depth of at most ``tolerance`` [m] is returned as 0, too.  The pieces of the two solids must not overlap by more
+    than ``tolerance``.
     """
     if not (one.solid.hollow or two.solid.hollow):
         return 0.0
@@ -102,7 +106,8 @@ def nested(one: Placed, two: Placed, tolerance: float) -> float:
     for outer, inner, near in ((one, two, [b for _, b in pairs]), (two, one, [a for a, _ in pairs])):
         if outer.solid.hollow:
             # if the boundaries do not cross, a solid is wholly inside or wholly outside: its inner points decide. If
-            # the boundaries coincide in part, a solid may go inside next to it, so points of pieces there decide, too
+            # the boundaries coincide in some region, a solid may enter beside this region. So points of the pieces that
+            # are near the other solid decide, too
             places = np.unique(np.array([*inner.inner, *(piece.place for piece in near)]), axis=0)
             low, high = outer.bounds
             for place in places[np.all((places > low) & (places < high), axis=1)]:

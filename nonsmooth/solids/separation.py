@@ -19,7 +19,8 @@ _MOST = 200
 Point = tuple[float, float, float]
 """A point or a vector; three floats are faster than an array here."""
 _Nearest = tuple[float, Point, tuple[Point, ...]]
-"""Squared distance of a simplex from the origin, its nearest point, and the corners between which this point is."""
+"""Squared distance of a simplex from the origin [m^2], the simplex's point nearest to the origin [m], and the corners
+of the face, edge or corner that contains this point."""
 
 
 @final
@@ -86,9 +87,9 @@ def nearest(one: Piece, two: Piece, enough: float) -> Nearest:
 
 
 def combined(point: Vector, corners: Sequence[Point], pairs: Iterable[tuple[Vector, Vector]]) -> Iterator[Vector]:
-    """Point of each of two sets [m], shape [3] each, from a point of the set of their differences.
+    """Yield the point of the first and of the second set [m], shape [3] each, whose difference is ``point``.
 
-    The point is a weighted mean of corners.  The same weights give the points of the two sets.
+    ``point`` is a weighted mean of ``corners``.  The same weights give the points of the two sets.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ def combined(point: Vector, corners: Sequence[Point], pairs: Iterable[tuple[Vect
     corners : sequence of Point
         Differences of points of the two sets.
     pairs : iterable of tuple of Vector
-        The points of the two sets at each corner.
+        For each corner, the point of the first set and of the second set whose difference it is.
     """
     known = np.array(corners)
     # the last row makes the sum of the weights 1, in the scale of the other rows
@@ -108,7 +109,21 @@ def combined(point: Vector, corners: Sequence[Point], pairs: Iterable[tuple[Vect
 
 @dataclass(frozen=True)
 class _Found:
-    """Result of a search: a bound and its normal, and the simplex that holds the nearest point."""
+    """Result of a search for the distance of two sets, that is of their set of differences from the origin.
+
+    Attributes
+    ----------
+    bound : float
+        Lower bound of the distance [m].
+    normal : Vector
+        Unit vector normal to two planes that separate the sets by the bound.
+    point : Point
+        Point of the set of differences that is nearest to the origin [m].
+    corners : tuple of Point
+        Corners of the simplex that contains ``point``.
+    points : list of tuple of Vector
+        For each corner, the point of the first set and of the second set whose difference it is.
+    """
 
     bound: float
     normal: Vector

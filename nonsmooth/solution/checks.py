@@ -34,8 +34,8 @@ def contacts_without_body_check(solution: Solution) -> tuple[str, ...]:
 def impulses_beyond_cone(solution: Solution) -> NDArray[np.bool_]:
     """True for impulses outside of their friction cones, shape [m], in the order of ``events.listed``.
 
-    The distribution of impulses over redundant contacts is not unique, and one contact may have too large a part.
-    Impulses within the cones then give the same motion.
+    The distribution of impulses over redundant contacts is not unique, and it may load one contact beyond its cone.
+    The motion is right all the same: another distribution, within the cones, gives the same motion.
     """
     events = solution.events
     normal, friction = events.listed_impulse[:, 0], events.listed_impulse[:, 1:]
@@ -46,23 +46,26 @@ def impulses_beyond_cone(solution: Solution) -> NDArray[np.bool_]:
 def friction_gain(solution: Solution) -> float:
     """Energy that sustained friction added over a run [J]: the sum of all decreases of the integrated friction loss.
 
-    The loss is compared from each sample or event to the next.  The time-stepping fallback can add energy: its friction
-    is constant over a span, while the slip may turn.  Energy that a law has stored in a contact, such as that of
-    bristles, counts as added when the law returns it.  Impacts are left out, because some impact laws add energy by
-    their definition.  Events are read block by block, because the events of a long run would not fit into memory.
+    The loss is compared from each sample or event to the next.  It decreases in two cases:
+
+    1. The time-stepping fallback may add energy.  Its friction is constant over a span, while the slip may turn.
+    2. A friction law returns energy that it has stored in a contact, for example in bristles.
+
+    Impacts are left out, because some impact laws add energy by their definition.  Events are read block by block,
+    because the events of a long run would not fit into memory.
     """
     track = solution.track
     gain, last, n_samples, booked, time = 0.0, np.zeros(0), 0, 0.0, track.time[:-1]
     for block in solution.events.blocks():
         place = track.y.shape[1] - block.integrated.shape[1] + FRICTION_LOSS
-        # number of samples before the last event of this block of events; a sample at its time comes after the event
+        # number of samples before the last event of this block; a sample at the time of an event comes after the event
         stop = int(np.searchsorted(time, block.time[-1])) if len(block) else 0
         order = np.argsort(np.concatenate([block.time, time[n_samples:stop]]), kind="stable")
         loss = np.concatenate([block.integrated[:, FRICTION_LOSS], track.y[n_samples:stop, place]])[order]
         gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
         booked = float(block.booked[-1, _FRICTION]) if len(block) else 0.0
-    # the final state has the friction loss as one sum, in `booked`; less the loss accounted at events, it is the
-    # integrated loss
+    # the final state has only the total friction loss, in `booked`; subtract the part that was accounted at events, so
+    # that the integrated part remains
     end = track.y[-1, place] + track.booked[-1, _FRICTION] - booked
     return gain + _decrease(last, np.append(track.y[n_samples:-1, place], end))
 

@@ -83,7 +83,10 @@ _ENERGIES = [name for name, row in VARIABLES.items() if row.unit == "J"]
 """Variables of the series "energies"."""
 _HEAD = ("time [s]", "cause", "contact or guard", "phases", *(f"{name} [J]" for name in ENERGIES), "modes")
 _UNCHANGED = {bits << BEFORE | bits << DURING | bits << AFTER for bits in range(CODE + 1)}
-"""Codes of a contact whose bits are equal before, during and after an event, which thus does not change its mode."""
+"""Codes whose mode bits are equal before, during and after an event.
+
+The event does not change the mode of a contact with such a code, so the column "modes" does not list the contact.
+"""
 
 
 def _forces(solution: Solution) -> History:

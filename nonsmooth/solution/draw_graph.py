@@ -28,10 +28,11 @@ _STARTS, _ROUNDS = 16, 300
 
 
 def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
-    """Places of the modes in the plane; distances approximate the least numbers of transitions between modes.
+    """Place of each mode in the plane; distances approximate the least numbers of transitions between modes.
 
-    The sum of the weighted squares of distance minus number is minimised by majorisation (de Leeuw).  Initial layouts
-    are modes on a circle in several orders.  The result with the fewest crossing lines is taken.
+    Stress majorisation (de Leeuw) minimises the weighted sum, over all pairs of modes, of the square of (distance -
+    number of transitions).  It is started from several layouts, in which the modes lie on a circle in random order.
+    The final layout with the fewest crossing lines is returned.
     """
     visits = graph.visits
     modes = sorted(graph.shares, key=lambda m: (m in graph.passing, m != graph.start, -graph.shares[m], -visits[m]))
@@ -41,7 +42,7 @@ def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
     random = np.random.default_rng(n)
     trials = [_relaxed(steps, random.permutation(n).astype(float)) for _ in range(_STARTS)]
     points = min(trials, key=lambda trial: (_crossings(trial, lines), _stress(trial, steps)))
-    # turn the longest extent to the horizontal, and the start to the left
+    # rotate the layout so that its longest extent is horizontal, and mirror it so that the start mode is on the left
     points = points - points.mean(axis=0)
     points = points @ np.linalg.svd(points, full_matrices=False)[2].T if n > 1 else points
     points[:, 0] *= -1.0 if points[modes.index(graph.start), 0] > 0.0 else 1.0
@@ -104,7 +105,10 @@ def _steps_between(modes: Sequence[ContactModes], graph: TransitionGraph) -> Arr
 
 _MOST_MODES = 14
 _LONGEST_WORD, _FEW = 16, 8
-"""Longest mode word (16 characters) and largest number of nodes (8) for which the nodes show words, not numbers."""
+"""Longest mode word [characters], and largest number of nodes, respectively, of a graph whose nodes show mode words.
+
+The nodes of other graphs show numbers, which a legend explains.
+"""
 _MOST_CONTACTS = 14
 """Largest number of contacts with readable mode words; modes of more contacts are grouped."""
 _LONGEST_LINE = 110

@@ -16,13 +16,14 @@ class EnergyAccount:
     driven_work : float
         Work of the driven bodies on the other bodies.
     restitution_loss, friction_loss, closing_loss : float
-        Losses by restitution in impacts, by friction in impacts and in sustained slip, and by closing steps and
-        projections, respectively.
+        Losses by restitution in impacts; by friction in impacts and in sustained slip; and at the ends of accumulations
+        of impacts and in projections, which move the gaps of closed contacts back to zero, respectively.
     load_work : float
         Work of the loads and of the normal forces of compliant contacts.  The energy of springs and of compliant
         contacts counts here, not in the potential energy.
     exchanged_in_flow : float
-        Gross energy that gravity, driven bodies and friction exchanged between events, each counted as positive.
+        Energy exchanged between events: the integral over time of the sum of three absolute powers, of the forces on
+        bodies (such as gravity and loads), of the driven bodies and of friction.
     """
 
     kinetic_start: float
@@ -60,8 +61,11 @@ class EnergyAccount:
     def scale(self) -> float:
         """Energy with which the unexplained change is compared [J].
 
-        It is the largest of three energies: the energy exchanged, the kinetic energy (larger in free tumbling), and a
-        millionth of the potential energy (larger at rest).
+        It is the largest of three energies:
+
+        1. the energy exchanged (:attr:`exchanged`);
+        2. the kinetic energy at the start or the end, because a freely tumbling body exchanges hardly any energy;
+        3. a millionth of the potential energy, because the other two are nearly zero for a body at rest.
         """
         kinetic = max(self.kinetic_start, self.kinetic_end)
         potential = max(abs(self.potential_start), abs(self.potential_end))

@@ -96,7 +96,7 @@ class Events:
         return Events.held, (self.n_contacts, {name: getattr(self, name) for name in COLUMNS})
 
     def rows(self, name: str, start: int, stop: int | None) -> NDArray[Any]:
-        """Rows from ``start`` to ``stop`` of a column; they do not become an attribute."""
+        """Rows from ``start`` to ``stop`` of the column ``name``, read without loading the whole column into memory."""
         # after its first use a column is an attribute of this object, so it is not read again
         used = vars(self).get(name)
         return self._read(name, start, stop) if used is None else np.asarray(used[start:stop])
@@ -120,7 +120,7 @@ class Events:
         row = floats[start[:, None] + np.arange(width)]
         parts = np.cumsum([EVENT_HEAD, n_q, n_u, n_u, n_y - n_q - n_u])
         time_and_energies, q, u_before, u_after, integrated, booked = np.split(row, parts, axis=1)
-        # an event is stored as a head and a list of contacts; contact j of the list is j places behind the head
+        # the integers of an event are a head, then two numbers for each listed contact; j numbers the event's contacts
         event = np.repeat(np.arange(len(head)), np.diff(first))
         j = np.arange(int(first[-1])) - first[event]
         pair = head[event] + CODE_HEAD + 2 * j

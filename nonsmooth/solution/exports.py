@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 class ExportFormat(Protocol):
-    """A format with its options, which writes a run."""
+    """Interface of an export format: an object holds the options of the format, and writes a run to a file."""
 
     def write(self, solution: Solution, path: Path) -> None:
-        """Write the run to a path; each file is written under another name first, so that an older one is not lost."""
+        """Write the run to ``path``. A file gets its name when it is complete, so a failure keeps the older file."""
 
 
 FORMATS: Mapping[str, Callable[..., ExportFormat]] = {

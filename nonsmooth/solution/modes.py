@@ -60,7 +60,10 @@ def mode_shares(solution: Solution) -> dict[str, float]:
 
 
 def transitions(solution: Solution) -> list[tuple[float, str, str, str, str]]:
-    """Time [s], cause, and mode word before, during and after each event; errors as of :func:`mode_shares`."""
+    """For each event: time [s], cause, and mode word before, during and after it.
+
+    Raises the errors of :func:`mode_shares`.
+    """
     _check("transitions", solution)
     events = solution.events
     columns = (events.words(which) for which in ("before", "during", "after"))
@@ -151,7 +154,7 @@ class TransitionGraph:
 def transition_graph(solution: Solution) -> TransitionGraph:
     """Modes of a run, their shares of the time, and the number of transitions by each cause.
 
-    A run without events has a single mode with all contacts open.  Errors as of :func:`mode_shares`.
+    A run without events has a single mode with all contacts open.  Raises the errors of :func:`mode_shares`.
     """
     _check("transition_graph", solution)
     events, contacts = solution.events, solution.system.names.contacts
@@ -188,11 +191,12 @@ def _mode(events: Events, event: int, shift: int) -> ContactModes:
 def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes, str]]:
     """Group the modes of a system of many contacts: graph of the groups, and the name of each group.
 
-    Modes of a group have the same range of closed contacts (0, 1, 2, 3 to 4, 5 to 8, ...), of which none, some or all
-    slip.  Impacts are grouped by the range of contacts that strike.
+    Two modes are in one group if their numbers of closed contacts are in the same range (0, 1, 2, 3 to 4, 5 to 8, ...),
+    and if in both of them none, some or all of the closed contacts slip.  Impacts are grouped by the range of the
+    number of colliding contacts.
 
-    One mode represents each group in the graph: the mode of the start in its group, elsewhere the mode with the largest
-    share of the time.  Transitions within a group are left out.
+    The graph has one mode of each group.  The group with the start mode has the start mode; every other group has its
+    mode with the largest share of the time.  Transitions within a group are left out.
     """
     called = {mode: _kind(mode, passing=mode in graph.passing) for mode in graph.shares}
     ranked = sorted(graph.shares, key=lambda mode: (mode != graph.start, -graph.shares[mode]))
@@ -202,7 +206,8 @@ def grouped(graph: TransitionGraph) -> tuple[TransitionGraph, dict[ContactModes,
     for mode, share in graph.shares.items():
         shares[stands_for[mode]] += share
     for (one, other, cause), n in graph.counts.items():
-        # a mode that lasts no time, because its contacts change their features at once, is not in `stands_for`
+        # a mode that exists only before an event, because its contacts change their features at this instant, has no
+        # share of the time, so it is not in `stands_for`
         before = stands_for.get(one) or standing.get(_kind(one, passing=False))
         if before is not None and before != stands_for[other]:
             counts[before, stands_for[other], cause] += n

@@ -157,7 +157,7 @@ class Solution(metaclass=Readable):
     @functools.cached_property
     def end(self) -> End:
         """End of the run: state, counters, status and verdict of the engine."""
-        # read at the first use: reading takes some microseconds, as short runs do, and many studies need samples only
+        # read at the first use: reading takes some microseconds, as long as a short run, and many studies never need it
         return self.ending.read()
 
     @functools.cached_property

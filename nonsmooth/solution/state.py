@@ -1,4 +1,4 @@
-"""State of a run at a time, from which another run starts or the same run continues."""
+"""State of a run at one time: the run can continue from it, or a new run can start from it."""
 
 from __future__ import annotations
 
@@ -48,12 +48,13 @@ class Continuation:
 @final
 @dataclass(frozen=True, eq=False)
 class State:
-    """State of a run at a time, from which a run continues or starts.
+    """State of a run at one time: the run can continue from it, or a new run can start from it.
 
-    A state that a run left continues that run on the same model, as if it had not stopped.  Any other state starts a
-    run: a state made by :meth:`at` or changed by :func:`dataclasses.replace`, and any state on a model with other
-    numbers.  A start determines anew which contacts touch.  It also determines the slip direction that anisotropic
-    friction opposes: from the slip of a sliding contact, or from the force on a sticking contact at the first instant.
+    The end state of a run continues this run on the same model, as if it had not stopped.  Any other state starts a new
+    run: a state made by :meth:`at`, a state changed by :func:`dataclasses.replace`, and a state that is given to a
+    model with other parameters.  At its start a new run determines which contacts touch.  It also determines the slip
+    direction that anisotropic friction opposes: from the slip of a sliding contact, or from the force on a sticking
+    contact at the first instant.
 
     Attributes
     ----------
@@ -90,7 +91,7 @@ class State:
     law_states: Floats
     guards_spent: Integers
     energy: EnergyAccount
-    # no argument of the constructor: a state changed by dataclasses.replace gets None here, so it starts a new run
+    # this field is no argument of the constructor, so dataclasses.replace sets it to None: a changed state starts a run
     continuation: Continuation | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:

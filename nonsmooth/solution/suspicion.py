@@ -13,9 +13,9 @@ from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
-"""Residual of the energy account that a short run may have, relative to the tolerance of a step.
+"""Allowed residual of the energy account of a run of up to 1000 steps, relative to the tolerance of a step.
 
-A run of more steps may have a residual of one tolerance for each step.
+In a longer run the number of steps replaces 1000: one tolerance for each step.
 """
 _MOST = 1e-3
 """Largest unexplained energy that a run may have, however many steps it takes, relative to its scale of energy."""
@@ -48,15 +48,17 @@ def suspicions(
     Parameters
     ----------
     engine : Engine
-        Engine of the run.  If it promises a largest residual, the account must not exceed it.  Otherwise the tolerances
-        are the limit.
+        Engine of the run.  If it promises a largest residual of the energy account (:attr:`Engine.promised_residual`),
+        a run with a larger residual fails the check.  Otherwise the largest residual follows from the tolerances.
     worst_event : tuple of float
-        Event with the largest residual: time [s], residual [J], and its ratio to the residual that tolerances explain.
+        Event with the largest residual of its energy balance: time [s], this residual [J], and its ratio to the largest
+        residual that the tolerances allow.
     jump : tuple of float
         Last time at which a compliant contact began with overlapping bodies [s], and the energy that all contacts
         gained in this way [J].
     rubbed : float
-        Energy that friction added [J]; 0 if a law of the system can store energy.
+        Energy that sustained friction added (:func:`nonsmooth.solution.checks.friction_gain`) [J]; 0 if a friction law
+        of the system can store energy, because it may return this energy.
     energy : EnergyAccount
         Energy account of the run.
     bodies : mapping of str to Body
@@ -95,9 +97,10 @@ def _remedy_of(engine: Engine) -> str:
 
 
 def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: float = 0.0) -> str:
-    """Sentence about an energy account that breaks the promise of the engine, "" if the promise is kept.
+    """Sentence if the residual of the energy account exceeds the largest one that the engine promises, else "".
 
-    ``promised`` is the largest residual relative to the scale of the account, or to ``floor`` [J] if that is larger.
+    ``promised`` is the promised residual, relative to the scale of the account, or to ``floor`` [J] if that is larger.
+    ``name`` is the name of the engine.
     """
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
     if energy.unexplained <= promised * max(energy.scale, floor) + _ROUND_OFF * potential:
@@ -143,11 +146,13 @@ def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
 def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0, floor: float = 0.0) -> str:
     """Sentence about a run with more unexplained energy than the tolerances allow, else "".
 
-    The allowed energy is one relative tolerance for each step, and at least a thousand tolerances, times the scale of
-    the account.  In slow motion, tolerances are relative to the scale of velocities, which has the kinetic energy
-    ``scale`` [J], so a term is added.  The allowed energy is at most a thousandth of the scale of the account, or of
-    ``floor`` [J] if that is larger.  At tolerances above 1e-6 it is at most a thousand tolerances instead of a
-    thousandth.
+    With the scale E of the account [J] and the relative ``tolerance`` of a step, the allowed energy is the lesser of
+
+        max(1000, steps) tolerance E + steps tolerance sqrt(E scale)    and
+        max(1e-3, 1000 tolerance) max(E, floor).
+
+    The term with ``scale`` counts in slow motion: the tolerances are then relative to the scales of the velocities.
+    ``scale`` is the kinetic energy [J] if each velocity equals its scale.  Round-off of the potential energy is added.
     """
     slow = steps * tolerance * math.sqrt(energy.scale * scale)
     potential = max(abs(energy.potential_start), abs(energy.potential_end))

@@ -154,13 +154,19 @@ class _StoredArray:
 def _column(
     name: str, axes: str, column: str, what: str, unit: str = "1", kind: type[np.number[Any]] = np.float64, **more: Any
 ) -> _StoredArray:
-    """Row of an array that holds a column of events; the unit "" means that another array has a unit for each entry."""
+    """Entry of the table of stored arrays for the array ``name``, which holds the attribute ``column`` of Events.
+
+    The unit "" means that another array holds the unit of each entry.
+    """
     attributes = {**described(what, unit), **more}
     return _StoredArray(name, tuple(axes.split()), attributes, attrgetter(column), column, kind)
 
 
 def _mode(name: str, shift: int) -> _StoredArray:
-    """Row of the mode bits of the contacts listed with events, a part of ``Events.codes``."""
+    """Entry of the table of stored arrays for the contacts' mode bits before, during or after events.
+
+    These are the bits of ``Events.codes`` from bit ``shift`` on.
+    """
     attributes = {**described(f"mode of the contact {name.removeprefix('mode_')} the event", "1"), **_MODE}
     return _StoredArray(name, ("listing",), attributes, lambda events: events.codes >> shift & CODE, kind=np.uint8)
 
@@ -184,7 +190,11 @@ _EVENTS = (
     *(_mode(name, shift) for name, shift in _SHIFTS.items()),
     _column("impulse", "listing direction", "listed_impulse", "impulse of the contact in the event", "N s"),
 )
-"""Arrays of events.  The contacts listed with them are a ragged array: event i has ``event_size[i]`` rows of it."""
+"""Stored arrays of events.
+
+Arrays over "listing" have one row for each contact of each event, one event after the other: event i has the next
+``event_size[i]`` rows.
+"""
 _CONTINUED = (
     _StoredArray("event_account", ("event", "of_account"), _ACCOUNT, lambda events: events.integrated[:, :N_ACCOUNTS]),
     _StoredArray(

@@ -8,9 +8,10 @@ A commit survives the death of the process and, if it is a safe one, a power cut
 3. One more file is written in the same way, which makes the commit valid: the metadata of the group, with the lengths
    of all arrays, or the chunk of a study's status.
 
-A process that dies before step 3 leaves files that readers ignore and that the next commit replaces: a chunk beyond the
-length of its array, or a part of it.  The earlier commit stays valid, because a new last chunk begins with the rows of
-the earlier one.  A commit that is not safe does not sync.
+A process that dies before step 3 may leave new chunks behind.  Readers use only the rows within the lengths in the
+metadata, so they ignore new chunks and the added rows of a rewritten last chunk.  The next commit replaces them.  The
+earlier commit stays valid, because a rewritten last chunk begins with the same rows.  A commit that is not safe does
+not sync.
 
 Each chunk has a checksum (CRC32C), and so has the metadata (CRC-32, the attribute "checksum").  A bit that changes on
 the disk is therefore noticed before the content is used.
@@ -43,14 +44,14 @@ _GROUP = "zarr.json"
 _ENTRIES = 2**14
 """Numbers in a chunk of an array that grows; small, because every commit writes the last chunk again."""
 _AT_ONCE = 16
-"""Number of files that are synced to the disk at the same time, which takes about as long as one file."""
+"""Number of files that are synced to the disk at the same time; 16 files take about as long as one file."""
 _NAME = re.compile(r"[^\s./\\][^/\\]*")
 _DAMAGED = "It is damaged: take it from a copy, or run again."
 
 
 @final
 class ArrayFolder:
-    """Arrays in a folder.
+    """Reads and writes the named arrays of one folder; readers see new rows after the next commit.
 
     Parameters
     ----------
@@ -244,10 +245,12 @@ class ArrayFolder:
         self.flush(safely=False)
 
     def flush(self, safely: bool, *, counts: bool = False) -> None:
-        """Write the files that were prepared since the last call; errors as of :meth:`commit`.
+        """Write the files that were prepared since the last call. Raises the errors of :meth:`commit`.
 
-        A file that makes a commit valid (``counts``), or replaces another, is written under another name and renamed.
-        Other files get their name at once, because a rename makes the system wait for the disk.
+        If ``safely`` is True, the files are also synced to the disk. If ``counts`` is True, these files make the commit
+        valid. Such files, and files that replace others, are written under another name and then renamed, so that
+        readers never see an incomplete file. Other files get their name at once, because a rename makes the system wait
+        for the disk.
         """
         files, self._waiting = self._waiting, {}
         parts = {path: part_of(path) if counts or path.exists() else path for path in files}
@@ -278,7 +281,7 @@ class ArrayFolder:
             raise FileError(self.path, OSError(errno.EAGAIN, f"{error}")) from error
 
     def _group(self) -> bytes:
-        """Metadata of the group and of all arrays."""
+        """Content of the file zarr.json, as JSON in bytes: attributes of the folder, and metadata of all its arrays."""
         entries = {name: one.metadata() for name, one in self._arrays.items()}
         attributes = {**self.attributes, "format_version": FORMAT_VERSION}
         content = {
@@ -313,7 +316,7 @@ _MARK = _json({"zarr_format": 3, "node_type": "group", "attributes": {"title": "
 
 
 def is_marked(path: Path) -> bool:
-    """True if a folder has the mark that nonsmooth made it."""
+    """True if a folder contains the subfolder by which nonsmooth marks the folders of arrays that it made."""
     try:
         return content_of(path / WRITER / _GROUP) == _MARK
     except OSError:

@@ -116,7 +116,7 @@ class ArrayLayout:
         return np.full((self.chunk, *self.shape[1:]), self.fill, self.numbers)
 
     def encoded(self, chunk: NDArray[Any]) -> bytes:
-        """Bytes of a whole chunk."""
+        """Bytes of the file of a chunk: its content, compressed by Blosc (texts: VLenUTF8), and a CRC32C checksum."""
         # imported on use, because the import takes time and most runs write no folder
         import google_crc32c
         from numcodecs.blosc import Blosc

@@ -24,9 +24,12 @@ if TYPE_CHECKING:
 
 
 _PATIENCE = 5.0
-"""Time within which a scheduler must answer [s]."""
+"""Time within which a scheduler of dask must answer [s]; its first worker may take twelve times as long."""
 _DEATHS = 3
-"""Number of workers that die during a chunk before the chunk is repeated run by run."""
+"""Number of workers that die while they compute a chunk, before its runs are repeated one by one.
+
+A single death may have another cause, for example a run of another chunk of the same worker.
+"""
 
 
 class SchedulerLost(NonsmoothError):
@@ -96,7 +99,8 @@ class Dask(Executor):
         if address is None:
             n = check_workers("Dask: n", self.n)
             address = stack.enter_context(_cluster(n))
-            # replaces dead workers: the nanny, which would restart a worker, ends with a worker that dies at once
+            # adapt starts a new worker for a dead one. The nanny, dask's process that restarts a worker, does not
+            # suffice: it ends together with a worker that dies immediately
             address.adapt(minimum=n, maximum=n)
         try:
             return stack.enter_context(Client(address, timeout=_PATIENCE))
@@ -124,7 +128,10 @@ def _cluster(n: int) -> LocalCluster:
 
 
 def _check_workers(client: Client, parcel: Parcel) -> None:
-    """Raise InvalidInput if a worker lacks modules of the study, or has other versions, which change the last bits."""
+    """Raise InvalidInput if a worker lacks modules of the study, or has other versions of software or another machine.
+
+    Other versions of nonsmooth, Python or numpy, and other machines, may change the last bits of the results.
+    """
     client.wait_for_workers(1, timeout=_PATIENCE * 12)
     here = dict(versions())
     for address, there in client.run(versions).items():
@@ -145,7 +152,10 @@ def _computed(parcel: Parcel, chunk: Chunk) -> ChunkResult:
 def _in_turn(
     client: Client, parcel: Parcel, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
 ) -> Generator[ChunkResult, None, None]:
-    """Yield the results of chunks; a chunk whose workers died too often is added to ``suspects`` instead."""
+    """Yield the results of chunks, of which at most ``window`` are submitted at a time.
+
+    A chunk that has lost :data:`_DEATHS` workers gives no result, and is added to ``suspects``.
+    """
     from distributed import KilledWorker, as_completed
 
     left, running, done = iter(chunks), {}, as_completed()
@@ -228,7 +238,7 @@ class Parcel:
         return work
 
     def fault(self) -> str:
-        """Return the error that prevents opening the parcel in this process, "" without an error."""
+        """Return the text of the error that :meth:`open` raises in this process, "" if the work can be unpickled."""
         try:
             self.open()
         except Exception as error:  # a module of a user may raise anything

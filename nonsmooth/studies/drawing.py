@@ -73,9 +73,9 @@ def draw_study(study: xarray.Dataset) -> Figure:
 
 
 def _varying(records: dict[str, xarray.DataArray], valued: NDArray[np.bool_]) -> list[str]:
-    """Return the names of the records to draw: records of words, and numbers that differ between runs.
+    """Return the names of the records to draw: all records with texts, and records whose numbers differ between runs.
 
-    ``valued`` is True for runs that have records.
+    ``valued`` is True for each completed run, which has values.
     """
     return [
         name for name, one in records.items() if _words(one) or len(np.unique(one.values[valued], equal_nan=True)) > 1

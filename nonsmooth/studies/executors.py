@@ -14,7 +14,7 @@ from nonsmooth.checks import check_count
 from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
 WINDOW = 2
-"""Number of chunks per worker that are submitted at a time."""
+"""Number of chunks per worker that are submitted at a time, so that each worker has its next chunk at once."""
 
 
 class Executor(ABC):

@@ -24,7 +24,7 @@ def require(what: str, *packages: str) -> None:
 
 
 def meter(display: Display | None) -> ProgressMeter:
-    """Return the meter of a display, by default of standard error.
+    """Return a meter that reports progress to ``display``, by default to the display of standard error.
 
     Raises
     ------

@@ -29,7 +29,9 @@ def alike(points: Array, scale: float) -> float:
 
 
 def periods(points: Array, near: float) -> NDArray[np.int64]:
-    """Return the least n after which the samples of each motion repeat, up to half of them; 0 if they do not repeat.
+    """Return, for each motion, the least n such that its samples repeat after n samples; 0 if they do not repeat.
+
+    n is at most half the number of samples of a motion.
 
     Points that are n, 2 n, 3 n ... samples apart must all agree: a motion that settles slowly does not repeat.
 
@@ -72,8 +74,8 @@ def settling(points: Array, near: float) -> NDArray[np.bool_]:
             if half < 2 * n or not np.isfinite(change).all():
                 continue
             early, late = (float(np.max(np.abs(part))) for part in (change[:half], change[half:]))
-            # each row: the differences of one coordinate at one phase; near an attractor, rounding or chaos makes some
-            # of them grow or change sign
+            # a row holds the successive differences of one coordinate at one phase. In a drift, the differences of
+            # every row keep their sign and never grow; in chaos, or by rounding, some of them grow or change sign
             rows = [change[k::n, j] for k in range(n) for j in range(one.shape[1])]
             drifts = all(np.all(row * row[0] >= 0.0) and np.all(np.diff(np.abs(row)) <= 0.0) for row in rows)
             found[i] |= early > 1e-3 * near and (late < 0.5 * early or drifts)

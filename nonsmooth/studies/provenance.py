@@ -1,4 +1,7 @@
-"""Origin of the numbers of a study: text of functions and classes, versions, processor."""
+"""Describes on what the numbers of a study depend: digests of user code, versions of software, and the processor.
+
+It also shows in words where the descriptions of two studies differ.
+"""
 
 from __future__ import annotations
 

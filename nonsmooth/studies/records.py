@@ -95,7 +95,7 @@ class StudyRecord:
 
     @property
     def none(self) -> float:
-        """Fill value of a run without a value: nan, or -1 for counts and words."""
+        """Number stored for a run without a result: nan, or -1 if the record holds counts or indices of words."""
         return np.nan if self.dtype == "float64" else -1
 
     def of(self, result: RunResult) -> Any:
@@ -139,7 +139,7 @@ class Recorder(ABC):
 Function: TypeAlias = Callable[[Any, Solution], float]
 """``f(scenario, solution) -> number``; the scenario is None if a function built the system."""
 Requested: TypeAlias = str | Recorder | Function
-"""A name, a recorder, or a function of the user."""
+"""One quantity that a study records of each run: its name, a recorder, or a function of the user."""
 _LINE = re.compile(r"(?P<words>.*?)(\s*\[(?P<unit>[^]]+)\])?\.?")
 """First line of a docstring: description, and unit in brackets at its end."""
 
@@ -157,7 +157,10 @@ _NUMBER = (int, float, np.number, np.bool_)
 
 
 def _of_function(function: Function) -> StudyRecord:
-    """Return the record of a function: its name, description and unit of its docstring, such as "Height [m]."."""
+    """Return a record whose values a function computes.
+
+    Its name is that of the function.  Its description and unit are taken from the docstring, such as "Height [m].".
+    """
     name = function.__name__
     line = _LINE.fullmatch((function.__doc__ or name).strip().partition("\n")[0])
     assert line is not None
@@ -204,7 +207,9 @@ def _record(requested: Requested, first: RunResult) -> StudyRecord:
 
 
 def records(requested: Sequence[Requested], first: RunResult) -> tuple[StudyRecord, ...]:
-    """Return the records of a study, given its first run up to a short time.
+    """Return the records of a study.
+
+    ``first`` is the first run of the study, up to a short time.  It provides labels, units and shapes of the records.
 
     Raises
     ------

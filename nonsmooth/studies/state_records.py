@@ -23,7 +23,10 @@ NAME = "stroboscopic"
 _AXES = {"q": "coordinate", "u": "velocity"}
 _REMEDY = "If a parameter that varies changes the frequency, make a study of its own for each of its values."
 _ROUND = 1e-9
-"""Part of a period by which the last recorded state may be after the end of the run, because of round-off."""
+"""A state that is due after the end of the run by up to this part of a period is recorded at the end.
+
+Such a delay is round-off.
+"""
 
 
 @final

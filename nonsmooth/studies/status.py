@@ -82,7 +82,10 @@ def records_of(study: xarray.Dataset) -> dict[str, xarray.DataArray]:
 
 
 def of_record(record: xarray.DataArray, valued: NDArray[np.bool_]) -> str:
-    """Return a text with the range of the numbers, or the count of each word, over the runs that have records."""
+    """Return a text with the values of a record: the range of numbers, or how often each word occurs.
+
+    ``valued`` is True for the runs that have records, shape of ``record``; other runs are left out.
+    """
     values = record.values[valued]
     if words := record.attrs.get("flag_meanings"):
         counted = ((word, int((values == i).sum())) for i, word in enumerate(words.split(" ")))

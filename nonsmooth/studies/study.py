@@ -34,7 +34,10 @@ if TYPE_CHECKING:
 
 EXECUTORS: Mapping[str, Callable[[], Executor]] = {"serial": Serial, "threads": Threads, "dask": Dask}
 _CHUNKS, _LARGEST = 40, 1000
-"""Default number of chunks, and largest default number of runs in a chunk."""
+"""Default number of chunks of a study, and largest number of runs in such a chunk.
+
+A study of more than 40000 runs has more chunks.
+"""
 _FIRST_SAMPLES = 2
 """Length of a short first run, in sample intervals.  It only provides labels, units and shapes for the records, so two
 intervals are enough."""
@@ -107,7 +110,10 @@ class Study:
         return tuple(one.name for one in self._work.records)
 
     def _first(self) -> RunResult:
-        """Return a short first run, of the first parameters that succeed; a run that fails here fails again later."""
+        """Return a short run of the first case that succeeds, which gives labels, units and shapes of the records.
+
+        At most ten cases are tried.  Their failures are not stored, because the cases fail again in the study.
+        """
         last: Exception = InvalidInput("study", "must have a run", None, "Add one.")
         for run in range(min(len(self), 10)):
             try:
@@ -120,7 +126,7 @@ class Study:
 
     @property
     def spec(self) -> str:
-        """Definition of the study as JSON; studies with the same definition give the same bits."""
+        """Definition of the study as JSON.  Studies with equal definitions give results that are equal bit by bit."""
         known = {
             "runs": dict(self._cases.described()),
             "sampling": dict(self._sampling.description),

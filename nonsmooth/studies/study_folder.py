@@ -87,7 +87,7 @@ class StudyFolder:
         sampling, cases : Sampling, CaseFactory
             The parameters of the runs, with their units and descriptions.
         chunk : int
-            Runs that are stored together.
+            Number of runs whose results are written together.
         attributes : mapping
             Attributes of the study; the names of its arrays are added.
 
@@ -140,7 +140,7 @@ class StudyFolder:
 
     @property
     def n_chunks(self) -> int:
-        """Number of chunks."""
+        """Number of chunks, the groups of runs whose results are written together."""
         return -(-self.n_runs // self.chunk)
 
     def layout(self, name: str) -> ArrayLayout:
@@ -215,7 +215,7 @@ class StudyFolder:
         return {run: str(text) for run, text in enumerate(self.read(_FAILURE)) if text}
 
     def damage(self) -> list[str]:
-        """Read all complete chunks, and return a message for each damaged array of a chunk."""
+        """Read all complete chunks, and return one message for each array of a chunk that cannot be read."""
         found = []
         for number in self.committed():
             for name in (*self.variables, _FAILURE):
@@ -229,7 +229,7 @@ class StudyFolder:
 def is_study(path: Path) -> bool:
     """True if the folder holds metadata of stored arrays ("zarr.json"), which mark a study that has begun.
 
-    Arrays of another program have this file, too.
+    A folder of another program may hold this file, too.  Opening such a folder as a study raises InvalidInput.
     """
     return (path / "zarr.json").exists()
 

@@ -68,7 +68,7 @@ class ChunkResult:
 
 
 class RunRow(NamedTuple):
-    """Result of a run: status, reason, the reason in words if it has no records, and values by record."""
+    """Result of a run: status, code of the reason, message if the run has no records, and values by name of record."""
 
     status: CaseStatus
     reason: int

@@ -37,8 +37,8 @@ class Contact:
     extents : tuple of float
         Radius of the sphere about the frame's origin that contains each shape [m].
     levers : tuple of float
-        Largest speed of each surface along its normal as it turns about its frame's origin, divided by the angular
-        velocity [m].
+        For each shape, an upper bound of the distance between the origin of its frame and the line of a surface normal
+        [m].  Its product with the angular velocity bounds the speed of the surface along its normal.
     normal, friction : NormalLaw, TangentialLaw
         The laws of sustained contact.
     impact : ImpactLaw or None
@@ -68,7 +68,7 @@ class Contact:
         frames: tuple[int, int] = (0, 0),
         name: str = "",
     ) -> Contact:
-        """Contact of two shapes, which give its attributes ``extents`` and ``levers``.
+        """Return a contact of two shapes; its ``extents`` and ``levers`` [m] are the ``extent`` and ``lever`` of each.
 
         Parameters
         ----------

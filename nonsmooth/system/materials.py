@@ -181,10 +181,11 @@ With more contacts, the distribution of static friction over them does not follo
 
 
 def check_sharing(where: str, laws: ContactLaws, n: int) -> None:
-    """Raise InvalidInput, naming ``where``, if more than two of ``n`` compliant contacts have static friction.
+    """Raise InvalidInput if more than two contacts between two bodies are compliant and have static friction.
 
-    All ``n`` contacts are between the same two bodies. Static friction is rigid, so its distribution over the contacts
-    is not unique. The friction bound of each contact vibrates with the load of the contact.
+    Static friction is rigid, so its distribution over the contacts is not unique. The distribution that is computed
+    does not follow changes of the normal forces of compliant contacts. ``n`` is the number of contacts between the
+    bodies, ``laws`` are their laws, and ``where`` begins the message.
     """
     if n <= _MOST or not isinstance(laws.normal, CompliantNormalLaw):
         return

@@ -64,8 +64,8 @@ def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ..
     words = {kind: kind_word(body) for kind, body in {type(body): body for body in bodies}.items()}
     kinds = ["" if name else words[type(body)] for body, name in zip(bodies, chosen, strict=True)]
     totals, taken = Counter(kinds), {*chosen}
-    # if only one body of a kind has no chosen name, its name is the kind without a number. If the user chose this word
-    # as the name of another body, it gets a number
+    # a single unnamed body of a kind is named by the kind, without a number. If the user gave this name to another
+    # body, the unnamed body gets a number
     free = {
         kind: (word for word in itertools.chain([kind] * (total == 1), _numbered(kind)) if word not in taken)
         for kind, total in totals.items()
@@ -124,7 +124,8 @@ class Naming:
     @property
     def bodies(self) -> tuple[str, ...]:
         """The names of the bodies."""
-        # made at the first use, because the search for kinds among the installed components takes a while
+        # the names are made at the first use: each contains the installed name of the body's class, and the search for
+        # this name among the installed components takes a while
         self._made = self._made or body_names(self._bodies, self._chosen)
         return self._made
 
@@ -181,7 +182,8 @@ def check_name(where: str, name: object, taken: Collection[str] = ()) -> None:
     Raises
     ------
     InvalidInput
-        If the name is not a text of words with single blanks, is taken, or contains a text of generated names (" - ").
+        If the name is no text or empty, has other blanks than single ones between words, is taken, or contains " - ",
+        "(" or ")", which generated names contain.
     """
     if not isinstance(name, str) or not name or name != " ".join(name.split()) or not name.isprintable():
         raise InvalidInput(where, "must be a text of words with single blanks", name, 'For example "left hammer".')

@@ -163,10 +163,10 @@ def installed_pair(first: Shape, second: Shape) -> Found | None:
 
 
 def _named_after(first: Shape, second: Shape) -> list[str]:
-    """Names of the installed kinematics that may fit two shapes, so that no other kinematics are imported.
+    """Names of the installed kinematics that may fit two shapes.
 
-    The name "ground-triangle_mesh" belongs to the classes Ground and TriangleMesh. A name without a hyphen may belong
-    to any classes.
+    The caller imports only the kinematics with these names. The name "ground-triangle_mesh" belongs to the classes
+    Ground and TriangleMesh. A name without a hyphen may belong to any classes.
     """
     kinds = [{_UPPER.sub("_", kind.__name__).lower() for kind in type(shape).__mro__} for shape in (first, second)]
     found = []
@@ -178,7 +178,7 @@ def _named_after(first: Shape, second: Shape) -> list[str]:
 
 
 _UPPER = re.compile(r"(?<!^)(?=[A-Z])")
-"""Place before an upper-case letter within the name of a class: the name is divided into words there."""
+"""Matches the place before each upper-case letter of a class name except the first: words of the name begin there."""
 
 
 def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:

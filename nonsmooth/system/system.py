@@ -39,12 +39,13 @@ class System(metaclass=Readable):
     bodies : sequence of Body
         The bodies; each object once.
     gravity : float or sequence of float
-        Gravity [m/s^2]: a number counts along -z, a vector of shape [3] has any direction.
+        Gravity [m/s^2]: a number g acts along -z, a vector of shape [3] acts in its own direction.
 
     Raises
     ------
     InvalidInput
-        If no body is given, a body is listed twice or is not a Body, or gravity is not finite or a negative number.
+        If no body is given, a body is listed twice, or an object is not a Body.  Also if gravity is not finite, is
+        larger than 1e4 m/s^2, or is given as a negative number.
     """
 
     def __init__(self, bodies: Sequence[Body], gravity: float | Sequence[float] = 9.81) -> None:
@@ -132,7 +133,10 @@ class System(metaclass=Readable):
         return tuple(self._watched)
 
     def about(self, body: Body) -> System:
-        """Copy of the system with only the contacts of one body, in the order declared."""
+        """Copy of the system with all bodies, but only the contacts of ``body``, in the order declared.
+
+        It is used to place the body, where only the gaps of its own contacts are needed.
+        """
         made = copy.copy(self)
         made._declared.rows = [row for row in self._declared.rows if any(one is body for one in row.bodies)]
         return made
@@ -187,7 +191,9 @@ class System(metaclass=Readable):
         self._joints.append(self._tie("joint", joint, first, second, frames, name))
 
     def load(self, load: Load, first: Body, second: Body, *, frames: tuple[int, int] = (0, 0), name: str = "") -> None:
-        """Add a load on the second body, and its opposite on the first; ``frames`` are the numbers of their frames.
+        """Add a load: its force acts on the second body, the opposite force on the first body.
+
+        ``frames`` has the number of the frame of the first and of the second body at which the force acts.
 
         Raises
         ------
@@ -316,8 +322,8 @@ class System(metaclass=Readable):
         """Add a contact with given kinematics.
 
         :meth:`contact` finds the kinematics of two shapes among the installed ones. This method takes any kinematics,
-        such as those under development, and shapes that no body has to carry. A scenario file cannot hold such a
-        contact.
+        such as those under development. It also takes shapes that belong to no body. A scenario file cannot hold such
+        a contact.
 
         Parameters
         ----------

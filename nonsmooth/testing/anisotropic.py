@@ -44,18 +44,19 @@ the puck: so short that the slip hardly changes."""
 _SLIGHT = 1e-4
 """Approach speed of a slight impact, relative to the slip speed: so small that the slip hardly changes."""
 _N_OTHERS = 24
-"""Number of forces on the bound that are compared with the force of the law."""
+"""Number of other forces on the friction bound. The law must refuse each that dissipates less than its own force."""
 _ELSEWHERE = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
-"""Rotation matrix of the body to which the law's axis is not fixed, oblique to the world axes."""
+"""Rotation matrix of the body that does not carry the axis of the friction law. It is oblique, because the orientation
+of this body must not change the force."""
 _AXIS_HEADING = number("axis_heading", -3.1, 3.1)
 _LEAN = number("axis_lean", -0.5, 0.5)
 _ANISOTROPIC = Claims()
 
 
 def anisotropic_rows(law: AnisotropicFrictionLaw, vanishing: tuple[str, ...]) -> list[Row]:
-    """Return the properties of an anisotropic friction law.
+    """Return the checks of an anisotropic friction law, one row for each required property.
 
-    Friction vanishes if the parameters named in ``vanishing`` are zero.
+    One of them checks that the friction force is zero if the parameters named in ``vanishing`` are zero.
     """
     first = rows([_ratios, _axis_and_body], lambda: variants(law), 1)
     found = [*rows([*COEFFICIENT, *_ANISOTROPIC], lambda: variants(law), DRAWS), limit_row(law, vanishing, _vanishes)]
@@ -105,9 +106,10 @@ def _maximum_dissipation(law: AnisotropicFrictionLaw, speed: float, heading: flo
 
 
 def _turns(law: AnisotropicFrictionLaw, heading: float, lean: float) -> dict[str, tuple[float, ...]]:
-    """Return unit quaternions of puck and slab that turn the axis of the friction bound into a given direction.
+    """Return the orientations of puck and slab as unit quaternions, by the name of the parameter.
 
-    The axis has the angle ``heading`` in the tangent plane and leans out of the plane by the angle ``lean`` [rad].
+    The body that carries the law's axis is turned so that the axis has the angle ``heading`` in the tangent plane and
+    leans out of this plane by the angle ``lean`` [rad]. The other body has an oblique orientation.
     """
     first = np.asarray(law.axis, dtype=float) / np.linalg.norm(law.axis)
     goal = np.array([*along(math.cos(lean), heading), math.sin(lean)])
@@ -146,8 +148,10 @@ def _after(
 ) -> tuple[Pair, float]:
     """Return the slip velocity of a puck of 1 kg on a slab at ``t_end`` [m/s], and the energy lost to friction [J].
 
-    All vectors have a component along the axis of the friction bound and a component across it. If ``approach`` [m/s]
-    is positive, the puck strikes the slab at the start.
+    Slip velocities and ``push``, a constant force on the puck [N], have a component along the axis of the friction
+    bound and a component across it. The axis has the angle ``heading`` in the tangent plane, and leans out of the plane
+    by ``lean`` [rad]. ``weight`` is the weight of the puck [N]. If ``approach`` [m/s] is positive, the puck strikes the
+    slab at the start.
     """
     speed = max(math.hypot(*slip), 1e-3)
     puck = Puck(push=(*_rotated(push, heading), 0.0), speed=_SLIGHT * speed)
@@ -168,7 +172,8 @@ def _sustained_contact(
         return f"it slips at rest under ({-held[0]:g}, {-held[1]:g}) N along the axis and across, below the bound"
     if not law.is_fulfilled((0.0, 0.0), load, held, 1e-9 * load):
         return f"is_fulfilled refuses the force ({held[0]:g}, {held[1]:g}) N at rest"
-    # a load proportional to the speed, so that the engine resolves the duration however slow the slip is
+    # the load is proportional to the slip speed. So the duration below, in which friction changes the slip by a small
+    # part, does not depend on this speed, and is never too short for the engine's time resolution
     slip, load = along(speed, heading), load * speed
     duration = _INSTANT * speed / (load * (mu(law, speed) + 1.0))
     after, _ = _after(law, slip, axis, lean, weight=load, t_end=duration)
@@ -192,7 +197,8 @@ def _force_and_impact_level(law: AnisotropicFrictionLaw, speed: float, heading: 
     # approach speed
     slip, approach = along(speed, heading), _SLIGHT / max(1.0, mu(law, speed)) * speed
     after, _ = _after(law, slip, axis, approach=approach, t_end=1e-12)
-    # normal impulse on 1 kg: the spring of the reference gives back half of the energy
+    # normal impulse on the puck of 1 kg: the approach speed plus the rebound speed. The reference impact law returns
+    # half of the energy, so the coefficient of restitution is the square root of 0.5
     pushed = approach * (1.0 + math.sqrt(0.5))
     t1, t2 = ((b - a) / pushed for a, b in zip(slip, after, strict=True))
     force = force_under_slip(law, slip)

@@ -49,23 +49,24 @@ _DRAWS = 12
 _UNKNOWN = "no_such_word"
 _SAME = 1e-6
 _STEP = 1e-3
-"""Step of the differences, in units of the shortest time in which a coordinate or velocity changes by its scale."""
+"""Time step of the difference quotients with which derivatives are compared, in units of the shortest time in which a
+coordinate or velocity changes by its scale. So the values hardly change in a step."""
 _SLOWEST = 1e-3
 """Lower bound of the rates of a motion [1/s], so that times derived from them are finite for a body at rest."""
 _FALLS = 20
 _RUN = 0.4
-"""Distance between the body's start and the state in which a short run begins, relative to the largest distance of the
-states in which the body is checked."""
+"""Initial state of a short run: the deviation of its coordinates and velocities from the body's default start, relative
+to the largest deviation in which the body is checked."""
 _TURNS = 3.0
-"""Duration of ballistic motion, in units of the shortest time in which a coordinate or velocity changes by its
-scale."""
+"""Longest time after which the closed form of ballistic motion is compared, in units of the shortest time in which a
+coordinate or velocity changes by its scale. The motion then has changed the body's state markedly."""
 _AXES, _POSE = slice(ROTATION, VELOCITY), slice(POSITION, VELOCITY)
 _EVERY, _FREE = Claims(), Claims()
 """Properties of every body, and properties of bodies with coordinates, respectively."""
 
 
 def check_body(body: Body) -> list[Property]:
-    """Return the properties of a body.
+    """Return the properties that every body must have, each with its check of this body.
 
     Parameters
     ----------
@@ -128,7 +129,8 @@ def _start(body: Body) -> None:
 def _writes_its_block(body: Body, at: State) -> str:
     """The evaluator writes every number that can be non-zero, whatever the block held, and nothing beyond the block."""
     call, (t, q, u), (start, rest) = plain(body), at, body.state()
-    # another state than ``at``: it is evaluated first, so that a number that is not written for ``at`` has its value
+    # a second state, which is evaluated into the block first. A number that the evaluator does not write for ``at``
+    # then keeps its value from the second state, and the comparison finds it
     before = 1.0 - t, start - 0.9 * (q - start) + 0.1, rest - 0.9 * (u - rest) + 0.1
     return left_over(lambda out: call(*at, out), lambda out: call(*before, out), block_size(body))
 

@@ -6,9 +6,10 @@ child process. Before each trial the child writes a report of the next call to a
 the traceback of the running code to the file and ends the process. The parent reads the file and starts another child
 for the next component.
 
-Components are sent by cloudpickle. The child cannot import some modules by name, such as a file of tests or of
-``nonsmooth check FILE.py:CLASS``: it loads them from their files. A child takes some seconds to start, so it serves all
-components in turn.
+Components are sent by cloudpickle. If the child cannot import the module of a component by its name, it loads the
+module from its file. Examples are a test file, and the file of ``nonsmooth check FILE.py:CLASS``.
+
+A child takes some seconds to start, so one child checks all components in turn.
 """
 
 from __future__ import annotations
@@ -42,11 +43,11 @@ TRIAL = 600.0 if PLAIN else 60.0
 CALL = 1.0
 """Time that a call of a component's function may take [s]: the engine calls it thousands of times a second."""
 _SLACK = 0.1
-"""Part of its time limit after which a running watchdog is set anew. It is not set anew for each call, because this
-costs as much as a short trial."""
+"""Part of the time limit that must pass before the watchdog's deadline is postponed again. The deadline is not
+postponed at each call, because this costs as much as a short trial."""
 
 
-# functions and classes of the parent process
+# The class and the functions below run in the parent process: they start a child process and ask it for outcomes.
 
 
 class _Child:
@@ -123,8 +124,8 @@ _NOTHING = Subject(None, lambda component: [], {})
 _children: list[_Child] = []
 """The child process: empty before the first check, then a list with one entry."""
 _ended: WeakKeyDictionary[Subject, tuple[str, Outcome]] = WeakKeyDictionary()
-"""For each component during whose check the child process ended: the property at fault and its outcome. Other
-properties of this component are not checked."""
+"""Components whose check ended the child process, for example by an endless loop. The value is the name of the checked
+property and its outcome. Other properties of such a component are not checked."""
 _LOCK = threading.Lock()
 
 

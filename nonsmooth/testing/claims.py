@@ -62,7 +62,10 @@ class Claim:
         return replace(self, inputs=tuple(inputs))
 
     def fault(self, component: Any, case: dict[str, float]) -> str:
-        """Return the fault of a component at an input, which may be an exception; "" if the claim holds."""
+        """Test the claim for one input; return the fault of the component as text, "" if the claim holds.
+
+        An exception that the component raises is a fault, too.
+        """
         about_to("it {takes}", component, case)
         try:
             with warnings.catch_warnings():

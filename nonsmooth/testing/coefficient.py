@@ -27,8 +27,10 @@ Pair = tuple[float, float]
 """Components of a tangential vector along the axis of the friction bound, and across it."""
 SPEED = number("slip_speed", 1e-4, 1e2, 1.0, is_log=True)
 HEADING = number("heading", -3.1, 3.1)
+"""Direction of a slip or a force [rad], from the axis of the friction bound."""
 FORCE = number("normal_force", 1e-2, 1e3, 1.0, is_log=True)
 SHARE = number("share", 0.0, 0.99)
+"""Size of a friction force, relative to the bound in its direction."""
 TURN = number("turn", -3.1, 3.1, 1.0)
 DRAWS = 10
 _ANY_SPEED = number("slip_speed", 1e-9, 1e3, 1.0, is_log=True)
@@ -157,7 +159,8 @@ def _certificate_under_slip(law: FrictionLaw, speed: float, heading: float, load
 
 @COEFFICIENT.claim(HEADING, FORCE, SHARE)
 def _certificate_at_rest(law: FrictionLaw, heading: float, load: float, share: float) -> str:
-    """At rest, the law accepts a force within the static bound and refuses a larger force."""
+    """At rest, the law accepts a friction force within the static bound, and refuses a force above the bound."""
+    # the accepted force is the part ``share`` of the bound in the direction ``heading``; the refused one is above it
     bound = times(load, force_on_bound(law, mu(law, 0.0), heading))
     size = math.hypot(*bound)
     outside = along(1.01 * size + 1e-3 * load, heading)

@@ -19,7 +19,7 @@ from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.testing.outcome import Broken, NotChecked, Row, name_of, says_of, words_of
 
 _FAR = 3.0
-"""Ratio between the given value of a parameter and the other values that are tried."""
+"""Checks also try each parameter at this multiple of its given value, and at the given value divided by it."""
 _JUST = 1e-9
 """Distance of a value past a bound of its range, relative to the bound, at which a component must refuse the value."""
 
@@ -52,7 +52,7 @@ def numbers_of(component: Any) -> dict[str, tuple[Any, Rule]]:
 
 
 def variants(component: Any) -> list[Any]:
-    """Return the component as given, and copies with one parameter each at another value of its range."""
+    """Return the component, and copies of it; in each copy a single parameter has another value within its range."""
     found = [component]
     for name, (value, rule) in numbers_of(component).items():
         for other in _inside(value, rule):
@@ -71,7 +71,7 @@ def component_rows(component: Any) -> list[Row]:
 def _declared_bounds(component: Any) -> None:
     """A parameter outside of its declared range, or not a finite number, raises InvalidInput.
 
-    A parameter inside is accepted, if necessary with other values of the other parameters.
+    A value inside of the range is accepted, at least together with some values of the other parameters.
     """
     owner = type(component)
     for name, (field, rule) in rules(owner).items():
@@ -90,8 +90,8 @@ def _declared_bounds(component: Any) -> None:
 def _acceptable(component: Any, name: str, value: float, rule: Rule) -> bool:
     """True if the component accepts a value of a parameter with some values of the other parameters.
 
-    A component may accept integers only, so the value rounded to an integer is tried, too. It may also refuse a bound,
-    so a value near the bound is tried for the bound.
+    A component may accept integers only, so the value rounded to an integer is tried, too. A component may refuse a
+    bound of the range, so a value near this bound is tried, too, if ``value`` is a bound.
     """
     low, high = max(rule.minimum, rule.above), rule.maximum
     near = [value, float(round(value))]
@@ -126,7 +126,8 @@ def _others(component: Any, name: str) -> Iterator[dict[str, Any]]:
             yield {other: value}
     for pick in (min, max):
         yield {other: pick(values) for other, values in ranges.items() if values}
-    # components of a unit vector: all zero, then all zero but one
+    # parameters that may be zero or negative can be the components of a unit vector. So all of them are zero at first,
+    # then all except a single one
     low = {other: max(rule.minimum, rule.above) for other, (_, rule) in numbers_of(component).items()}
     zero = {other: 0.0 for other in ranges if low[other] < 0.0}
     yield zero
@@ -140,7 +141,8 @@ def _round_trip(component: Any) -> None:
     declared = {name: getattr(component, name) for name, (field, _) in rules(owner).items() if field.init}
     fields = [field.name for field in dataclasses.fields(component) if field.init]
     rest = {name: getattr(component, name) for name in fields if name not in declared}
-    # texts and numbers are passed as text; JSON returns a tuple as a list
+    # the route "words" passes numbers and strings as text, as the command line does. The route "JSON" makes tuples of
+    # lists, because JSON has no tuples
     words = {name: str(value) for name, value in declared.items() if isinstance(value, (int, float, str))}
     others = rest | {name: value for name, value in declared.items() if name not in words}
     routes: dict[str, Callable[[], Any]] = {

@@ -14,8 +14,8 @@ _PIECES = 64
 _SUSPECTS = 3
 _HALVINGS = 30
 _LEFT = 1e-4
-"""A function jumps if at least this part of a change remains while its interval is halved 30 times: the change of a
-smooth function shrinks to 1e-9."""
+"""Least part of a change that must remain after 30 halvings of its interval, so that the change is treated as a jump.
+The change of a smooth function shrinks to 1e-9."""
 _SAME = 1e-6
 """Allowed deviation of a derivative from its differences, relative to the size of the differences."""
 _ROUND_OFF = 1e-14

@@ -34,9 +34,9 @@ _EXACT = 1e-6
 """Allowed error of free fall: position [m] and angular velocity [rad/s]. Also the allowed relative energy residual, if
 the engine's ``promised_residual`` is None."""
 _THROUGH = 0.1
-"""Allowed overlap, relative to the height of a fall or the radius of a ball, and allowed relative error of the height
-to which a plate throws a ball. It is large, because an engine with fixed steps finds contacts only at the ends of
-steps."""
+"""Allowed overlap, relative to the height of a fall or to the radius of a ball. It is also the allowed relative error
+of the height to which a plate throws a ball. It is large, because an engine with fixed steps finds contacts only at the
+ends of steps."""
 _HEAP_SAMPLES = 60
 _HEIGHT = 0.5 * scenes.GRAVITY * (0.5 * _END) ** 2
 """Height of a fall that ends in the middle of the run [m]."""
@@ -61,7 +61,7 @@ def _rows(engine: Engine) -> list[Row]:
 @final
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """An engine, and the run of a free body that several properties share."""
+    """An engine and its run of a free body. The run is computed once, and several properties are checked with it."""
 
     engine: Engine
 
@@ -126,7 +126,7 @@ class _Trial:
 
 @_ENGINE.claim()
 def _names(trial: _Trial) -> None:
-    """`counts` and `settings` name numbers of the workspace, and `own` declares further numbers."""
+    """The engine's `counts` and `settings` name existing numbers of the workspace, and its `own` only new numbers."""
     assemble(trial.system, trial.engine)
 
 

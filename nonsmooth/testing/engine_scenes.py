@@ -37,7 +37,11 @@ def _touch(system: System, first: Body, second: Body, share: float) -> None:
 
 
 def tumbling() -> System:
-    """Return a box that tumbles without gravity. A ball comes first, so that the box has not the first coordinates."""
+    """Return a box that tumbles without gravity, and a ball at rest.
+
+    The ball is the first body. So the box's coordinates do not begin at index 0 of the system's coordinates, and a
+    wrong offset in an engine shows.
+    """
     ball, box = _made("bodies", "ball", RADIUS, mass=1.0), _made("bodies", "box", 0.1, 0.2, 0.3, mass=1.0)
     system = System([ball, box])
     system.exclude(ball, box)
@@ -65,9 +69,10 @@ def thrown() -> System:
 
 
 def thrown_height(time: float) -> float:
-    """Return the height of the thrown ball's lowest point over the plate's mean level [m], after the throw.
+    """Return the height of the thrown ball's lowest point over the plate's mean level [m], in closed form.
 
-    ``time`` counts from the start of the run [s].
+    ``time`` counts from the start of the run [s]. The plate throws the ball at the time 1 / FREQUENCY. The formula
+    holds from then until the ball's next impact.
     """
     restitution, speed = math.sqrt(_SHARE), 2.0 * math.pi * FREQUENCY * AMPLITUDE
     after = (1.0 + restitution) * speed + restitution * GRAVITY / FREQUENCY

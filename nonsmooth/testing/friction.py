@@ -45,10 +45,10 @@ _FRICTION = Claims(fewest=FEWEST)
 
 
 def check_friction_law(law: FrictionLaw, *, coefficients: Sequence[str] | None = None) -> list[Property]:
-    """Return the properties of a friction law.
+    """Return the properties that a friction law must have, each with its check of this law.
 
-    An anisotropic law has properties of its own. A law with inner states is first checked at its initial states, as any
-    other law. Then its states are checked.
+    An anisotropic law must have other properties than an isotropic one. A law with inner states must have the
+    properties of an isotropic law at its initial states, and further properties that concern the states.
 
     Parameters
     ----------
@@ -68,7 +68,8 @@ def _rows(law: FrictionLaw, coefficients: Sequence[str] | None) -> list[Row]:
     found = [*table([*COEFFICIENT, *_FRICTION]), limit_row(law, vanishing, _vanishes)]
     if not isinstance(law, StatefulFrictionLaw):
         return all_rows(law, lambda: [coefficient_function(one) for one in variants(law)], found)
-    # the rates first: invalid initial states end the check there
+    # `rates_function` comes first: it raises an error if the initial states are invalid. So the coefficient is not
+    # called with invalid states
     functions = rates_function, coefficient_function
     return all_rows(
         law,
@@ -114,8 +115,8 @@ def _force_and_impact_level(law: FrictionLaw, speed: float, heading: float) -> s
     """In a slight impact, which hardly changes the slip, the ratio of friction to normal impulse is that of sliding."""
     slip = along(speed, heading)
     normal, traction = _contact(law, [0.0, 0.0, -1.0], slip)
-    # friction changes the slip by about the coefficient times the approach speed: a large coefficient needs a lower
-    # approach speed
+    # friction changes the slip by about the coefficient times the approach speed. So the approach speed is lower for a
+    # large coefficient, and the slip hardly changes
     size = max(1.0, mu(law, speed))
     result = _impact(law, point((*slip, -_SLIGHT / size * speed)))
     t1, t2 = (float(x) / float(result.normal_impulse[0]) for x in result.tangential_impulse[0])

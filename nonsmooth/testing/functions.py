@@ -173,7 +173,7 @@ class CheckedFunction:
         about_to(f"{words} {{takes}} in {self.place}", self.owner, seconds=CALL, prop=prop)
 
     def has_come_back(self) -> None:
-        """Report to the watchdog that the call has ended; the next actions may take longer."""
+        """Report to the watchdog that the call has ended. The limit for the time of a trial then applies again."""
         about_to("it {takes}", self.owner)
 
     def plain(self, *given: Any) -> Any:
@@ -181,7 +181,7 @@ class CheckedFunction:
         return self._result(plain_caller(self.function, self.form, self.offered), given)
 
     def compiled(self) -> Caller:
-        """Return the compiled function; a call gives its number or its block, as :meth:`plain` does."""
+        """Return the compiled function. A call returns its number, or the block of numbers that the function writes."""
         call = compiled_caller(self.function, self.form, self.offered, type(self.owner).__name__)
         return lambda *given: self._result(call, given)
 
@@ -212,7 +212,7 @@ class _Functions:
 
     @cached_property
     def all(self) -> Sequence[CheckedFunction]:
-        """The functions of the component."""
+        """The functions that are checked, of the component and of its variants; they are made at the first use."""
         return self.made()
 
     def check(self, name: str) -> None:
@@ -241,7 +241,8 @@ class _Functions:
 
         The latter are checked only if all functions can be run.
         """
-        # the check "writes its block" has no row here: it has no docstring, because a claim of the component states it
+        # a check without docstring gets no row. This is the check "writes its block": the property of this name is a
+        # claim of the component
         own = [
             Row(name, says_of(look), functools.partial(self.check, name))
             for name, look in _STAGES.items()
@@ -312,7 +313,7 @@ def _finite_numbers(function: CheckedFunction) -> None:
         except Exception as error:
             reason = f"{call} raises {type(error).__name__}: {error}, in {function.place}{_raised_at(error)}"
             raise function.broken(reason) from error
-        # a block comes as an array
+        # a function that writes its results into a block gives an array here, any other function a number
         kinds = (int, float) if FORMS[function.form].returns else (np.ndarray,)
         if isinstance(result, bool) or not isinstance(result, kinds):
             cause = " (a power of a negative number)" if isinstance(result, complex) else ""

@@ -18,12 +18,12 @@ from nonsmooth.types import Array
 
 _NUMBERS, _DRAWS = 24, 24
 _WHILE = 0.5
-"""Time before and after each input in which the value of the guard is searched for jumps [s]; coordinates change by up
-to 0.5 in it."""
+"""The value of the guard is searched for jumps from this time before each input to this time after it [s]. In this time
+a coordinate changes by up to 0.5."""
 
 
 def check_guard(guard: Guard, *, numbers: int = _NUMBERS) -> list[Property]:
-    """Return the properties of a guard.
+    """Return the properties that every guard must have, each with its check of this guard.
 
     Parameters
     ----------
@@ -49,7 +49,8 @@ def _state_of(numbers: int) -> Drawn:
 
 def _state(case: Case, dt: float = 0.0) -> tuple[float, Array, Array]:
     q, u = (np.array([value for name, value in case.items() if name.startswith(letter)]) for letter in "qu")
-    # q changes at the rates u; u changes at the numbers of q in reverse order, so that every number changes
+    # an artificial motion in which every entry of q and u changes: the rate of q is u, and the rate of u is q in
+    # reverse order. It need not be a motion of a system, since the guard is checked as a function of t, q and u
     return case["t"] + dt, q + dt * u, u + dt * q[::-1]
 
 

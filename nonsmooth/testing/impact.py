@@ -41,7 +41,8 @@ _STORED = number("stored", 1e-3, 1e3, 1.0, is_log=True)
 _GRID = tuple(np.geomspace(1e-9, 1e2, 23).tolist())
 _ANY_MU = number("friction", 0.0, 0.6)
 _OF_FUNCTION = 0.3
-"""Friction coefficient of the inputs with which the function ``impulses`` of a map is tried: a usual value."""
+"""Friction coefficient of the contacts for which the function ``impulses`` of an impact map is called: a usual value.
+An impact map is a law that computes impulses directly from the velocities before an impact."""
 _SHARED, _PROCESS, _MAP = Claims(fewest=FEWEST), Claims(fewest=FEWEST), Claims()
 """Claims about all impact laws, about processes and about maps, respectively; ``fewest`` limits inputs in plain
 mode."""
@@ -261,7 +262,7 @@ def _force(law: ImpactProcess, indentation: float) -> str:
 
 @_PROCESS.claim(_RATE)
 def _efficiency(law: ImpactProcess, drawn: float) -> str:
-    """The efficiency (part of the stored energy that is returned) is 1 at negative rates, and 0 to 1 at others."""
+    """The efficiency (returned part of the stored energy) is 1 if the gap rate is negative, and 0 to 1 otherwise."""
     efficiency = plain_caller(law.efficiency, "scalar", law.parameters())
     for rate in (0.0, drawn, *_GRID):
         if rate > 0.0 and efficiency(-rate) != 1.0:
@@ -296,7 +297,7 @@ def _is_alone(law: ImpactLaw) -> bool:
 
 
 def _map_functions(law: ImpactMap) -> list[CheckedFunction]:
-    """Return the function ``impulses`` of a map, to be checked with one contact and with two contacts.
+    """Return the function ``impulses`` of an impact map, to be checked with one contact and with two contacts.
 
     A law of a single contact is checked with one contact only.
     """

@@ -19,11 +19,11 @@ Case = dict[str, float]
 MOST_TRIALS = 300
 """Largest number of inputs that are tried to simplify a failing input."""
 _STEPS = 1000
-"""Number of values of a number that can be drawn between its simplest value and a bound; so few that messages show
-numbers of few digits."""
+"""Number of values between the simplest value of a drawn number and each of its bounds. With so few values, three
+digits suffice to show a value in a message."""
 _ORIGIN = 7_001_001_001
-"""Integer that hypothesis draws for the simplest value. Hypothesis also draws constants of loaded modules; they are
-smaller, and so do not occur among the drawn integers."""
+"""Integer that stands for the simplest value when hypothesis draws integers. Hypothesis also tries constants that it
+finds in loaded modules. These are smaller than this integer, so they are outside of the range of drawn integers."""
 _PACKAGES = ("hypothesis", "cloudpickle")
 
 
@@ -56,7 +56,11 @@ class DrawnNumber:
         return 2 * _STEPS if self.low < self.simplest < self.high else _STEPS
 
     def at(self, step: int) -> float:
-        """Value at a step. Steps 1, 2, 3, ... go up, down, up, ..., away from the simplest value."""
+        """Value number ``step`` of a sequence that moves away from the simplest value; step 0 is the simplest value.
+
+        Steps 1, 2, 3, ... are alternately above and below the simplest value. If the simplest value is a bound, all of
+        them are on the same side of it.
+        """
         if step == 0:
             return self.simplest
         if self.n_steps == _STEPS:
@@ -143,9 +147,10 @@ def _case(numbers: Sequence[DrawnNumber], steps: Sequence[int]) -> Case:
 
 @functools.cache
 def _drawn(sizes: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
-    """Return ``count`` tuples of steps (:meth:`DrawnNumber.at`), one step for each number of an input.
+    """Return ``count`` inputs, each as a tuple of integers; there is one integer for each number of an input.
 
-    Tuples are drawn once for equal ``sizes`` and ``count``, and shared by all properties with such inputs.
+    :meth:`DrawnNumber.at` computes the value of a number from its integer. ``sizes`` are the largest integers. Calls
+    with equal ``sizes`` and ``count`` return the same tuples, so these are drawn only once.
     """
     if not sizes:
         return [()]
@@ -171,7 +176,8 @@ def _run(sizes: tuple[int, ...], count: int, trial: Callable[[tuple[int, ...]], 
         database=None,
         deadline=None,
         phases=[Phase.generate, *([Phase.shrink] if shrinks else [])],
-        # trials by the engine take long, and a test of an author may draw a component by hypothesis itself
+        # hypothesis must not complain of slow trials, because the engine takes some time. It must not complain of
+        # nested tests either: a user's test may draw a component by hypothesis, and then check it here
         suppress_health_check=[HealthCheck.too_slow, HealthCheck.nested_given],
         verbosity=Verbosity.quiet,
     )

@@ -32,7 +32,7 @@ _PARTS = {
     "second point": slice(POINT_B, ROW_BIAS),
     "bias": slice(ROW_BIAS, JOINT_ROW),
 }
-"""Slice of each part in the numbers of a row, by the name of the part."""
+"""Slice of each quantity in the array of numbers that a joint writes for a constraint row, by the quantity's name."""
 _MOST_ROWS = 6
 _TRIES, _STEPS = 12, 40
 _CLOSED = 1e-12
@@ -97,9 +97,10 @@ def _writes_its_block(joint: Joint, move: Movement) -> str:
 
 
 def _unlike(name: str, given: Array, found: Array, known: float) -> str:
-    """Compare a number of each constraint row, ``given`` by the joint, with differences ``found``; "" if all agree.
+    """Return a message on the constraint row with the largest mismatch of a quantity; "" if all rows agree.
 
-    ``known`` is the bound of the error of the differences.
+    ``given`` are the values by the joint, one for each row. ``found`` are the values by difference quotients, and
+    ``known`` is the bound of their error. ``name`` is the name of the quantity, for the message.
     """
     worst = int(np.argmax(np.abs(given - found)))
     if abs(given[worst] - found[worst]) <= _SAME * (1.0 + float(np.max(np.abs(found)))) + 10.0 * known:
@@ -184,6 +185,6 @@ def _independent_rows(joint: Joint) -> None:
         if np.min(sizes) == 0.0:
             raise Broken("it has neither axis nor moment", "row", int(np.argmin(sizes)))
         ranks.append(int(np.sum(np.linalg.svd(lines / sizes[:, None], compute_uv=False) > _INDEPENDENT)))
-    # a single pose may be singular
+    # rows may be dependent at a single pose, which is then singular: the check fails if they are dependent at all poses
     if ranks and max(ranks) < joint.n_rows:
         raise Broken(f"only {max(ranks)} of its rows are independent", "n_rows", joint.n_rows)

@@ -33,7 +33,8 @@ _PLACE = (0.31, -0.23, 0.37)
 """Place of the second body in the simplest input, relative to the largest distance of the bodies (``reach``). The first
 body is at the origin, and the place is off its axes."""
 _DEEP = 0.1
-"""Largest penetration of two bounded bodies that is checked, in units of the largest distance of the bodies."""
+"""Largest penetration of two bounded bodies at which a contact is checked, relative to the largest distance at which
+bodies are drawn (``reach``). Deeper inside, the normal may be undefined."""
 _RATE, _BIAS = 1e-7, 1e-5
 """Allowed deviation of the gap rate, and of the second-order terms of gap and slip (the derivatives of gap rate and
 slip velocity while u' = 0), from differences; relative to their size."""
@@ -94,9 +95,10 @@ def _rows(kinematics: ContactKinematics, shapes: tuple[Shape, Shape], reach: flo
 
 
 def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set[int]) -> None:
-    """Try a claim that needs inputs at which the contact is smooth, with 400 inputs if none of the first 40 is.
+    """Try a claim that can be tested only at inputs at which the contact is smooth.
 
-    The trials make the set ``smooth`` non-empty at such an input. Raises Broken if there is none.
+    The claim is tried with 40 inputs. If the contact is smooth at none of them, it is tried with 400 inputs. A trial
+    adds an entry to the set ``smooth`` if the contact is smooth at its input. Raises Broken if the set remains empty.
     """
     smooth.clear()
     for count in (_DRAWS, _MOST_DRAWS):
@@ -153,7 +155,7 @@ class _Placed:
     reach : float
         Largest distance of the bodies [m].
     smooth : set of int
-        Set that all inputs share: it is empty until an input is found at which the contact is smooth.
+        Set that all inputs share. It becomes non-empty, with the entry 1, when the contact is smooth at an input.
     """
 
     case: Case
@@ -225,7 +227,7 @@ def _check_between(kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -
 
 @_AT_PLACES.claim(GIVEN, n_inputs=80)
 def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The kinematics writes every number of the geometry block that can be non-zero, and nothing beyond the block."""
+    """A call of the kinematics writes every number of its block that is not always zero, and nothing outside of it."""
     case, call = at.case, plain_caller(kinematics.evaluator, "pair", kinematics.parameters())
     turned_there = case | {"turn_a_x": case["turn_a_x"] + 1.0}
     here = tuple(map(_frame, _poses(case)))
@@ -297,7 +299,8 @@ def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
 @_MOVED.claim(GIVEN)
 def _tangent_follows_the_first_body(kinematics: ContactKinematics, at: _Placed) -> str:
     """If both bodies turn together, the first tangent of the contact turns with them."""
-    # turn about the normal: a tangent that is wrongly fixed in space does not turn then
+    # the bodies turn about the normal: in such a turn, a tangent that is wrongly fixed in space keeps its direction,
+    # and so is found
     return at.moved_together(0.3 * at.put().geometry[_NORMAL], _TANGENT, "first tangent")
 
 

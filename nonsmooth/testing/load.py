@@ -24,9 +24,11 @@ _DRAWS = 24
 _SAME = 1e-9
 _TIME = number("t", 0.0, 1.0)
 _LATER = 0.37
-"""Time after which a load is evaluated again [s]."""
+"""Time between two evaluations of a load at the same state [s]. A load that differs between them depends on time. The
+time is not a round number, because a periodic load has the same force after a multiple of its period."""
 _WHILE = 0.2
-"""Time before and after each input in which force and moment are searched for jumps while the frames move [s]."""
+"""Force and moment are searched for jumps from this time before each input to this time after it, while the two frames
+move [s]."""
 _PARTS = {
     "force": slice(FORCE, LOAD_POINT),
     "point": slice(LOAD_POINT, LOAD_MOMENT),
@@ -37,15 +39,16 @@ _LOAD, _FREE = Claims(), Claims()
 
 
 def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
-    """Return the properties of a load.
+    """Return the properties that every load must have, each with its check of this load.
 
     Parameters
     ----------
     load : Load
         The load; it is checked between two frames about a metre apart.
     tied_to_space : bool, optional
-        True if the load depends on directions, places or speeds in space, as weight, wind and drag do. Then it is not
-        checked with bodies that move together. A class for which this always holds declares it in ``departures``.
+        True if the load depends on directions, places or speeds in space, as weight, wind and drag do. Then the load is
+        not checked with bodies that move together. If this holds for all objects of a class, the class can name the
+        failing property in its attribute ``departures`` instead.
     """
     return properties(load, _rows, tied_to_space=tied_to_space)
 
@@ -67,7 +70,7 @@ def _look(load: Load, t: float, at: Frames) -> Array:
 
 @_LOAD.claim(_TIME, MOVEMENT)
 def _writes_its_block(load: Load, t: float, move: Movement) -> str:
-    """The load writes every number that can be non-zero, and nothing beyond the block."""
+    """A call of the load writes every number of its block that is not always zero, and nothing outside of it."""
     call, here, there = plain_caller(load.evaluator, "load", load.parameters()), move.at(), move.mirrored.at()
     return left_over(lambda out: call(t, *here, out), lambda out: call(1.0 - t, *there, out), LOAD)
 

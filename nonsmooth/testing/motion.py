@@ -27,12 +27,12 @@ _SPAN = 3.0
 _STEP = 1e-3
 """Step of the differences, in units of the time scale."""
 _ELSEWHEN = 0.637
-"""Time between an input and another input, in units of the time scale. The motion writes its block at the other input
-first: a number that it leaves unwritten at the input then shows."""
+"""Time between an input and a second input that is evaluated before it, in units of the time scale. If the motion does
+not write a number of its block at the input, the number from the second input remains and shows."""
 _PIECES, _BENT = 16, 0.15
-"""Number of pieces of a time scale, and largest deviation of a value from a straight line within a piece, relative to
-the value's size. A sine whose period is a third of the time scale deviates more, so the time scale is too long for
-it."""
+"""Check of the declared time scale: the number of pieces into which the time scale is cut, and the largest deviation of
+a value from a straight line within a piece, relative to the value's size. A sine with a period of a third of the time
+scale deviates more. So a motion with such a sine fails the check: its time scale is too long."""
 _PARTS = {
     "position": slice(POSITION, ROTATION),
     "rotation": slice(ROTATION, VELOCITY),
@@ -104,7 +104,7 @@ def _positive_time_scale(motion: Motion) -> None:
 
 @_MOTION.claim(GIVEN)
 def _writes_its_block(motion: Motion, t: float) -> str:
-    """The motion writes every number that can be non-zero, and nothing beyond the block."""
+    """A call of the motion writes every number of the frame's block that is not always zero, and nothing outside."""
     before = abs(t - _ELSEWHEN * _unit(motion))
     return left_over(functools.partial(_call, motion, t), functools.partial(_call, motion, before), FRAME)
 

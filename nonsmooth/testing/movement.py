@@ -16,15 +16,14 @@ Frames = tuple[Array, Array]
 """The frame blocks of the first and of the second body, shape [24] each."""
 _UNIT = (1.0, 0.0, 0.0, 0.0)
 _PLACE = (0.31, -0.23, 0.37)
-"""Place of the second frame in the simplest input of a check [m]; the first frame is at the origin. The place is
-off the first frame's axes."""
+"""Place of the second frame in the simplest input of a check [m], off the axes of the first frame at the origin."""
 _TURNS = {"a": (0.12, -0.05, 0.15), "b": (-0.1, 0.2, 0.08)}
 """Turns of both frames in the simplest input of a check [rad]: no axis of one frame is parallel to an axis of the
 other."""
 _TURN = 0.35
-"""Largest component of a turn [rad]: the frames then differ by less than a right angle, so that angles are unique."""
+"""Largest component of a turn [rad]: the two frames then differ by less than 90 degrees, so angles are unique."""
 STEP = 1e-3
-"""Step of the differences [s], in which the frames move by some millimetres and milliradians."""
+"""Time step of the finite differences [s]: the frames move by some millimetres and milliradians in it."""
 SHIFT, TURN = np.array([0.3, -0.2, 0.7]), rotation(turned(_UNIT, (0.4, -0.3, 0.5)))
 """Shift [m] and rotation matrix by which both bodies are moved together, to check that no result depends on it."""
 
@@ -37,17 +36,27 @@ def three(case: Case, name: str) -> Array:
 @final
 @dataclass(frozen=True)
 class Movement:
-    """Two frames with drawn places, velocities and accelerations, which are the numbers in ``case``."""
+    """Two moving frames, as input of a check. ``case`` has the random numbers of the frames, such as "velocity_a_x".
+
+    For each frame, "a" and "b", these are the turn [rad], and the velocities and accelerations at the start. The place
+    of the second frame [m] is relative to the first one, which starts at the origin. :data:`MOVEMENT` draws them.
+    """
 
     case: Case
 
     def at(self, dt: float = 0.0) -> Frames:
-        """Return the blocks of the two frames after a time [s]."""
+        """Return the numbers of frame a and of frame b at the time ``dt`` [s] after the drawn state.
+
+        They are position, axes, velocities and accelerations, shape [FRAME] for each frame.
+        """
         return self._block("a", np.zeros(3), dt), self._block("b", three(self.case, "place"), dt)
 
     @property
     def mirrored(self) -> Movement:
-        """Another movement: each number x of this movement is replaced by 0.11 - 0.9 x, so that the numbers differ."""
+        """A second movement, which differs from this one in every number: x is replaced by 0.11 - 0.9 x.
+
+        It is evaluated before this one, so that a number which a component leaves unwritten shows.
+        """
         return Movement({name: -0.9 * value + 0.11 for name, value in self.case.items()})
 
     @property
@@ -59,7 +68,8 @@ class Movement:
     def _block(self, side: str, start: Array, dt: float) -> Array:
         velocity, acceleration = three(self.case, f"velocity_{side}"), three(self.case, f"acceleration_{side}")
         spin, spin_up = three(self.case, f"spin_{side}"), three(self.case, f"spin_up_{side}")
-        # a turn at the constant rate spin, followed by a turn about a fixed axis at the rising rate spin_up * dt
+        # the rotation matrix is R(dt^2 / 2 * spin_up) R(dt * spin) R(turn), where R turns by a rotation vector in world
+        # axes. At dt = 0 the angular velocity is spin, and the angular acceleration is spin_up
         quickening = rotation(turned(_UNIT, 0.5 * dt * dt * spin_up))
         own = rotation(turned(turned(_UNIT, three(self.case, f"turn_{side}")), dt * spin))
         carried = quickening @ spin

@@ -31,7 +31,7 @@ _TOLERANCE = 1e-9
 _DRAWS, _DRAWS_COMPLIANT = 12, 8
 _RIGID = Claims()
 _DEPTH = number("depth", 1e-2, 1e2, 1.0, is_log=True)
-"""Indentation, in units of the indentation under 1 N at rest."""
+"""Drawn indentation of the contact, relative to the indentation at which the law's force is 1 N at rest."""
 _SPEED = number("closing_rate", 1e-3, 10.0, 1.0, is_log=True)
 _SHARE = number("share", 0.01, 1.0, 1.0)
 _FACTOR = number("factor", 1.001, 3.0, 2.0)
@@ -52,7 +52,8 @@ _NOTHING = 1e-9
 """Largest force that is taken as zero [N]."""
 _POINTS = 2048
 _GAIN = 1e-4
-"""Allowed gain of energy in a cycle, relative to the exchanged energy: the error of the sum over the cycle."""
+"""Energy that a contact may give off in a cycle, relative to the exchanged energy. It allows for the error with which
+the energy is summed over the steps of the cycle."""
 _SAME = 1e-6
 """Allowed difference of two integrations of an impact: of the indentation in units of the depth, and of the rate in
 units of the approach speed. It is ten times the error of the engine."""
@@ -217,8 +218,9 @@ def _pulls_within_its_reach(law: CompliantNormalLaw, depth: float, share: float,
 
 
 def _wave(second: float, phase: float) -> Array:
-    """Return values between 0 and 1 over one period of the sum of two sines, shape [_POINTS + 1].
+    """Return one period of a varying indentation, as values between 0 and 1, shape [_POINTS + 1].
 
+    It is the sum of two sines, shifted and scaled. The check of dissipation moves a contact along it and back.
     The second sine has twice the frequency, the amplitude ``second`` and the phase ``phase`` [rad].
     """
     angle = np.linspace(0.0, 2.0 * math.pi, _POINTS + 1)
@@ -228,7 +230,7 @@ def _wave(second: float, phase: float) -> Array:
 
 @_COMPLIANT.claim(_DEPTH, _SPEED, _RATE_BACK, _WAVE)
 def _dissipation(law: CompliantNormalLaw, drawn: float, speed: float, rate_back: float, wave: Array) -> str:
-    """The force adds no energy in a closed cycle of the indentation, and none while a contact closes and opens."""
+    """The force adds no energy in a closed cycle of the indentation, and no energy in an impact."""
     depth = _depth(law, drawn)
     span, quarter = depth + law.reach, np.linspace(0.0, 0.5 * math.pi, _POINTS + 1)
     inward, outward = depth * np.sin(quarter), -law.reach + span * np.cos(quarter)
@@ -272,7 +274,8 @@ def _certificate(law: CompliantNormalLaw, depth: float, speed: float, share: flo
 def _impact(law: CompliantNormalLaw, drawn: float, speed: float) -> str:
     """In an impact, a mass moves in the engine as in an independent integration of m x'' = -F(x, x')."""
     depth, force = _depth(law, drawn), _plain(law)
-    # the mass m follows from m v^2 = F depth, with the largest of these forces F
+    # the mass m is chosen so that the impact reaches about ``depth``: m v^2 = F depth. F is the largest of the forces
+    # at small and at full indentation, at rest and at the approach speed v
     load = max(abs(force(x, rate, speed)) for x in (1e-9 * depth, depth) for rate in (0.0, speed))
     mass, unit = load * depth / speed**2, depth / speed
 

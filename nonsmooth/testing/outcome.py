@@ -23,7 +23,9 @@ class NotChecked(NonsmoothError, unittest.SkipTest):
 
 
 class Broken(Exception):
-    """A fault that a check finds; the :class:`PropertyFailed` made from it adds the names of component and property.
+    """Raised inside of a check that finds a fault in a component.
+
+    The user gets a :class:`PropertyFailed`, which is made from it and has the names of component and property, too.
 
     Parameters
     ----------

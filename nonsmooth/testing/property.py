@@ -120,7 +120,8 @@ class Property:
     def _judge(self, found: Outcome) -> None:
         print(found.printed, end="")
         thing, holds = self.owner.__name__, found.kind == "holds"
-        # a function of a script or a notebook loses its file name when it is sent to the child process
+        # a function of a script or a notebook loses its file name when it is sent to the child process, which then
+        # writes `_DYNAMIC` in the reason. Replace it by the file of the component's class
         reason = (
             found.reason.replace(_DYNAMIC, inspect.getfile(self.owner)) if _DYNAMIC in found.reason else found.reason
         )

@@ -78,7 +78,7 @@ class ReferenceFriction(FrictionLaw):
     def is_fulfilled(
         self, slip: tuple[float, float], normal_force: float, tangential_force: tuple[float, float], tolerance: float
     ) -> bool:
-        """True if the friction force lies in the friction disc [N]."""
+        """True if the friction force is at most mu times the normal force, within ``tolerance`` [N]."""
         return math.hypot(*tangential_force) <= self.level * normal_force + tolerance
 
 
@@ -189,7 +189,8 @@ class ImpactResponse:
     impulse, before, after : array
         Impulses [N s], and gap rates with slip velocities before and after the impact [m/s], shape [n, 3].
     stored, returned : array
-        Energies that the contacts store and give back [J], shape [n]; zero for a map.
+        Energies that the contacts store and give back [J], shape [n]; zero if the law is an impact map, which computes
+        impulses without energies.
     """
 
     velocity: Array
@@ -232,7 +233,11 @@ def vectors_of(laws: Sequence[ImpactLaw], frictions: Sequence[float]) -> dict[st
 
 
 def map_impulses(laws: Sequence[ImpactLaw], frictions: Sequence[float], delassus: Array, rates: Array) -> Array:
-    """Return the impulses of impact maps, laws that compute them from the rates before an impact [N s], [3 n]."""
+    """Return the impulses that an impact map, a law for all contacts at once, computes [N s], shape [3 n].
+
+    It computes them from the Delassus matrix [1/kg] and from ``rates``, the gap rates and slip velocities before the
+    impact [m/s].
+    """
     law, out = laws[0], np.zeros(len(rates))
     assert isinstance(law, ImpactMap)
     call = compiled_caller(law.impulses, "map", vectors_of(laws, frictions), type(law).__name__)
@@ -277,7 +282,11 @@ def writing_fault(call: Callable[..., Any], given: Sequence[Array], size: int) -
 def followed(
     slope: Callable[[Array], Array], start: Array, scale: Array, times: Sequence[float], stiff: bool = False
 ) -> Array:
-    """Return y of y' = slope(y) at rising times from y(0) = start, shape [n_times, n]."""
+    """Integrate y' = slope(y) from y(0) = start; return y at ``times``, shape [n_times, n].
+
+    ``times`` are ascending. ``scale`` is the usual size of each y; absolute errors are limited relative to it. If
+    ``stiff`` is True, a method for stiff equations is used.
+    """
     calls, exact = itertools.count(), _STIFFLY if stiff else _EXACT
 
     def counted(t: float, y: Array) -> Array:

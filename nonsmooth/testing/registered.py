@@ -1,4 +1,8 @@
-"""The properties of a component class that is installed under a name or defined in a file."""
+"""Check a component class against the rules of its interfaces.
+
+The class is installed under a name or defined in a file, as in ``nonsmooth check``. Its interfaces decide which
+functions of :mod:`nonsmooth.testing` check it.
+"""
 
 from __future__ import annotations
 

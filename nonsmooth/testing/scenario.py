@@ -59,7 +59,7 @@ def _rows(scenario: Scenario, t_end: float | None) -> list[Row]:
 @final
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """A scenario, and runs of it to the time :attr:`end`, which several properties share."""
+    """A scenario and its runs to the time :attr:`end`. A run is computed once, and several properties use it."""
 
     scenario: Scenario
     given_end: float | None
@@ -70,7 +70,10 @@ class _Trial:
         return self.given_end or min(self.scenario.t_end, _SAMPLES * self.scenario.sample_interval)
 
     def run(self, t_end: float, sample_interval: float, folder: Path | None = None) -> Solution:
-        """Run a new system of the scenario. The run may take any time as long as it makes progress."""
+        """Run a new system of the scenario from t = 0 to ``t_end`` [s].
+
+        The run may take any time: the watchdog ends it only if the run reports no progress for a long time.
+        """
 
         def is_alive(reached: float, end: float) -> None:
             about_to("the run {takes} to get on", self.scenario)

@@ -35,16 +35,17 @@ _STAGES = Drawn(
     (*_SPEEDS, *_DURATIONS),
     lambda c: [(c["speed_1"], c["duration_1"]), (0.0, c["duration_2"]), (c["speed_2"], c["duration_3"])],
 )
-"""Drawn pairs of slip speed [m/s] and duration [s] for three stages: sliding, rest, sliding at another speed. They
-bring the inner states of a law to various values."""
+"""Drawn pairs (slip speed [m/s], duration [s]) of three stages: sliding, rest, and sliding at another speed. During the
+stages, the inner states of a law take various values."""
 _PERIODS = 20.0
 """Duration of the motion that is compared with an independent integration, in units of the shortest time constant of
 the inner states."""
 _SLOWED = 0.3
-"""Part of the slip velocity that friction removes in this motion, unless this needs more than the largest normal
-force."""
+"""Part of the slip velocity that friction removes in the motion that lasts ``_PERIODS``. It is less if this part would
+need a normal force above ``_LARGEST_LOAD``."""
 _LARGEST_LOAD = 1e3
-"""Largest normal force in this motion [N], for laws with little friction."""
+"""Largest normal force in the motion that lasts ``_PERIODS`` [N]. It is used for laws with little friction, which
+would otherwise need an arbitrarily large force."""
 STATES = Claims()
 """Claims about friction laws with inner states."""
 

@@ -38,13 +38,13 @@ _MOTION = Drawn(_NUMBERS, lambda case: _motion(case))
 _BENT = number("bent", -2.0, 2.0)
 _TURN = number("turn", -3.1, 3.1, 1.0)
 _LONG, _SHORT = 40.0, 0.5
-"""Times after the closing of a contact at which traction is steady, and not yet steady; in units of the time in which
-the motion brings the inner states to their usual sizes."""
+"""Times after the closing of a contact: a long one, at which traction is steady, and a short one, at which traction
+still changes. Their unit is the time in which the inner states reach their usual sizes (``_filling``)."""
 _SAMPLES = 20
 _TIMES, _TURNS = 5.0, 60.0
-"""Longest duration of a motion that is compared with an independent integration: in units of the time in which the
-motion brings the inner states to their usual sizes, and in units of the shortest time constant of the motion. The
-shorter of both durations is taken."""
+"""Two limits for the duration of a motion that is compared with an independent integration; the shorter one is used.
+``_TIMES`` is in units of the time in which the inner states reach their usual sizes. ``_TURNS`` is in units of the
+shortest time constant of the motion."""
 _TRACTION = Claims()
 
 
@@ -104,7 +104,10 @@ def _look(law: TractionLaw, load: float, motion: Array, state: Array) -> tuple[A
 
 
 def _bent(law: TractionLaw, bent: float) -> Array:
-    """Return states that differ from the initial ones by ``bent`` times their scales, times a factor for each."""
+    """Return inner states that differ from the initial states by ``bent`` times their scales, times a fixed factor.
+
+    The factor is a cosine with another value for each state, so that the states differ from each other.
+    """
     start, scale = start_of(law)
     return np.asarray(start + bent * np.cos(1.0 + np.arange(len(start))) * scale)
 
@@ -151,7 +154,7 @@ def _nothing_without_load(law: TractionLaw, motion: Array, bent: float) -> str:
 
 
 def _filling(law: TractionLaw, load: float, motion: Array) -> float:
-    """Return the time in which the motion brings the states to their usual sizes [s], zero without states."""
+    """Return the time in which the inner states reach their usual sizes in a motion [s]; zero without states."""
     start, scale = start_of(law)
     rates = np.abs(_look(law, load, motion, start)[1])
     return float(np.max(scale[rates > 0.0] / rates[rates > 0.0], initial=0.0))

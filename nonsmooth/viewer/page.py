@@ -72,10 +72,11 @@ def _named(bodies: Sequence[str]) -> str:
 
 
 def pack(arrays: Mapping[str, tuple[str, NDArray[Any]]]) -> tuple[list[dict[str, Any]], str]:
-    """Directory of named arrays, each with its type, and the text that holds their numbers.
+    """Pack named arrays, each with its type (:data:`TYPES`), for the page: a directory and one text with all numbers.
 
-    An array of n numbers of b bytes is stored as b rows of n bytes.  The rows of high bytes change little, so that gzip
-    packs them well.  Equal arrays give equal text.
+    The directory has the name, type, shape, offset and number of bytes of each array.  The text is the base64 code of
+    the bytes of all arrays, compressed by gzip.  An array of n numbers of b bytes is stored as b rows of n bytes: the
+    rows of high bytes change little, so gzip compresses them well.  Equal arrays give equal text.
     """
     directory, blocks, at = [], list[bytes](), 0
     for name, (kind, array) in arrays.items():

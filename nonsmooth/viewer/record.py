@@ -25,7 +25,10 @@ _MOST_LETTERS = 12
 _MOST_NUMBERS = 6
 """Largest number of contacts that are listed by their numbers; further contacts are counted."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2
-"""Sums of a contact's bits, Eq. (29) of the paper: sticking (1) and sliding (5). Bit of an approaching contact (2)."""
+"""Codes of contacts in an event. A code is a sum of bits: closed 1, approaching 2, slipping 4, Eq. (29) of the paper.
+
+A sticking contact is closed: 1. A sliding contact is closed and slips: 1 + 4. A colliding contact has the bit 2.
+"""
 
 
 def event_words(events: Events) -> tuple[list[str], NDArray[np.int64]]:
@@ -63,9 +66,9 @@ def _counted(group: NDArray[np.int64]) -> str:
 def event_arrays(
     solution: Solution, times: NDArray[np.float64], side: NDArray[np.float64]
 ) -> dict[str, tuple[str, NDArray[Any]]]:
-    """Arrays of events by name, each with its type.
+    """Data of the events for the page: name -> (type of the numbers as in :data:`nonsmooth.viewer.page.TYPES`, array).
 
-    ``times`` are the knots, the times of stored poses [s].  They include all instants of events.
+    ``times`` are the knots, which are the times of stored poses [s].  They include the times of all events.
     """
     # an engine that records no contacts has no events, and no impulses
     events, impulses = solution.events, Impulses.recorded(HistoryRequest(solution, times))

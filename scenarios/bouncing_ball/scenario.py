@@ -29,7 +29,7 @@ GRAVITY = 9.81
 _SAMPLES_PER_PERIOD = 40
 _SAMPLES = 20000
 _REPEATS = 1e-4
-"""Largest difference of flight times that are treated as equal [table periods]."""
+"""Largest difference of two flight times that are treated as equal in the search for a period [table periods]."""
 
 
 @final

@@ -74,8 +74,8 @@ def summary(motion: TrimerMotion) -> Mapping[str, Any]:
     """Return the attractor of a run, and numbers of its motion in the second half of the run.
 
     - ``attractor``: "rest", "period_k" (k plate periods), "tumbling" if the trimer turns over, or "irregular";
-    - ``drift``: distance between first and last place / time [m/s];
-    - ``wandering``: mean speed along the path, of which one point in each plate period is taken [m/s];
+    - ``drift``: distance between the first and the last position, divided by the time between them [m/s];
+    - ``wandering``: length of the path through one position per plate period, divided by the same time [m/s];
     - ``rotation``, ``turning``: mean of the vertical angular velocity, and of its absolute value [rad/s];
     - ``largest_gap``, ``largest_tilt``: [m], [rad].
     """

@@ -19,10 +19,11 @@ def half_angle(radius_ratio: float) -> float:
 
 
 def symmetric(mass_ratio: float, radius_ratio: float, restitution: float) -> tuple[float, float]:
-    """Return the velocity of the disc along the axis and the speed of either ball, relative to the disc's speed before.
+    """Return the velocity of the disc along the axis of symmetry, and the speed of each ball, after a symmetric strike.
 
-    By symmetry the impulse P is the same at both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.  Here m
-    is the mass of a ball, M the mass of the disc, v its speed before, and alpha the angle of :func:`half_angle`.
+    Both are divided by v, the speed of the disc before the strike.  The disc hits both balls at once.  By symmetry the
+    impulse P is the same at both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.  Here m is the mass of a
+    ball, M the mass of the disc, and alpha the angle of :func:`half_angle`.
     """
     c = math.cos(half_angle(radius_ratio))
     ball = (1.0 + restitution) * c / (1.0 + 2.0 * c * c / mass_ratio)
@@ -34,7 +35,7 @@ def one_after_the_other(
 ) -> Floats:
     """Return the velocities of disc, left and right ball after collisions in pairs, shape [3, 2].
 
-    Bodies do not move between the collisions.  Velocities are relative to the disc's speed before.
+    Bodies do not move between the collisions.  Velocities are relative to the disc's speed before the first collision.
 
     Parameters
     ----------

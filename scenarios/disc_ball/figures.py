@@ -81,7 +81,10 @@ def over_stiffness(scenario: DiscBall, run: Run) -> Figure:
 
 
 def over_offset(scenario: DiscBall, run: Run) -> Figure:
-    """Draw velocities after the strike over the offset, and the closed form of the symmetric strike."""
+    """Draw the velocities of disc and balls after the strike over the lateral offset of the disc's path.
+
+    At offset zero, at which the disc hits both balls at once, the closed form is marked.
+    """
     # an even number of offsets, symmetric about zero, has no offset zero, at which the disc hits both balls at once
     offsets = np.linspace(-1.95, 1.95, 118)
     cases = [dataclasses.replace(scenario, t_end=_LONG, offset=x * scenario.radius) for x in offsets.tolist()]
@@ -95,12 +98,19 @@ def over_offset(scenario: DiscBall, run: Run) -> Figure:
 
 
 def _after(scenarios: list[DiscBall], run: Run) -> Floats:
-    """Return the velocities at the end of each run, relative to the disc's speed before, shape [n, 3, 2]."""
+    """Return the velocities of disc and balls at the end of each run, relative to the disc's speed at its start.
+
+    The shape is [n, 3, 2].
+    """
     return np.array([scenario.velocities(run(scenario)) for scenario in scenarios])
 
 
 def _symmetric(scenario: DiscBall) -> Floats:
-    """Return the velocities after a symmetric strike for :func:`_mark`, which draws only the speeds of the balls."""
+    """Return the closed-form velocities of disc and balls after a symmetric strike, shape [3, 2].
+
+    They are relative to the speed of the disc before.  Each ball has the right speed, but along x instead of its own
+    direction: :func:`_mark` draws only the speeds of the balls.
+    """
     disc, ball = symmetric(scenario.mass_ratio, scenario.radius_ratio, scenario.restitution)
     return np.array([[0.0, disc], [ball, 0.0], [ball, 0.0]])
 

@@ -31,9 +31,9 @@ _NAMES = ("disc", "left", "right")
 class DiscBall(Scenario):
     """A disc strikes two touching balls at once: Bernoulli's problem, without friction and gravity.
 
-    All centres remain in the plane of x and y; y is the axis of symmetry, and the disc comes from below.  With
-    ``offset`` 0 it reaches both balls at once, from any direction.  No body turns, so that a sphere can represent the
-    disc.
+    All centres remain in the plane of x and y; y is the axis of symmetry, and the disc moves towards +y.  With
+    ``offset`` 0 it touches both balls at the same instant, also if its path is oblique to y.  No body turns, so that a
+    sphere can represent the disc.
 
     References
     ----------
@@ -81,7 +81,7 @@ class DiscBall(Scenario):
 
     @property
     def half_angle(self) -> float:
-        """Angle alpha between the axis and a line of centres, for a disc that touches both balls [rad]."""
+        """Angle alpha [rad] between y and the line from the disc's centre to a ball's, when the disc touches both."""
         return half_angle(self.radius_ratio)
 
     @property
@@ -115,7 +115,7 @@ class DiscBall(Scenario):
         return solution.q.reshape(len(solution.t), 3, 7)[:, :, :2]
 
     def velocities(self, solution: Solution) -> Floats:
-        """Return velocities of disc, left and right ball at the end / speed of the disc at the start, shape [3, 2]."""
+        """Return final velocities of disc, left and right ball relative to the disc's initial speed, shape [3, 2]."""
         return np.asarray(solution.u_end.reshape(3, 6)[:, :2] / self.speed)
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
@@ -129,7 +129,12 @@ class DiscBall(Scenario):
         return {"q": q.ravel().tolist(), "u": u.ravel().tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return velocities (x, y) / speed of the disc, kinetic energy at the end / at the start, number of impacts."""
+        """Return the results of a run by name.
+
+        ``disc``, ``left`` and ``right`` are the final velocities (x, y) of disc, left and right ball, relative to the
+        initial speed of the disc.  ``energy_kept`` is the final kinetic energy relative to the initial one, ``impacts``
+        the number of impacts.
+        """
         account = solution.energy
         return {
             **dict(zip(_NAMES, self.velocities(solution).tolist(), strict=True)),

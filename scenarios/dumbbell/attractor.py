@@ -33,7 +33,10 @@ _PERIOD_TOLERANCE = 0.02
 _SECTIONS = 0.9
 """Fraction of the samples that must repeat; the others may be so close to an impact that its exact time matters."""
 _LEVEL = 0.25
-"""Largest difference of the gaps of a level motion, relative to the largest gap."""
+"""Largest difference between the gaps of the two balls in a level motion, relative to the largest gap of a ball.
+
+In a level motion both balls move alike.
+"""
 _SYMMETRIC = 0.1
 """Largest sum of the least and the largest tilt of a symmetric motion, relative to their difference."""
 _STANDING = 0.2
@@ -68,7 +71,14 @@ class Settled:
         return cls(scenario.motion(solution, start - 1e-9 / scenario.frequency), solution.events, cycles)
 
     def summary(self) -> Mapping[str, Any]:
-        """Return attractor, period, drift velocity, largest gaps and range of the tilt."""
+        """Return the properties of the settled motion by name.
+
+        - ``attractor``: name of the attractor;
+        - ``period``: [plate periods], None at rest or if the motion does not repeat;
+        - ``drift_velocity``: mean horizontal velocity of the centre [m/s], two numbers;
+        - ``max_gap``: largest gap of each ball [m];
+        - ``beta_range``: least and largest tilt [rad].
+        """
         period, t, centre = self.period, self.motion.t, self.motion.centre
         attractor = self._attractor(period)
         elapsed = float(t[-1] - t[0])
@@ -98,10 +108,11 @@ class Settled:
 
     @functools.cached_property
     def period(self) -> int | None:
-        """Period of the motion in plate periods; None if it does not repeat.
+        """Period p of the motion [plate periods]; None if the motion does not repeat.
 
-        Gaps and gap rates at all samples are compared with their values p plate periods before.  They determine tilt
-        and tilt rate.  The horizontal position and the angles theta and gamma are not compared.
+        p is the least number for which gaps and gap rates at the samples equal their values p plate periods earlier.
+        Gaps and gap rates determine tilt and tilt rate.  The horizontal position and the angles theta and gamma are not
+        compared, because the dumbbell may drift, turn and roll.
         """
         if self.cycles < _SHORTEST_TAIL:
             return None
@@ -156,7 +167,11 @@ class Settled:
 
     @functools.cached_property
     def _strikes(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Return two arrays for the n impacts, shape [n, 2]: True for balls that strike, and for balls that touch."""
+        """Return two arrays for the n impacts and both balls, shape [n, 2].
+
+        The first is True for a ball that strikes: it approaches the plate and collides.  The second is True for a ball
+        in contact with the plate, whether it collides or not.
+        """
         events = self.events
         inside = (events.time > self.motion.t[0]) & (events.time <= self.motion.t[-1])
         during = events.during[inside & (events.cause == Cause.IMPACT)]
@@ -172,7 +187,7 @@ class Settled:
         return standing
 
     def _largest_gaps(self) -> list[float]:
-        """Return the largest gap of each ball [m], also between samples, there with a constant acceleration."""
+        """Return the largest gap of each ball [m]; a maximum between samples is computed for constant acceleration."""
         rate = self.motion.gap_rate
         v0, v1 = rate[:-1], rate[1:]
         turns = (v0 > 0.0) & (v1 < 0.0)

@@ -142,7 +142,10 @@ _NEUTRAL = {
     slip_velocity: "Slip of ball 1 at the end of the run",
     gap_rate: "Normal velocity of ball 1 at the end of the run",
 }
-"""Drawing function -> title of its figure, for a run that has not settled into the motion named by its mode."""
+"""Drawing function -> neutral title of its figure.
+
+A figure has this title if the run has not settled into the motion that ``mode`` names.
+"""
 _STANDS = "Drift: one ball keeps to the plate, the other strikes once per plate period"
 _SLIP = "Drift: the slip of ball 1 is not symmetric, so that friction moves the dumbbell"
 _TILTED = "Jump from a tilt: two single impacts per plate period instead of a double one"

@@ -1,4 +1,4 @@
-"""Figs. 8 to 10 of the dumbbell's paper: phase portraits of theta, beta and gamma, with its marks at impacts."""
+"""Draws Figs. 8 to 10 of the paper: phase portraits of theta, beta and gamma, with the paper's marks at impacts."""
 
 from __future__ import annotations
 
@@ -23,7 +23,10 @@ _STATEMENTS: Mapping[str, str] = {
     "beta": "the tilt: closed, as the normal motion is periodic; jump, not shown, stays level",
     "gamma": "the roll: open in all three modes, the dumbbell rolls along",
 }
-"""Angle -> title of the phase portrait that shows all three modes."""
+"""Angle -> statement in the title of its phase portrait, if the figure has a panel for each mode of the paper.
+
+Modes in which the angle does not change have no panel.
+"""
 _TURN = 1e-9
 """Range of an angle [rad] and of its rate [rad/s] below which the angle is treated as constant."""
 
@@ -82,7 +85,10 @@ def _draw_drift(ax: Axes, trace: Trace, x: Floats, y: Floats) -> None:
 
 
 def _draw_jump(ax: Axes, trace: Trace, x: Floats, y: Floats) -> None:
-    """Black: flight; red circles: double impacts; diamonds and black circles: single ones."""
+    """Draw a jump: free flight black, double impacts as red circles, single impacts of ball 1 as red diamonds.
+
+    Single impacts of ball 2 are black circles.
+    """
     double, hit = _struck(trace)
     _steps(ax, x, y, ~hit, "free flight", _FLIGHT)
     _marks(ax, x, y, double, "double impact", IMPACT)
@@ -91,7 +97,10 @@ def _draw_jump(ax: Axes, trace: Trace, x: Floats, y: Floats) -> None:
 
 
 def _draw_flutter(ax: Axes, trace: Trace, x: Floats, y: Floats) -> None:
-    """Red: flight before an impact of ball 1 (diamond); black, dashed: flight before one of ball 2 (circle)."""
+    """Draw flutter: the flight before each impact of ball 1 red, the flight before each impact of ball 2 black, dashed.
+
+    Impacts of ball 1 are red diamonds, impacts of ball 2 black circles.
+    """
     hit = _struck(trace)[1]
     hits = np.flatnonzero(hit)
     following = np.searchsorted(hits, np.arange(len(x)))

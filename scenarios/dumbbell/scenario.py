@@ -71,9 +71,9 @@ class DumbbellScenario(Scenario):
 
     The plate moves as z_p = A_z sin(2 pi f t + phi_0).
 
-    The paper prints the vertical velocity 2 g / f at the start of the jump; that is a flight of four plate periods.  A
-    jump of one plate period needs g / (2 f), which ``mode=jump`` takes.  The printed velocity is
-    ``vertical_velocity=0.7848`` at 25 Hz.
+    ``mode=jump`` starts with the vertical velocity g / (2 f), so that the first flight takes one plate period.  The
+    paper prints 2 g / f, which gives a flight of four plate periods.  For this velocity set
+    ``vertical_velocity=0.7848`` [m/s], at 25 Hz.
     """
 
     title: ClassVar[str] = "Dumbbell on a vibrating plate"

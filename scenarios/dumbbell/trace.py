@@ -1,4 +1,4 @@
-"""Data of figures: the last part of a run with its jumps, and a note of the parameters."""
+"""Data of the figures: the states in the last part of a run, before and after each jump, and a text of parameters."""
 
 from __future__ import annotations
 
@@ -40,11 +40,13 @@ class Trace:
     Attributes
     ----------
     motion : DumbbellMotion
-        The motion in n points; an event is two points at one time.
+        The motion at n points in time.  A sample gives one point; an event gives two points at one time, its states
+        before and after.
     touching : array
-        True for balls that are on the plate from a point to the next, shape [n, 2].
+        ``touching[i, ball]`` is True if the ball is on the plate between points i and i + 1; shape [n, 2].
     struck : array
-        True for balls that take part in the impact between a point and the next, shape [n, 2].
+        ``struck[i, ball]`` is True if points i and i + 1 are before and after an impact in which the ball takes part;
+        shape [n, 2].
     """
 
     motion: DumbbellMotion

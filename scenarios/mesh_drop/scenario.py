@@ -31,7 +31,10 @@ _OUTLINE = ((0.0, 0.0), (0.06, 0.0), (0.06, 0.01), (0.012, 0.01), (0.012, 0.04),
 _CAPS = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5))
 """Triangles that fill the outline, by indices of its corners."""
 _DEPTH, _TAPER = 0.03, 0.25
-"""Depth of the bracket along z [m]; fraction by which its far end is smaller, so that no two faces are alike."""
+"""Depth of the bracket along z [m], and fraction by which its far end is smaller than its near end, respectively.
+
+The smaller end makes all faces of the bracket different.
+"""
 
 
 @final
@@ -87,7 +90,7 @@ class MeshDrop(Scenario):
 
     @property
     def body(self) -> MeshBody:
-        """A part equal to the one that falls."""
+        """The part, one object for the scenario's geometry and figures; :meth:`build` makes an equal one that falls."""
         return self._body
 
     @property

@@ -35,8 +35,8 @@ _LAWS = {"newton": NewtonImpact, "energetic": EnergeticImpact}
 class SliderCrank(Scenario):
     """A slider-crank with clearance: the slider rattles and slides in a guide that is too wide.
 
-    The crank turns freely.  Stretched out at the start, the slider is level and in the middle of its guide, so that it
-    first hits with two corners at once.
+    The crank turns freely.  At the start, crank and rod are in line, and the slider is level and in the middle of its
+    guide.  So the slider first hits with two corners at once.
 
     References
     ----------

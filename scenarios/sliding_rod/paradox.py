@@ -1,4 +1,8 @@
-"""The rod's contact in closed form: reduced coefficient, critical friction, free acceleration of the gap."""
+"""Closed forms for the contact of the sliding rod, whose gap accelerates by g'' = A lambda_N + b in forward slip.
+
+They give A (the reduced coefficient), the friction coefficient at which A vanishes, and b, the acceleration of the gap
+without a normal force lambda_N.
+"""
 
 from __future__ import annotations
 

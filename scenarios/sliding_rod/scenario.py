@@ -32,9 +32,10 @@ GRAVITY = 9.81
 class SlidingRod(Scenario):
     """A rod slides with its lower end ahead and jams: Painlevé's paradox.
 
-    It moves towards +x at ``speed``.  The ends are spheres, much smaller than the length.  For sharp ends the least
-    friction coefficient of the paradox is 4/3, at tan(angle) = 2.  The moment of inertia is m (2 s)^2 / 12, as for a
-    thin rod of half-length s.
+    It moves towards +x at ``speed``.  The ends are spheres, much smaller than the length.  For sharp ends the paradox
+    needs a friction coefficient above 4/3, its critical value if the angle phi of the rod from the ground has
+    tan(phi) = 2; at other angles it is larger.  The moment of inertia is m (2 s)^2 / 12, as for a thin rod of
+    half-length s.
 
     References
     ----------

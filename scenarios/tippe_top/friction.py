@@ -1,4 +1,7 @@
-"""Coulomb friction of a small contact disc that spins: the force is below mu N and vanishes at zero slip."""
+"""Friction law of a small contact disc that spins: the spin lowers the friction force below mu N.
+
+For slow slip the force is proportional to the slip speed, so there is no static friction.
+"""
 
 from __future__ import annotations
 

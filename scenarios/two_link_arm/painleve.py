@@ -38,7 +38,10 @@ def reduced_coefficient(
 
 
 def critical_friction(theta_1: float, height_ratio: float, link_mass: float, link_length: float) -> float:
-    """Return the least friction coefficient at which A of :func:`reduced_coefficient` vanishes, or infinity."""
+    """Return the friction coefficient above which Painleve's paradox occurs in a posture, or infinity.
+
+    At this coefficient A of :func:`reduced_coefficient` vanishes; above it A is negative.
+    """
     g = mobility(theta_1, height_ratio, link_mass, link_length)
     return float(g[0, 0] / g[0, 1]) if g[0, 1] > 0.0 else math.inf
 

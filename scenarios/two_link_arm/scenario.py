@@ -90,7 +90,10 @@ class TwoLinkArm(Scenario):
 
     @property
     def reduced_coefficient(self) -> float:
-        """A = G_nn - mu G_nt at the start [1/kg]; negative in Painleve's paradox."""
+        """A = G_nn - mu G_nt at the start [1/kg]: normal acceleration of the sliding tip per normal force.
+
+        G is the Delassus matrix of the tip (n normal, t tangent).  A is negative in Painleve's paradox.
+        """
         return painleve.reduced_coefficient(self.angle, self.friction, *self.sizes)
 
     def build(self) -> System:
@@ -126,7 +129,12 @@ class TwoLinkArm(Scenario):
         return {"q": solution.q_end[:2].tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the reduced coefficient at the start [1/kg], the numbers of impacts, and the largest gap [m]."""
+        """Return the results of a run by name.
+
+        ``reduced_coefficient`` is the normal acceleration of the sliding tip per normal force at the start [1/kg],
+        ``impacts_without_collision`` the number of impacts that Painleve's paradox causes, ``impacts`` the number of
+        other impacts, and ``largest_gap`` the largest gap between tip and belt [m].
+        """
         return {
             "reduced_coefficient": self.reduced_coefficient,
             "impacts_without_collision": solution.events.count(Cause.PAINLEVE),
@@ -135,7 +143,12 @@ class TwoLinkArm(Scenario):
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the posture's published numbers, whether it is Painleve's paradox, and the impulse that ends it."""
+        """Return criteria.
+
+        1. For the published sizes of the arm: least critical friction, and reduced coefficient of the published start.
+        2. For a belt that moves: an impact without collision at the start if, and only if, it is in Painleve's paradox.
+        3. If this impact occurs: its normal impulse.
+        """
         found = []
         if self.sizes == (5.0 / 3.0, 1.0, 1.0):
             source = "Liu, Zhao, Chen (2007)"

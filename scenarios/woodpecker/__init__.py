@@ -1,4 +1,7 @@
-"""The woodpecker toy (scenario.py): a bird on a sleeve that pecks its way down a pole; its equations (toy.py)."""
+"""The woodpecker toy: a bird, joined by a spring to a sleeve, steps down a pole by pecking it.
+
+The module ``scenario`` has the scenario, ``toy`` the equations of motion.
+"""
 
 from .scenario import Woodpecker
 

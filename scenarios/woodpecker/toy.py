@@ -71,7 +71,10 @@ def beak(
     beak_height: float,
     pole_radius: float,
 ) -> None:
-    """Write to ``out`` the gap of the beak, along x, and the height of the beak's tip along the pole [m]."""
+    """Write the position of the beak's tip [m] to ``out``: ``out[0]`` is its gap along x, ``out[2]`` its height.
+
+    ``out[1]`` remains zero.  ``q`` and the lengths are those of the toy's published model.
+    """
     out[0] = sleeve_arm + bird_arm - beak_arm - pole_radius - beak_height * q[2]
     out[2] = q[0] + beak_height + sleeve_arm * q[1] + (bird_arm - beak_arm) * q[2]
 

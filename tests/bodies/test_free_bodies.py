@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -151,6 +152,12 @@ def test_free_flight_keeps_energy_and_angular_momentum(body: FreeBody) -> None:
     turning = 0.5 * np.einsum("ni,ij,nj->n", solution.u[:, 3:], tensor, solution.u[:, 3:])
     np.testing.assert_allclose(turning, turning[0], rtol=1e-8)
     np.testing.assert_allclose(solution.u_end[:3], [0.3, -0.2, 4.0 - 9.81 * t_end], rtol=0, atol=1e-9)
+
+
+def test_the_help_of_a_start_names_the_axes_of_its_velocities() -> None:
+    text = " ".join((inspect.getdoc(Ball.state) or "").split())
+    assert "``velocity`` of the mass centre in world axes" in text
+    assert "``angular_velocity`` in body axes" in text
 
 
 def test_a_tensor_is_a_body_in_other_axes() -> None:

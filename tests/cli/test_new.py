@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.environments import Environment
+
 Call = Callable[..., tuple[int, str, str]]
 
 
@@ -35,6 +37,16 @@ def test_its_own_tests_are_green_and_find_a_mistake(call: Call, tmp_path: Path) 
     done = subprocess.run([*words, "tests/test_friction.py"], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 1
     assert "not negative" in done.stdout
+
+
+@pytest.mark.slow
+def test_a_script_in_the_parent_folder_imports_it_after_an_editable_installation(tmp_path: Path) -> None:
+    """The folder ``wet_sand`` next to the script must not hide the package ``wet_sand`` within it."""
+    environment = Environment(tmp_path / "environment")
+    environment.nonsmooth("new", "plugin", "wet_sand", folder=tmp_path)
+    environment.pip("install", "-e", "./wet_sand", folder=tmp_path)
+    (tmp_path / "script.py").write_text("from wet_sand import WetSand\nprint(WetSand().static)\n")
+    assert environment.run([str(environment.python), "script.py"], tmp_path) == ("0.3\n", "")
 
 
 @pytest.mark.parametrize("name", ["Sand", "1sand", "wet-sand", "class", "math", "laws", "coulomb", "sand_", "tests"])

@@ -25,6 +25,9 @@ _SPELLED = """() => { const found = []; const pen = CanvasRenderingContext2D.pro
         found.push([text, left, left + size]); kept.call(this, text, x, y); };
     view.draw(); pen.fillText = kept; return [found, view.at('strips').clientWidth]; }"""
 
+_HEIGHTS = "view.timeline.energies.map(([, levels]) => levels.map((level) => level / view.timeline.top))"
+"""Heights of the kinetic, the potential energy and the sum at each time, relative to the strip."""
+
 
 def _sliding(distance: float) -> ns.Solution:
     """Return the run of a block of 50 mm that slides over a plate to a wall."""
@@ -133,6 +136,24 @@ def test_round_off_of_energies_is_shown_as_nothing(browser: Any, tmp_path: Path)
         kinetic, potential, *others = (cell.inner_text() for cell in seen.page.query_selector_all("#energies td"))
         assert others == ["0.00000"] * 3
         assert float(kinetic) == pytest.approx(-float(potential), abs=2e-5)
+
+
+def test_energies_at_rest_are_flat_lines_in_the_strip(browser: Any, tmp_path: Path) -> None:
+    floor, boxes = Plate(), [BoxBody(0.2, 0.1, 0.06) for _ in range(3)]
+    system = ns.System([floor, *boxes])
+    system.contact_all(ns.ContactLaws(Unilateral(), Coulomb(0.5), EnergeticImpact(0.3)))
+    for i, box in enumerate(boxes):
+        system.place(box, position=(0.0, 0.0, 0.06 + 0.12 * i))
+    run = ns.simulate(system, 0.5)
+    assert np.max(run.history("kinetic_energy")["kinetic_energy"]) > 0.0
+    assert np.max(np.ptp(_see(browser, run, tmp_path)(_HEIGHTS), axis=0)) < 0.01
+
+
+def test_the_strip_is_as_high_as_the_energy_exchanged(browser: Any, tmp_path: Path) -> None:
+    kinetic, potential, total = np.ptp(_see(browser, _pendulum(), tmp_path)(_HEIGHTS), axis=0)
+    # the pendulum starts at rest and horizontal, and loses nothing
+    assert min(kinetic, potential) > 0.9
+    assert total < 1e-5
 
 
 def test_energies_have_a_unit_of_their_size(browser: Any, drift: tuple[ns.Solution, Path]) -> None:

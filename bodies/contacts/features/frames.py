@@ -1,4 +1,4 @@
-"""Vectors in contacts: change between body and world axes, first tangent of a normal, split along an axis."""
+"""Vector functions of contacts: world and body axes, a tangent to a normal, components along and across an axis."""
 
 from __future__ import annotations
 
@@ -94,7 +94,10 @@ def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
 
 @compiled
 def write_tangent(a: Floats, out: Floats) -> None:
-    """Write the first tangent for the normal in ``out``, a function of the normal in the axes of the first body."""
+    """Write the first tangent for the normal in ``out`` [world axes].
+
+    The tangent depends only on the direction of the normal in the axes of the first body, whose frame block is ``a``.
+    """
     x, y, z = tangent_of(
         a[ROTATION] * out[NORMAL] + a[ROTATION + 3] * out[NORMAL + 1] + a[ROTATION + 6] * out[NORMAL + 2],
         a[ROTATION + 1] * out[NORMAL] + a[ROTATION + 4] * out[NORMAL + 1] + a[ROTATION + 7] * out[NORMAL + 2],

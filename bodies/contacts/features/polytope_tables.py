@@ -31,7 +31,7 @@ def face_table(polytope: Polytope) -> Numbers:
 
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:
-    """Return the row of each edge; for a segment, which has no faces, the unit vectors into faces are 0."""
+    """Return the row of each edge (:data:`EDGE`); a segment has no faces, so its unit vectors into the faces are 0."""
     vertices, edges = np.array(polytope.vertices), np.array(polytope.edges, dtype=int).reshape(-1, 4)
     start, way = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
     length = np.linalg.norm(way, axis=1, keepdims=True)

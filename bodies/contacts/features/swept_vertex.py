@@ -1,4 +1,4 @@
-"""Contact of a sharp or rounded vertex with a rounded polyhedron or a capsule of the other body."""
+"""A vertex, sharp or rounded to a sphere, against a swept polyhedron or segment of another body."""
 
 from __future__ import annotations
 
@@ -23,24 +23,30 @@ from .vertex_face import Nearest, nearest_feature
 from .writing import write_flat, write_principal, write_round
 
 END = 3e-10
-"""Distance from the end of an edge at which its contact passes to the vertex, relative to the size of the bodies.
+"""Distance from a vertex, along an edge, at which the contact of the edge ends; relative to the size of the bodies.
 
-The contact passes back at twice this distance.  The hysteresis avoids that both contacts are open, or closed for long.
+The contact of the vertex ends at twice this distance.  Both contacts are valid between the two distances, so that a
+point that slides from the edge to the vertex always has a contact.
 """
 OPEN = 100.0
-"""Gap written for a contact that a neighbouring contact replaces, relative to its distance past the end."""
+"""Gap of a contact that another contact replaces, over its distance past the end of an edge; large, so it is open."""
 NEAR = 1e-6
-"""Gap above which a contact is never past its end, relative to the size of the bodies."""
+"""Gap, relative to the size of the bodies, above which the contact of a vertex stays valid wherever its point is.
+
+The sphere about the vertex is a part of its body, so that its gap is always an upper bound of the gap of the bodies.
+"""
 
 
 @compiled
 def past_star(
     frame: Floats, star: Floats, n_star: float, distance: float, nx: float, ny: float, nz: float, size: float
 ) -> float:
-    """Return how far the nearest point of the other body's core is past the vertex along one of its edges [m].
+    """Return the distance of a contact past a vertex [m], less the tolerance ``2 END size``; negative if it is valid.
 
-    The nearest point lies at ``distance`` from the vertex, in the direction -(nx, ny, nz).  If the result is positive,
-    the edge is nearer to the core than the vertex, unless the vertex is inside of the core.
+    The nearest point of the other body's core is at ``distance`` [m] from the vertex, against the normal (nx, ny, nz).
+    The distance past the vertex is the largest coordinate of this point along an edge of the vertex, measured from
+    the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the other
+    core the result is negative.
     """
     x, y, z = vector_in_body(frame, nx, ny, nz)
     past = -size
@@ -52,7 +58,11 @@ def past_star(
 
 @compiled
 def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
-    """Return the gap and the distance past the end that are written to the geometry block [m]."""
+    """Return gap and distance past the vertex [m], as the geometry block stores them.
+
+    ``past`` is the result of :func:`past_star`.  A contact with a gap above ``NEAR`` times the size is always valid.  A
+    smaller gap with a positive ``past`` is replaced by hypot(gap, past), so that the contact is open.
+    """
     if gap > NEAR * size:
         return gap, min(past, -END * size)
     if past > 0.0:
@@ -76,10 +86,11 @@ def write_vertex_over(
     sweep: float,
     size: float,
 ) -> None:
-    """Write the geometry block of a vertex, with its radius, and the nearest feature of the other body.
+    """Write the geometry block of a vertex, with its radius, against the nearest feature ``found`` of the other core.
 
-    The vertex belongs to the first body if ``swap`` is 1, else to the second.  The contact of two vertices is the
-    contact of the second body's vertex.  ``past`` is the distance past the end along the edges of the vertex [m].
+    The vertex belongs to the first body if ``swap`` is 1, else to the second.  If the nearest feature is a vertex, too,
+    the two bodies have two contacts for the same two vertices.  Only the contact of the second body's vertex can then
+    close; the contact of the first body's vertex is written as open.  ``past`` is the result of :func:`past_star` [m].
     """
     other = b if swap == 1.0 else a
     number, distance, nx, ny, nz, within = found
@@ -87,7 +98,7 @@ def write_vertex_over(
     shared = END * size - within if swap == 1.0 else -math.inf
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
-        # write a large gap for a small distance past the end, so that the contact is not taken for a closed one
+        # near the end of the other body's edge another contact takes over: open this one by a large gap
         gap, past = math.hypot(distance - sweep - radius, OPEN * shared), max(past, shared)
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
@@ -119,7 +130,7 @@ def _evaluate(
     radius: float,
     size: float,
 ) -> None:
-    """Write the geometry block of a vertex over a core; parameters as the attributes of :class:`SweptVertex`."""
+    """Write the geometry block of a vertex against a core; see the attributes of :class:`SweptVertex`."""
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
@@ -143,7 +154,7 @@ def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
 class SweptVertex(ContactKinematics):
     """A vertex, with its radius, against the nearest face, edge or vertex of a swept core of the other body.
 
-    Two vertices close only the contact of the second body's vertex, never the contact of the first body's vertex.
+    If two vertices touch, only the contact of the second body's vertex closes; that of the first body's vertex is open.
 
     Attributes
     ----------
@@ -152,19 +163,19 @@ class SweptVertex(ContactKinematics):
     faces, edges : tuple of float
         All faces and edges of the core (:mod:`bodies.contacts.features.polytope_tables`).
     ends : tuple of float
-        Numbers of the two vertices of every edge.
+        Indices of the two vertices of each edge.
     sweep : float
-        Radius about the core [m].
+        Radius of the sphere that sweeps the core [m].
     place : tuple of float
         The vertex in its body frame [m].
     star : tuple of float
-        Unit vectors along the edges that leave it.
+        Unit vectors along the edges that begin at the vertex, in the body frame.
     radius : float
-        Radius about it [m].
+        Radius of the sphere about the vertex, the rounding of its body [m]; 0 if it is sharp.
     size : float
         Size of the larger body [m].
     name : str
-        What the vertex is called.
+        Name of the vertex.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
@@ -181,7 +192,7 @@ class SweptVertex(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[SweptVertex, ...]:
-        """Return the contacts of all vertices of the second, then those of the first."""
+        """Return the contacts of all vertices of the second shape, then those of the first."""
         assert isinstance(first, SweptPolytope)
         assert isinstance(second, SweptPolytope)
         size = size_of(first, second)
@@ -206,13 +217,13 @@ class SweptVertex(ContactKinematics):
         size: float,
         swap: bool,
     ) -> tuple[SweptVertex, ...]:
-        """Return the contacts of vertices of one body, each a place, a star and a name, with the core of the other."""
+        """Return the contacts of vertices with the core of ``other``; a vertex is a place, a star and a name."""
         core = other.core
         tables = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
         return tuple(cls(swap, *tables, other.sweep, place, star, radius, size, name) for place, star, name in vertices)
 
     def parameters(self) -> dict[str, Value]:
-        """Return the tables."""
+        """Return the parameters of the evaluator: the tables of the core, and the numbers of the vertex."""
         x, y, z = self.place
         return {
             "swap": float(self.swap),
@@ -238,7 +249,7 @@ class SweptVertex(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Faces, edges and vertices of the core; the edge of a segment is its side."""
+        """Names of the pairs of features: the vertex with each part of the core. The edge of a segment is its side."""
         edge = "edge" if self.faces else "side"
         counts = ("face", len(self.faces) // FACE), (edge, len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
         parts = [f"{kind} {i}" for kind, n in counts for i in range(n)]
@@ -249,10 +260,11 @@ class SweptVertex(ContactKinematics):
 def write_swept(
     frame: Floats, out: Floats, side: int, number: int, n_faces: float, n_edges: float, edges: Floats, radius: float
 ) -> None:
-    """Write the curvature matrices of a face, of the cylinder about an edge, or of the sphere about a vertex.
+    """Write the slide and turn matrices (curvature) of the swept surface at a feature of its core.
 
-    ``number`` counts faces first, then edges, then vertices.  The geometry block ``out`` must already hold the normal
-    and the first tangent (:mod:`nonsmooth.engine.memory.blocks`).
+    Over a face the surface is flat, about an edge a cylinder, about a vertex a sphere.  ``number`` is the index of the
+    feature: faces first, then edges, then vertices.  The caller has already written normal and first tangent to
+    ``out``.
     """
     edge = number - int(n_faces)
     if edge < 0:

@@ -1,4 +1,4 @@
-"""The face of a polyhedron under another body's vertex, and its face, edge or vertex nearest to a point."""
+"""Finds the face of a polyhedron that a vertex of another body touches, and the feature nearest to a point."""
 
 from __future__ import annotations
 
@@ -12,19 +12,27 @@ from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
 from .polytope_tables import EDGE, FACE
 
 REACH = 1e-9
-"""Extension of a feature at its ends, relative to the size of the bodies; aligned features do not end by round-off."""
-CLOSED = 1e-7
-"""Distance past a face's border up to which a corner is over it, relative to the size; least sine of crossing edges.
+"""Length by which features are extended at their ends, relative to the size of the bodies.
 
-Both rules share one number, so that one of the two contacts exists: if equal faces are turned against each other by a
-smaller angle, their corners extend past the borders by less.
+So round-off does not open the contact of features that are aligned.
+"""
+CLOSED = 1e-7
+"""A small number with two uses, one for vertices over faces, one for edges that cross.
+
+It is the distance beyond a face's border up to which a vertex touches the face, relative to the size of the bodies.  It
+is also the least sine of the angle between crossing edges.  With one number for both, equal faces that are almost
+aligned never lack a contact: if the angle between their edges is smaller, their vertices are within the distance.
 """
 
 BESIDE = 1e-2
-"""Largest height over a face at which a vertex outside of the polyhedron is next to it, relative to the size."""
+"""Largest height over a face at which a vertex outside of the polyhedron is near this face, relative to the size.
+
+Such a vertex touches no second face if it is deeper below the plane of the second face than it is above the first face:
+outside of the polyhedron, the depth below a plane is no overlap.
+"""
 
 DEEP = 1e-6
-"""Least depth of an overlap, relative to the size of the bodies; a smaller depth may be the error of a step at rest."""
+"""Least depth of an overlap, relative to the size of the bodies; errors of a step at rest cause smaller depths."""
 
 
 @compiled
@@ -37,7 +45,7 @@ def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[
 
 @compiled
 def plane_height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
-    """Return the height over the plane of a face of a point (x, y, z) in the frame of its body [m]."""
+    """Return the height of a point (x, y, z) over the plane of a face [m], in the frame of the face's body."""
     return faces[face] * x + faces[face + 1] * y + faces[face + 2] * z - faces[face + 3]
 
 
@@ -65,7 +73,10 @@ def _least(
 
 @compiled
 def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
-    """Return how far the foot of a point on a face is past its edges [m]: largest height over planes of other faces."""
+    """Return the distance of a point's projection on a face beyond the face's borders [m]; negative inside them.
+
+    It is the largest height of the projection over the planes of the other faces.
+    """
     x, y, z = x - height * faces[face], y - height * faces[face + 1], z - height * faces[face + 2]
     past = -math.inf
     for i in range(int(n_faces)):
@@ -78,7 +89,11 @@ def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float,
 def _past_end(
     faces: Floats, n_faces: float, face: int, height: float, deepest: float, x: float, y: float, z: float
 ) -> float:
-    """Return how far a point is past the end of a face [m]; below its plane, a point must also be inside the body."""
+    """Return the distance of a point past the borders of a face [m]; negative if the face can touch the point.
+
+    For a point below the plane of the face it is at least ``deepest``, its largest height over all planes: a point
+    outside of the body does not touch this face.
+    """
     beyond = past_face(faces, n_faces, FACE * face, height, x, y, z)
     return float(max(beyond, deepest)) if height < 0.0 else float(beyond)
 
@@ -104,11 +119,12 @@ def nearest_face(
     vertex: float,
     size: float,
 ) -> tuple[float, float, float]:
-    """Return the face under a vertex of the body ``other``, the gap and the distance past the face's end [m].
+    """Return face paired with a vertex of the body ``other``, gap, and distance past the face's border [m].
 
-    The face belongs to the polyhedron in ``frame``.  It best separates the two bodies, so that all vertices get the
-    same face.  If several faces separate equally well, as in contact at an edge, it is the face below the vertex.  A
-    vertex inside the polyhedron gets the nearest face.  Past the end the gap is positive.
+    The face belongs to the polyhedron in ``frame``.  It is the face over which the least height of all vertices is the
+    largest, so that all vertices get the same face.  If several faces are equal in this, as in contact at an edge, the
+    vertex gets the face on which it projects.  A vertex inside the polyhedron gets the nearest face.  Past the border
+    of its face, a vertex outside of the polyhedron gets a positive gap.
     """
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
@@ -126,7 +142,7 @@ def nearest_face(
     found, gap, past = -1, deepest, math.inf
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
-        # next to a face a vertex that is farther under another touches the one, not the other
+        # a vertex outside of the polyhedron, near one face, touches no face whose plane it is deeper below
         if height < best - margin or (beside and height < -max(deepest, DEEP * size)):
             continue
         least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)

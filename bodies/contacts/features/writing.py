@@ -27,7 +27,10 @@ from .frames import write_tangent
 
 @compiled
 def write_round(out: Floats, side: int, radius: float) -> None:
-    """Write the curvature matrices of a sphere: slide 1, turn its radius [m]; a vertex has the radius 0."""
+    """Write the curvature matrices of a sphere: slide is the identity, turn is ``radius`` [m] times the identity.
+
+    A vertex has the radius 0.  The matrices are explained in :func:`write_principal`.
+    """
     slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
     out[slide] = out[slide + 3] = 1.0
     out[turn] = out[turn + 3] = radius
@@ -36,7 +39,7 @@ def write_round(out: Floats, side: int, radius: float) -> None:
 
 @compiled
 def write_flat(out: Floats, side: int) -> None:
-    """Write the curvature matrices of a plane: slide 0, turn 1."""
+    """Write the curvature matrices of a plane: slide is zero, turn is the identity (:func:`write_principal`)."""
     slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
     out[slide] = out[slide + 3] = 0.0
     out[turn] = out[turn + 3] = 1.0
@@ -47,7 +50,8 @@ def write_flat(out: Floats, side: int) -> None:
 def write_sweep(out: Floats, side: int, radius: float) -> None:
     """Change the curvature matrices of a core to those of its rounded surface, at the distance ``radius`` [m] from it.
 
-    As the point of the core slides by u and the normal turns by nu, that of the surface slides by u + radius nu.
+    If the core's point moves by u while the normal turns by nu, the surface's point moves by u + radius nu.  So radius
+    times the slide matrix is added to the turn matrix (:func:`write_principal`).
     """
     for i in range(side + SLIDE_MATRIX, side + TURN_MATRIX):
         out[i + TURN_MATRIX - SLIDE_MATRIX] += radius * out[i]
@@ -65,14 +69,22 @@ def write_principal(
     slide_across: float,
     turn_across: float,
 ) -> None:
-    """Write the matrices that are diagonal along and across the unit tangent (x, y, z).
+    """Write the curvature matrices of a surface that are diagonal along and across the unit tangent (x, y, z).
 
-    The geometry block ``out`` must already hold the normal and the first tangent.
+    The matrices fulfil ``slide @ u = turn @ nu``: the contact point moves by u over the surface while the normal turns
+    by nu.  The arguments are their diagonal elements.  The geometry block ``out`` must already hold the normal and the
+    first tangent.
 
-    - the side of a cylinder, along its axis: slide 0, turn 1 along; slide 1, turn its radius across;
-    - an edge, along itself: 0, 1; 1, 0;
-    - a rim of radius R whose normal stands at the angle psi to its disc: as the point goes round by an angle, it slides
-      by R and the normal turns by cos psi of it, so cos psi, R along the rim; across the normal turns alone: 1, 0.
+    =====================================  ===========  ==========  ============  ===========
+    surface, tangent                       slide_along  turn_along  slide_across  turn_across
+    =====================================  ===========  ==========  ============  ===========
+    side of a cylinder, along the axis     0            1           1             radius [m]
+    edge, along the edge                   0            1           1             0
+    rim of radius R [m], along the rim     cos(psi)     R           1             0
+    =====================================  ===========  ==========  ============  ===========
+
+    psi is the angle between the normal at a rim and the plane of the rim.  If the contact point goes round the rim by
+    an angle, it moves by R times this angle, and the normal turns by cos(psi) times this angle.
     """
     c = x * out[TANGENT] + y * out[TANGENT + 1] + z * out[TANGENT + 2]
     # the second tangent is n x t1
@@ -136,7 +148,10 @@ def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: flo
 
 @compiled
 def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance: float, radius: float) -> None:
-    """Write gap, tangent and witness points of a sphere about (x, y, z) at a distance along the normal in ``out``."""
+    """Write gap, tangent and witness points of a sphere with centre (x, y, z) and ``radius`` [m].
+
+    ``distance`` is the distance of the centre from the other surface [m], along the normal that ``out`` already holds.
+    """
     out[GAP] = distance - radius
     put(out, POINT_A, x - distance * out[NORMAL], y - distance * out[NORMAL + 1], z - distance * out[NORMAL + 2])
     put(out, POINT_B, x - radius * out[NORMAL], y - radius * out[NORMAL + 1], z - radius * out[NORMAL + 2])
@@ -145,11 +160,11 @@ def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance:
 
 @compiled
 def gap_at_distance(gap: float, past: float, radius: float) -> float:
-    """Return the gap of the surface at the distance ``radius`` from a core [m].
+    """Return the gap of a rounded surface [m], at the distance ``radius`` from its core, from the gap of the core.
 
-    ``gap`` is the gap of the core, ``past`` the distance past the end of its feature [m].  Past the end, ``gap`` is the
-    hypotenuse of ``past`` and the gap along the normal.  Only the latter shrinks by the radius, so that a positive gap
-    remains positive.
+    ``gap`` is the gap of the core, ``past`` the distance past the boundary of its feature [m].  Past the boundary,
+    ``gap`` is hypot(gap along the normal, past).  The radius is subtracted from the gap along the normal only, so that
+    the result is positive.
     """
     if past <= 0.0 or gap <= 0.0:
         return gap - radius

@@ -41,10 +41,10 @@ def _evaluate(a: Floats, b: Floats, out: Floats, swap: float, first: Floats, sec
     nx, ny, nz = -radial * ex - axial * bx, -radial * ey - axial * by, -radial * ez - axial * bz
     past = past_apex(first, distance, nx * ax + ny * ay + nz * az, size)
     if distance - first[SWEEP] - second[SWEEP] > NEAR * size:
-        # a wide gap is never past an end: the sphere is a part of the body
+        # the apex sphere is part of the body: its gap is an upper bound, so at a wide gap the contact stays valid
         past = min(past, -END * size)
     if swap == 1.0 and second[1] == 0.0:
-        # two apices touch in the contact of the first body's apex only
+        # two apices have one contact, that of the first body's apex: this contact ends before the other apex
         up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[0])
         past = max(past, END * size - (second[SIDE] - up))
     write_two(a, out, swap, first, second, distance, past, (nx, ny, nz), (px, py, pz), 0.0)

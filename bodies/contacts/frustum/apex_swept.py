@@ -26,10 +26,11 @@ from .frustum_writing import size_of_both
 
 @compiled
 def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> float:
-    """Return how far the other body's nearest point is past the apex along the side of the cone [m].
+    """Return the distance of the other body's nearest point past the apex [m], less the tolerance ``2 END size``.
 
-    The point lies at ``distance`` [m] from the apex, along a normal with the axial component ``axial``.  If the result
-    is positive, the side is nearer to the point than the apex.
+    It is the coordinate of this point along a straight line on the cone's side, from the apex downwards.  If the result
+    is positive, the side is nearer to the point than the apex.  The point lies at ``distance`` [m] from the apex;
+    ``axial`` is the component, along the cone's axis, of the unit vector from the apex to the point.
     """
     radial = math.sqrt(max(1.0 - axial * axial, 0.0))
     return float(max(distance * (frustum[SIN] * radial - frustum[COS] * axial), -size) - 2.0 * END * size)
@@ -115,6 +116,9 @@ class ApexSwept(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of faces, edges and vertices of the second body; in this contact, a vertex never closes."""
+        """Names of the apex with each face, edge and vertex of the second body; two points have no contact here.
+
+        Vertices have names only so that the numbers of the features agree with the tables.
+        """
         counts = ("face", len(self.faces) // FACE), ("edge", len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
         return tuple(f"apex and {name} {i}" for name, n in counts for i in range(n))

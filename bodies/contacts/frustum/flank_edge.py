@@ -39,13 +39,13 @@ def evaluate_flank_edge(
     faces: Floats,
     size: float,
 ) -> None:
-    """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses the side."""
+    """Write the geometry block of a frustum's side and an edge, rounded by ``radius`` [m], that crosses the side."""
     axes = axes_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
-    # normals of the side perpendicular to the edge: cosine (d . e) + sine d_z = 0, for the direction e from the axis
+    # e: direction from the axis, with a normal of the side perpendicular to the edge: cosine (d . e) + sine d_z = 0
     across = math.sqrt(dx * dx + dy * dy)
     if across > 0.0:
         fx, fy = dx / across, dy / across
@@ -71,7 +71,7 @@ def evaluate_flank_edge(
     up = cosine * (pz - gap * nz - frustum[LOW]) - sine * (away - frustum[0])
     over = max(max(-s, s - edge[LENGTH]), max(-up, up - frustum[SIDE]))
     if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
-        # no normal of the side is perpendicular to the edge
+        # no normal of the side is perpendicular to the edge, or the edge is parallel to the side: no valid crossing
         over = size
     qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
     overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, (qx, qy, qz), (px, py, pz), (cx, cy, cz))
@@ -96,9 +96,9 @@ class FlankEdge(ContactKinematics):
     edge : tuple of float
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
-        Radius about the edge [m].
+        Radius of the rounding about the edge [m]; 0 for a sharp polyhedron.
     faces : tuple of float
-        All faces of the second body's core; empty for a segment.
+        Rows of all faces of the second body's core, a polyhedron; empty for a capsule, whose core is a segment.
     size : float
         Size of the bodies [m].
     name : str

@@ -19,14 +19,17 @@ from .frustum import FLANK, axis_in_world, center_in_world
 from .frustum_writing import overlap_of, past_border, write_side, write_two
 
 PARALLEL = 0.01
-"""Least sine of the angle between the lines of two crossing sides; below it, contacts of the rims suffice."""
+"""Least sine of the angle between the straight lines of two crossing sides through their contact points.
+
+Sides at a smaller angle touch at their rims, which have contacts of their own.
+"""
 
 
 @compiled
 def _line(
     frustum: Floats, cx: float, cy: float, cz: float, ax: float, ay: float, az: float, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Return lower end [m] and unit vector of the straight line on the side along which the outward normal is n."""
+    """Return the straight line of the side with the outward normal (nx, ny, nz): its lower end [m] and unit vector."""
     cosine, sine = frustum[COS], frustum[SIN]
     ex, ey, ez = (nx - sine * ax) / cosine, (ny - sine * ay) / cosine, (nz - sine * az) / cosine
     wide, low = frustum[0], frustum[LOW]
@@ -45,7 +48,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     bx, by, bz = axis_in_world(b, second)
     cx, cy, cz = center_in_world(a, first)
     kx, ky, kz = center_in_world(b, second)
-    # n . a = sine of the first, n . b = -sine of the second; the third component is along a x b
+    # n = p a + q b + r (a x b): n . a = sine of the first side, n . b = -sine of the second side, r from |n| = 1
     cross_x, cross_y, cross_z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
     square = cross_x * cross_x + cross_y * cross_y + cross_z * cross_z
     dot = ax * bx + ay * by + az * bz

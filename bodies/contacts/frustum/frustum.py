@@ -1,7 +1,7 @@
 """Caps, rims, side, apex and feet of a frustum: the part nearest to a point, its curvature, and frustums on feet.
 
-A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`; its parts are numbered from the lower cap over
-rim, side and rim to the upper cap.
+A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`.  Its parts are numbered along the axis: lower
+cap, lower rim, side, upper rim, upper cap.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from ..surface.mesh_point import Corner
 from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
-"""Numbers of the parts of a frustum; the flank is its side."""
+"""Part numbers of a frustum, in the direction of its axis: lower cap, lower rim, side, upper rim, upper cap."""
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 """Names of the rims in the names of features."""
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
-    """Return the names of the parts that a frustum has, by :func:`part_number`."""
+    """Return the names of the parts that a frustum has, in the order of :func:`part_number`."""
     if numbers[SIDE] == 0.0:
         return "face -", "rim", "face +"
     if numbers[1] == 0.0:
@@ -59,14 +59,14 @@ def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
 
 @compiled
 def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, float, float, int]:
-    """Return signed distance, normal (across and along the axis) and part nearest to a point.
+    """Return the part nearest to a point: signed distance [m], normal (across and along the axis), and part.
 
     Parameters
     ----------
     frustum : Floats
         Numbers of the frustum.
     along, away : float
-        Height of the point over the centre along the axis, and its distance from the axis [m].
+        Coordinate of the point along the axis from the centre, and its distance from the axis [m].
     """
     under, over = frustum[LOW] - along, along - frustum[HIGH]
     dr, dz = away - frustum[0], along - frustum[LOW]
@@ -77,7 +77,7 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
     if under > 0.0 and away < frustum[0]:
         return under, 0.0, -1.0, LOW_CAP
     if under <= 0.0 and over <= 0.0 and beside <= 0.0:
-        # a point inside leaves by the nearest of side and caps
+        # inside, the nearest part is the side or a cap
         if beside >= under and beside >= over:
             return beside, frustum[COS], frustum[SIN], FLANK
         if over >= under:
@@ -94,14 +94,20 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
 
 @compiled
 def least_height(frustum: Floats, height: float, cosine: float) -> float:
-    """Return the least height of a frustum over a plane [m], from its centre's ``height`` and its axis' ``cosine``."""
+    """Return the least height of a frustum over a plane [m].
+
+    ``height`` is the height of its centre [m], ``cosine`` the component of its axis along the normal of the plane.
+    """
     sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
     return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
 
 
 @compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
-    """Write the matrices of a part of a frustum; normal and first tangent must be in ``out``.
+    """Write the curvature matrices (slide, turn) of a part of a frustum at the contact point to the geometry block.
+
+    They are explained in :func:`bodies.contacts.features.writing.write_principal`.  The caller has already written the
+    normal and the first tangent to ``out``.
 
     Parameters
     ----------
@@ -122,7 +128,7 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
     elif part != FLANK and away == 0.0:
         write_round(out, side, 0.0)
     else:
-        # round the axis the normal turns by ``radial`` of the angle by which the point goes round
+        # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
         flank = 1.0 if part == FLANK else 0.0
         x, y, z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
         write_principal(out, side, x, y, z, max(radial, FLATTEST), away, 1.0 - flank, flank)
@@ -132,13 +138,13 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
 def tip_past_rim(
     b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
 ) -> float:
-    """Return ``depth`` plus the least distance outside of a disc's rim at which edges of a vertex cross its plane [m].
+    """Return a length [m] that is negative if a vertex behind a disc went through the disc.
 
-    The vertex p, relative to the centre of the disc, lies behind the plane at ``depth`` [m], in the direction -n.  A
-    negative result means that the vertex touches the disc: it went through the disc, so that all its edges cross the
-    plane inside of the rim by more than ``depth``.  A positive result means that an edge touches the rim from the side.
-    Edges that cross the plane farther from the vertex than their midpoint are ignored.  The result is infinite if no
-    edge crosses the plane.
+    The vertex p, relative to the centre of the disc, lies behind the disc's plane at ``depth`` [m], in the direction
+    -n.  Each edge of the vertex that leads back through the plane crosses it at a distance from the centre.  The result
+    is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the plane.  A
+    negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise the edges
+    pass the rim from the side.  Edges that cross the plane farther from the vertex than their midpoint are ignored.
     """
     (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
@@ -156,17 +162,18 @@ def tip_past_rim(
 
 
 _WAYS = 12
-"""Number of unit vectors, evenly spaced round the axis, along the surface at an apex or at the tip of a foot.
+"""Number of unit vectors that stand for edges of an apex (down the side of the cone) or of a foot (along the cap).
 
-They replace the edges of a corner: an apex or a foot touches a face only if none of the vectors leads below the face.
+An apex or a foot is treated as a corner with these edges, evenly spaced around the axis.  A face can touch it only if
+no edge points into the face steeper than :data:`bodies.contacts.surface.surface_vertex.ASTRAY`.  The steepest of 12
+edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all directions.
 """
 
 
 def set_back(first: Frustum) -> Numbers:
-    """Return the numbers of a frustum whose rims are set back by the height of the feet; only the feet protrude.
+    """Return the numbers of a frustum whose rims are set back by the height of the feet, so that only feet protrude.
 
-    Contacts of rims with faces and with edges of a mesh both use these numbers.  A rim that rolls from a face over its
-    edge therefore does not jump by the height of the feet.
+    A rim that rolls over the edge of a face then keeps its height.
     """
     own = first.frustum
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
@@ -179,7 +186,10 @@ def set_back(first: Frustum) -> Numbers:
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield the apex of a cone: place [m], unit vectors down the side, name. Other frustums yield nothing."""
+    """Yield position [m], edges (:data:`_WAYS` unit vectors down the side, flattened) and name of the apex of a cone.
+
+    Other frustums, which have no apex, yield nothing.
+    """
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:
@@ -187,13 +197,16 @@ def apex_of(first: Frustum) -> Iterator[Corner]:
 
 
 def feet_of(first: Frustum) -> Iterator[Corner]:
-    """Yield all feet: place [m], unit vectors in the plane of the cap, name."""
+    """Yield position [m], edges (:data:`_WAYS` unit vectors in the cap's plane, flattened) and name of each foot."""
     for i, foot in enumerate(first.feet):
         yield foot, _round(first, 1.0, 0.0), f"foot {i}"
 
 
 def _round(first: Frustum, away: float, along: float) -> Numbers:
-    """Return unit vectors evenly round the axis, with components ``away`` across and ``along`` it, flattened."""
+    """Return ``_WAYS`` unit vectors at even angles around the axis, flattened: three components for each vector.
+
+    Each has the component ``away`` perpendicular to the axis and ``along`` along it.
+    """
     axes = np.array(first.frustum[AXIS - 2 : AXIS + 7]).reshape(3, 3)
     angles = [2.0 * math.pi * i / _WAYS for i in range(_WAYS)]
     ways = [axes @ np.array([away * math.cos(angle), away * math.sin(angle), along]) for angle in angles]

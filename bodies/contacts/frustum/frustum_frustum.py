@@ -35,7 +35,7 @@ from .rim_rim import RimRim
 
 _OTHERS: tuple[type[ContactKinematics], ...] = (FlankFlank, RimFlank, RimRim, ApexFrustum)
 _ON_SIDE = 0.01
-"""Largest part of a body, relative to its size, beyond a disc, for a body that is on one side of the disc."""
+"""Length, relative to the size of the bodies, by which a body on one side of a disc may extend beyond its plane."""
 
 
 def _evaluate(
@@ -71,14 +71,15 @@ def _evaluate(
         overlap = overlap_of(own, first, other, second, gap, size, (px, py, pz), (nx, ny, nz))
     past = past_border(gap, away - wide, 0.0, overlap, size)
     if gap < 0.0 and second[SIDE] == 0.0 and first[SWEEP] + second[SWEEP] > 0.0:
-        # the body is on the other side of a disc, and apart from it
+        # a rounded body behind the plane of a disc is apart from it, on its other side: open this contact
         past = max(past, size)
     elif gap < 0.0:
         if second[SIDE] > 0.0:
-            # a point below a cap touches it only from inside of the body
+            # a rim's point below the plane of a cap overlaps the other body only if it is inside of this body
             inside, _, _, _ = nearest_part(second, along, away)
         else:
-            # a disc: the other body must contain the disc's point, within the gap, and lie on this side of the disc
+            # a disc: its point opposite the rim's point must be inside of the other body or at most ``-gap`` outside of
+            # it, and this body must lie on the cap's side of the disc
             qx, qy, qz = center_in_world(own, first)
             high, far, _, _, _ = across(px + gap * nx - qx, py + gap * ny - qy, pz + gap * nz - qz, ax, ay, az)
             inside, _, _, _ = nearest_part(first, high, far)
@@ -86,13 +87,13 @@ def _evaluate(
             base = up * (bx * (qx - kx) + by * (qy - ky) + bz * (qz - kz) - height)
             inside += gap
             if first[SIDE] == 0.0:
-                # two discs overlap if one passes through the other
+                # two discs overlap only if the first disc's radius through its rim's point crosses the second disc
                 back = gap / max(lean, FLATTEST)
                 _, far, _, _, _ = across(px + back * ex - kx, py + back * ey - ky, pz + back * ez - kz, bx, by, bz)
                 inside = far - wide
             inside = max(inside, -least_height(first, base, cosine) - _ON_SIDE * size)
         past = max(past, inside - REACH * size)
-    # if the overlap is deep, the other cap or the side is nearer
+    # at an overlap of more than half of the height, the other cap or the side is nearer: this contact is past its end
     past = max(past, -gap - 0.5 * max(second[HIGH] - second[LOW], 0.1 * size))
     write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz), overlap)
     write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
@@ -102,11 +103,12 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumFrustum(ContactKinematics):
-    """Contact of the lowest point of a rim with one cap of another body; a foot or an apex is a rim of radius 0.
+    """Contact of a cap of one body with the point of a rim of the other body that is lowest over the cap's plane.
 
-    The two bodies have further contacts: sides that cross, rims and apex against the other's side, and rims that cross.
-    The features of a contact never change; a contact whose features do not face each other is open.  If one of the
-    bodies is rounded, an apex is a sphere, with one contact for all parts of the other body.
+    Feet and apices are treated as rims of radius 0. :meth:`between` also returns the other contacts of the two bodies:
+    a side with a side, a rim or an apex with a side, and a rim with a rim.  The features of a contact never change; a
+    contact whose features do not face each other is open.  If one of the bodies is rounded, an apex is a sphere, with
+    one contact for all parts of the other body.
 
     Attributes
     ----------

@@ -173,9 +173,10 @@ class FrustumPolyhedron(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of rims and feet over faces, of vertices, and of edges with side and rims.
+        """Return the contacts of rims and feet with faces, vertices with the frustum, and edges with side and rims.
 
-        If one of the two is rounded, return the contacts of :class:`bodies.FrustumSwept`.
+        Faces, vertices and edges are those of the polyhedron.  If one of the two bodies is rounded, return the contacts
+        of :class:`bodies.FrustumSwept`.
         """
         assert isinstance(first, Frustum)
         assert isinstance(second, Polyhedron)
@@ -213,5 +214,8 @@ class FrustumPolyhedron(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the frustum's parts, each with the vertex; rims serve only for the numbering."""
+        """Names of the frustum's parts, each with the vertex; in this contact, the vertex never touches a rim.
+
+        Rims have names only so that the numbers of the features agree with those of the parts.
+        """
         return tuple(f"{part} and vertex {self.vertex}" for part in part_names(self.frustum))

@@ -1,8 +1,10 @@
-"""A cylinder, a cone or a disc and a body with a smooth support function.
+"""Contact of a cylinder, a cone or a disc with a body that has a smooth support function.
 
-The part of the frustum that is nearest to the smooth body is found by trial.  For each part,
-:mod:`bodies.contacts.frustum.frustum_stops` seeks a stop: a point of the smooth body that lies before the part, and
-whose common normal is a normal of the part.  Both bodies are convex, so that bodies that are apart have one stop only.
+The gap is the largest value of n . (p - q) over all unit normals n, for the points p and q of smooth body and frustum
+that are extreme along n.  Each part of the frustum (cap, side, rim) has a range of normals.
+:mod:`bodies.contacts.frustum.frustum_stops` searches one part for a local maximum.  Bodies that are apart have only one
+local maximum, because both are convex.  Bodies that overlap may have several; the largest gives the shortest
+translation that separates the bodies.
 """
 
 from __future__ import annotations
@@ -44,36 +46,47 @@ from .frustum import (
 from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
 
 Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, float, float, float]
-"""Both bodies in the axes of the frustum, as arguments of the searches.
+"""Arguments of the searches for both bodies, in the axes of the frustum.
 
-In this order: frustum, lower and upper rim as cores, a point as a core, core of the smooth body, its axes, three
-coordinates of its centre [m], size of both bodies [m].
+In this order: frustum, lower rim, upper rim and a point (each as a core), core of the smooth body, axes of the smooth
+body, its centre x, y, z [m], size of both bodies [m].
 """
 
 _SHALLOW, _SLIGHT = 1e-6, 1e-8
-"""Overlap up to which the first stop is taken as nearest, relative to the size: smooth body, body with ridges."""
+"""Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size.
+
+``_SHALLOW`` is for smooth bodies without ridges, ``_SLIGHT`` for bodies with ridges (a power of the core above 2).
+"""
 _CLOSE = 1e-12
 """Least distance of the smooth body's centre from the frustum's axis, relative to the size of both bodies.
 
 Below it the direction from the axis to the centre is round-off, and the search starts at the first axis instead.
 """
 _SAMPLES, _PROJECTIONS = 8, 16
-"""Intervals between the points of a stop, whose ends are tried as common points; most points by projection."""
+"""Numbers of points that are tried as common points of both bodies (:func:`_share_a_point`).
+
+``_SAMPLES`` is the number of intervals between the two contact points, whose ends are tried first.  ``_PROJECTIONS`` is
+the largest number of points from alternating projections, which are tried then.
+"""
 _HIGHER = 1e-14
-"""Least difference of the gaps of two different maxima, relative to the size; a smaller difference is round-off."""
+"""Least difference of two local maxima of the gap, relative to the size; a smaller difference is round-off."""
 _NEARBY = 1e-3
-"""Angle to a maximum of the gap up to which steps go uphill, if they only give the start of another search [rad]."""
+"""Angle to a maximum of the gap at which the ascent may end [rad], because Newton's method continues from there."""
 _DEEP = 0.9
-"""Gauge of the frustum's point nearest to the core's centre, below which the overlap is deep: 0 centre, 1 surface."""
+"""Gauge below which an overlap is deep, at the point of the frustum that is nearest to the core's centre.
+
+The gauge of the core is 0 at its centre and 1 on its surface.  At a deep overlap some searches are left out,
+because they may end at a smaller local maximum of the gap.
+"""
 _ON_SURFACE = 1e-12
-"""Largest deviation of the gauge from 1 at a point of the surface: round-off."""
+"""Round-off by which the gauge of a core (1 on its surface) may exceed 1 at a point inside of the core."""
 _TURNS = 8
-"""Directions round the axis from which all parts are tried, if the direction of the core's centre gave no stop."""
+"""Number of directions around the axis at which searches start, if the direction to the core's centre is in vain."""
 
 
 @compiled
 def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> bool:
-    """Whether the frustum's point of a stop is inside of the smooth body, with the body's centre on the outer side."""
+    """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there."""
     g, px, py, pz, nx, ny, nz = found
     px, py, pz = px - g * nx - x, py - g * ny - y, pz - g * nz - z
     if nx * px + ny * py + nz * pz >= 0.0:
@@ -84,11 +97,12 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
 
 @compiled
 def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: Answer) -> bool:
-    """Whether the stop of a cap is proved to give the least overlap of all directions.
+    """True if the gap found over a cap is proved to be the largest over all normals.
 
-    If the bodies are apart, it always is.  If the overlap is d, two points of the smooth body prove it: the lowest
-    point, at the depth d, and the point at the height d on the line from there to the centre.  If both are at least d
-    inside of the rim, then in any direction one of the two is at least d behind a point of the rim.
+    It always is if the bodies are apart.  At an overlap of depth d, two points of the smooth body prove it.  The first
+    is the lowest point, at the depth d below the cap.  The second lies on the line from there to the body's centre, at
+    the height d above the cap.  If both are at least d inside of the rim, in any direction one of the two is at least d
+    behind a point of the rim, so that no translation by less than d separates the bodies.
     """
     g, px, py, _, _, _, up = found
     if g >= 0.0:
@@ -104,10 +118,11 @@ def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found:
 
 @compiled
 def _has_room(frustum: Floats, part: int, found: Answer, near: float) -> bool:
-    """Whether the stop of a cap or the side is proved to give the least overlap of all directions.
+    """True if the gap found over a cap or the side is proved to be the largest over all normals.
 
-    The proof is a ball round the smooth body's point, with the depth as its radius, that lies inside of the frustum:
-    no shorter translation moves this point out.
+    The proof is a ball about the smooth body's point, with the depth of the overlap as its radius: if the ball lies
+    inside of the frustum, no translation by less than the depth moves the point out.  ``near`` is the tolerance for
+    round-off [m].
     """
     if part == LOW_RIM or part == HIGH_RIM:
         return False
@@ -130,11 +145,11 @@ def _into(frustum: Floats, x: float, y: float, z: float) -> tuple[float, float, 
 def _share_a_point(
     frustum: Floats, point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer
 ) -> bool:
-    """Return whether a common point of both bodies is found, which confirms the overlap that a stop gives.
+    """True if a common point of both bodies is found, which confirms that the bodies overlap as ``found`` says.
 
-    Candidates are the frustum's points nearest to points of the line between both points of the stop.  Then come the
-    frustum's point nearest to the core's centre, the frustum's point nearest to the core's point nearest to it, and so
-    on by turns.
+    Points of the frustum are tried in two series.  The first series has the frustum's points nearest to points of the
+    line between the two contact points in ``found``.  The second series alternates: the frustum's point nearest to the
+    core's centre, the core's point nearest to this point, the frustum's point nearest to that, and so on.
     """
     g, qx, qy, qz, nx, ny, nz = found
     px, py, pz = qx, qy, qz
@@ -171,10 +186,11 @@ def _nearest(
     y: float,
     z: float,
 ) -> tuple[Answer, int]:
-    """Return the nearest stop, and the part of the frustum to which it belongs.
+    """Return the largest gap found over all normals, with point and normal, and the part of the frustum it belongs to.
 
-    The stop holds the gap of the cores [m], the smooth body's point [m] and the normal, in the axes of the frustum.
-    The gap is nan if no stop was found.  A negative gap needs a common point of both bodies as a proof.
+    The first result holds the gap of the cores [m], the smooth body's point [m] and the normal, in the axes of the
+    frustum.  The part is a cap, the side or a rim, such as ``LOW_CAP``.  The gap is nan if no local maximum was found.
+    A negative gap needs a common point of both bodies as a proof.
     """
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + frustum[0] + frustum[HIGH] - frustum[LOW]
     bodies = frustum, low, high, point, core, turn, x, y, z, size
@@ -194,10 +210,11 @@ def _nearest(
     for start in range(_TURNS + 4):
         if start == 1:
             is_deep = _is_deep(frustum, core, turn, x, y, z)
-        # start at the centre's direction; then search without a start, with a steep normal, a flat one, then all round
+        # start 0: normals towards the centre; 1: the searches of `by_search`; 2, 3: normals near the side's, near the
+        # cap's; from 4 on: directions all around the axis
         tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
         if start > 3:
-            # directions all round the axis: overlapping bodies may have their stop on the far side
+            # if the bodies overlap, the contact may be on the side of the axis away from the smooth body's centre
             sx, sy = math.cos(2.0 * math.pi * start / _TURNS), math.sin(2.0 * math.pi * start / _TURNS)
         for i in range(9):
             # first the part nearest to the centre, then the others in the order of their distance from this part
@@ -209,7 +226,7 @@ def _nearest(
                 continue
             if start == 1:
                 if is_deep:
-                    # a deep overlap has several stops, so that a search cannot prove the nearest
+                    # at a deep overlap the gap has several maxima, of which this search may find a smaller one
                     continue
                 found = by_search(frustum, point, core, turn, (x, y, z), (sx, sy), part, size)
             elif part == LOW_CAP or part == HIGH_CAP:
@@ -226,14 +243,14 @@ def _nearest(
                 if not is_sharp and _is_before(core, turn, x, y, z, found):
                     return best, where
         if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, best)):
-            # a tip or a ridge next to an edge or an apex may have a shorter way out at another maximum of the gap
+            # a tip or ridge next to an edge or apex: another local maximum of the gap may have a smaller depth
             rim = where == LOW_RIM or where == HIGH_RIM
             if rim and (is_deep or _is_deep(frustum, core, turn, x, y, z)):
                 return best, where
             best, where = _higher(bodies, best, where)
             return best, where
     if is_sharp and not is_deep and best[0] < 0.0:
-        # the shortest way out may have been missed: seek larger gaps
+        # the local maximum with the smallest depth may have been missed: seek larger gaps
         best, where = _higher(bodies, best, where)
     if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
         best, where = _on_hills(bodies)
@@ -244,7 +261,7 @@ def _nearest(
 
 @compiled
 def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> bool:
-    """Return whether the frustum's point nearest to the core's centre is deep in the core, by the gauge ``_DEEP``."""
+    """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
     px, py, pz = _into(frustum, x, y, z)
     px, py, pz = back(turn, px - x, py - y, pz - z)
     return bool(gauge(core, px, py, pz) < _DEEP)
@@ -252,7 +269,11 @@ def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: f
 
 @compiled
 def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
-    """Return a stop and its part; a stop with a larger gap replaces it unless a ball in the smooth body proves it."""
+    """Return the larger of the gap ``best`` and the gaps of further local maxima, and the part it belongs to.
+
+    No further search is made if a ball inside of the smooth body proves that ``best`` is the largest
+    (:func:`bodies.contacts.smooth.inscribed.no_shorter_way`).
+    """
     frustum, _, _, point, core, turn, x, y, z, size = bodies
     if not no_shorter_way(point, core, turn, x, y, z, best):
         found, part = _on_hills(bodies)
@@ -267,7 +288,10 @@ def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
 
 @compiled
 def _beside_apex(bodies: Bodies) -> Answer:
-    """Return the stop of the side, sought from the maxima of the gap over the apex; the gap is nan without a stop."""
+    """Return gap, point and normal of the largest local maximum of the gap over the side beside the apex.
+
+    Searches start at the normals with a maximal gap over the apex.  The gap is nan if no maximum was found.
+    """
     frustum, _, high, _, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
@@ -281,7 +305,10 @@ def _beside_apex(bodies: Bodies) -> Answer:
 
 @compiled
 def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
-    """Return the best stop of rims and apex, by steps uphill on the gap, and its part; the gap is nan without one."""
+    """Return the largest local maximum of the gap over rims and apex, found by ascent, and the part it belongs to.
+
+    The gap is nan if no maximum was found, or if a negative gap has no common point of both bodies as a proof.
+    """
     frustum, low, high, point, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     where = LOW_RIM

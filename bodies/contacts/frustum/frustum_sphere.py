@@ -89,5 +89,5 @@ class FrustumSphere(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the frustum's parts, from the lower cap to the upper one, with the other feature."""
+        """Names of the pairs of features: each part of the frustum, from the lower cap upwards, with the sphere."""
         return tuple(f"{part} and sphere" for part in part_names(self.first))

@@ -1,8 +1,10 @@
-"""Where a smooth body is nearest to one part of a cylinder, a cone or a disc: gap, point and normal, or nan if nowhere.
+"""Searches for the largest gap of a smooth body over one part of a cylinder, a cone or a disc.
 
-On a cap the normal is given.  On the side it has one angle, found by Newton's method on the support function, or for a
-boxy body by halving.  A rim is searched as a flat ellipsoid, an apex as a point.  The result, a "stop" of the part,
-is valid if the smooth body's point lies before the part and the common normal is a normal of the part.
+The gap is a function of the unit normal, and a part of the frustum has a range of normals: a cap has one normal, the
+side has normals of one unknown angle, a rim has a fan of normals at each of its points.  The result, gap, point and
+normal, is a local maximum of the gap over the normals of all parts if the smooth body's point lies opposite the part.
+Otherwise the gap is nan.  The angle on the side is found by Newton's method on the support function, or by halving if
+the body is boxy.  A rim is searched as a flat ellipsoid, an apex as a point.
 """
 
 from __future__ import annotations
@@ -23,19 +25,24 @@ from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
 
 ON_BORDER = 1e-14
-"""Tolerance of a stop, for round-off, in two checks.
+"""Round-off allowed in two checks of a local maximum of the gap.
 
-It limits how far the point is past the end of its cap or side, relative to the size of both bodies.  It limits by how
-much the unit normal leaves the range of normals of its rim, between side and cap.
+The first is the distance of its point past the border of the cap or the side, relative to the size of both bodies.  The
+second is the sine of the angle of its normal outside of the fan of normals of the rim, between side and cap.
 """
 _NEAR_BORDER = 1e-10
-"""The tolerance ``ON_BORDER`` for a stop of `by_search`; the error of its gap is only the square of this number."""
+"""Tolerance of `by_search` in place of ``ON_BORDER``; the error of the gap, which is stationary, is only its square."""
 _LEAST_LEAN, _MOST_LEAN, _TURNS = 1e-16, 1e-7, 4
-"""Least and largest angle of a normal to the axis that is tried at the end of a cap [rad]; directions tried."""
+"""Least and largest tilt of the normal from the axis tried at the border of a cap [rad]; number of azimuths tried."""
 _STEPS, _HALVINGS = 60, 40
-"""Most Newton steps on the side; most halvings of a Newton step or of an angle."""
+"""Largest numbers: of Newton steps in a search on the side, and of halvings of a Newton step or of a tilt."""
 _ROUND_OFF, _SEEN, _CLOSE, _RIGHT = 2e-16, 1e-14, 1e-12, 1e-13
-"""Tolerances of Newton's method, the same as in :mod:`bodies.contacts.smooth.dual_newton`."""
+"""Tolerances of Newton's method, for residuals and gaps relative to the size of both bodies.
+
+They are those of :mod:`bodies.contacts.smooth.dual_newton`.  A search ends at a residual of ``_ROUND_OFF``, or below
+``_CLOSE`` if a step no longer halves the residual.  A gap that is smaller by more than ``_SEEN`` is a failed step.  A
+result needs a residual below ``_RIGHT``.
+"""
 
 
 @compiled
@@ -51,7 +58,11 @@ def point_against(
 
 @compiled
 def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float) -> Answer:
-    """Return the stop of a cap: gap, point and normal; the gap is nan if the point is not over the cap."""
+    """Return gap, smooth body's point [m] and normal at the point that is lowest over a cap.
+
+    ``part`` is ``LOW_CAP`` or ``HIGH_CAP``.  The gap is nan if the point lies more than ``near`` [m] outside of the
+    cap's border.
+    """
     up = 1.0 if part == HIGH_CAP else -1.0
     radius = frustum[1] if part == HIGH_CAP else frustum[0]
     px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, up)
@@ -65,10 +76,11 @@ def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: flo
 def _on_end_of_cap(
     frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float
 ) -> Answer:
-    """Return the stop of a cap for a smooth body so flat that round-off moves its lowest point past the cap's end.
+    """Return gap, point and normal as :func:`on_cap`, for a body so flat that round-off moves its lowest point.
 
-    The more the normal leans outwards, the farther inwards is the lowest point.  Two leans are bisected whose lowest
-    points lie on either side of the end; the line between these points has a point of the body over the end.
+    If round-off moved the lowest point past the border of the cap, the normal is tilted outwards: the larger the tilt,
+    the farther inwards is the lowest point.  Two tilts are bisected, with lowest points inside and outside of the
+    border.  Between these two points, a point over the border is interpolated.
     """
     found: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
     radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
@@ -87,7 +99,7 @@ def _on_end_of_cap(
             inside = radius * radius - qx * qx - qy * qy
             if inside > 0.0:
                 high = lean
-                # the point of the line between them that is over the end
+                # the point over the border, on the line from q (inside of the border) to p (outside of it)
                 wx, wy = px - qx, py - qy
                 along, across = qx * wx + qy * wy, wx * wx + wy * wy
                 share = inside / (along + math.sqrt(along * along + across * inside))
@@ -106,7 +118,10 @@ def _on_end_of_cap(
 
 @compiled
 def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
-    """Return whether a stop of the side, continued beyond its rims, lies between the rims and outside of the axis."""
+    """True if a local maximum of the gap over the side, continued beyond its rims, lies between the rims.
+
+    Its point on the side must not have crossed the axis.  ``near`` is the tolerance at the rims [m].
+    """
     g, px, py, pz, nx, ny, _ = found
     cosine, sine = frustum[COS], frustum[SIN]
     away = (nx * px + ny * py) / cosine
@@ -118,7 +133,10 @@ def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
 def on_flank(
     frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, near: float
 ) -> Answer:
-    """Return the stop of the side, nan as gap if there is none; start at the direction (sx, sy) from the axis."""
+    """Return gap, smooth body's point [m] and normal of a local maximum of the gap over the side.
+
+    The gap is nan if there is no maximum.  The search starts at the normal in the direction (sx, sy) from the axis.
+    """
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
     length = math.sqrt(sx * sx + sy * sy)
@@ -138,7 +156,10 @@ def on_flank(
 def _on_round_flank(
     frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, near: float
 ) -> Answer:
-    """Return the stop of the side continued beyond its rims, by Newton's method on the angle round the axis."""
+    """Return the maximum of the gap over the side, continued beyond its rims, by Newton's method for one angle.
+
+    The angle is the angle of the normal round the axis.
+    """
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
     size = near / ON_BORDER
@@ -187,12 +208,13 @@ def on_rim(
     part: int,
     tilt: float,
 ) -> Answer:
-    """Return the stop of a rim or of the apex: gap, smooth body's point and normal; the gap is nan without a stop.
+    """Return gap, smooth body's point [m] and normal of a local maximum of the gap over a rim, or over the apex.
 
-    The search starts with a normal in the plane of the axis and ``direction``, a vector perpendicular to the axis.  The
-    normal is interpolated between the normal of the side (|tilt| = 0) and the normal of the cap (|tilt| = 1).  If
-    ``tilt`` is negative, the direction from the rim to the core's centre is taken instead, if it lies between these
-    two normals.
+    The gap is nan if there is no maximum.  ``part`` is ``LOW_RIM`` or ``HIGH_RIM``; the apex is an upper rim of radius
+    0.  The search starts with a normal in the plane of the axis and ``direction``, a vector perpendicular to the axis.
+    |tilt| interpolates this normal between the normal of the side (0) and the normal of the cap (1).  If ``tilt`` is
+    negative and the direction from the rim to the core's centre lies between these two normals, the search starts with
+    this direction.
     """
     sx, sy = direction
     x, y, z = place
@@ -230,10 +252,10 @@ def by_search(
     part: int,
     size: float,
 ) -> Answer:
-    """Return the stop of a part by searches round the axis, if `on_cap`, `on_flank` and `on_rim` found no stop.
+    """Return a local maximum of the gap over a part (cap, side or rim), by searches round the axis.
 
-    Close to the border of two parts a stop of either part is accepted, because their gaps differ only by the square of
-    the distance to the border.
+    It serves if `on_cap`, `on_flank` and `on_rim` found no maximum.  The tolerance at the border of a part is larger
+    here, because the gaps of both parts there differ only by the square of the distance to the border.
     """
     sx, sy = direction
     x, y, z = place

@@ -67,12 +67,13 @@ def check_number(edges: int) -> None:
 @final
 @dataclass(frozen=True)
 class FrustumSwept(ContactKinematics):
-    """A vertex of a polyhedron or an end of a capsule, as a sphere, against the nearest cap, rim or side, or the apex.
+    """Contact of a vertex of a polyhedron, or an end of a capsule, with a frustum's nearest cap, rim, side or apex.
 
-    The two bodies touch if the distance of their cores is the sum of their radii.  They have further contacts: edges
-    across side and rims, rims and feet over the faces, and the apex, as a sphere.  The features of a contact never
-    change; a contact whose features are not the nearest ones is past their end.  Vertices ignore the feet.  Corners of
-    meshes have these contacts, too (:class:`bodies.FrustumMesh`).
+    The vertex is a sphere with the radius of rounding, or a point.  The two bodies touch if the distance of their cores
+    is the sum of their radii.  :meth:`between` also returns the other contacts of the two bodies: edges with side and
+    rims, rims and feet with faces, and the apex, as a sphere.  The features of a contact never change.  A contact whose
+    features are not the nearest ones is open: its distance past the feature's boundary is positive.  Vertices ignore
+    the feet.  Corners of meshes have these contacts, too (:class:`bodies.FrustumMesh`).
 
     Attributes
     ----------

@@ -1,6 +1,8 @@
-"""Crossings of a rim or side of a frustum with an edge or another rim: where they end, and their geometry block.
+"""Writes the geometry block of contacts in which a side or rim of a frustum crosses an edge or another frustum.
 
-An edge belongs to the second body: a sharp or rounded polyhedron, or a capsule.
+It also computes the distance of such a contact past the boundary of its features: the ends of an edge or of a side, and
+the fan of normals of an edge or a rim.  An edge belongs to the second body: a sharp or rounded polyhedron, or a
+capsule.
 """
 
 from __future__ import annotations
@@ -24,26 +26,28 @@ from .frustum import axis_in_world, center_in_world, nearest_part, write_part
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
-"""Sine of the largest angle by which a contact normal may leave the normals of its rim or edge: 14 degrees.
+"""Sine of the largest angle between the contact normal and the nearest normal of its rim or edge: 14 degrees.
 
 A rim or an edge has a fan of outward normals, between the normals of its two adjacent surfaces.  The margin lets a
 contact be followed shortly before its normal enters this fan.
 """
 _INSIDE = 4.0
-"""Least distance of an overlapping crossing from the ends of its features, relative to the depth of the overlap.
+"""Least distance of a crossing from the ends of its features if they overlap, relative to the depth of the overlap.
 
-Sharp features overlap over a length about equal to the depth, so that a crossing closer to an end may not exist.  The
-rule applies only if both points of the crossing lie outside of the other body.
+Sharp features overlap over a length of about the depth.  Closer to an end, one feature may pass the end of the other
+without touching.  The rule applies only if both contact points lie outside of the other body; otherwise the overlap is
+certain.
 """
 
 
 @compiled
 def past_border(gap: float, over: float, astray: float, overlap: float, size: float) -> float:
-    """Return how far a contact of two frustums is past the ends of its features [m], negative before them.
+    """Return the distance of a contact of two frustums past the boundary of its features [m]; negative if it is valid.
 
-    ``gap`` is the gap of the cores and ``over`` the distance past the ends of both features [m].  ``astray`` is the
-    sine of the angle by which the contact normal leaves the normals of the features.  A negative ``overlap`` is the
-    depth of a contact point inside the other body [m]; the contact then extends up to the ends of its features.
+    ``gap`` is the gap of the cores, ``over`` the distance past the ends of both features [m].  ``astray`` is the sine
+    of the angle between the contact normal and the fans of normals of the features.  ``overlap`` is negative if a
+    contact point lies inside of the other body, else 0 [m].  If it is 0 and the gap is negative, the contact ends
+    earlier, by ``_INSIDE`` times the depth.
     """
     past = max(over - REACH * size, size * (astray - ASTRAY))
     if gap < 0.0 and overlap == 0.0:
@@ -53,11 +57,11 @@ def past_border(gap: float, over: float, astray: float, overlap: float, size: fl
 
 @compiled
 def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat: bool) -> float:
-    """Return the sine of the angle by which a contact normal leaves the normals of a rim; negative within them.
+    """Return the sine of the angle between a contact normal and the fan of normals of a rim; negative inside this fan.
 
     The contact normal points out of the frustum; ``radial`` and ``axial`` are its components away from the axis and
-    along it.  The normals of a rim lie between those of side and cap.  ``up`` is 1 for the upper rim and -1 for the
-    lower one; ``flat`` means a disc, which has no side.
+    along it.  The fan lies between the normals of side and cap.  ``up`` is 1 for the upper rim and -1 for the lower
+    one; ``flat`` means a disc, which has no side.
     """
     if flat:
         return -radial
@@ -68,9 +72,11 @@ def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat:
 def overlap_of(
     one: Floats, first: Floats, other: Floats, second: Floats, gap: float, size: float, p: Point, n: Point
 ) -> float:
-    """Return the signed distance of the deeper of two contact points from the other body [m]: negative inside, else 0.
+    """Return the depth of the deeper of two contact points inside of the other body, as a negative number [m].
 
-    p is the contact point on the core of the frustum ``one``; p + gap n is the contact point on the core of ``other``.
+    It is 0 if neither point is inside, or not deeper than the tolerance. p is the contact point on the core of the
+    frustum ``one`` (its numbers: ``first``). p + gap n is the contact point on the core of ``other`` (its numbers:
+    ``second``), with the unit normal n from ``one`` to ``other``.
     """
     ax, ay, az = axis_in_world(one, first)
     x, y, z = center_in_world(one, first)
@@ -81,7 +87,7 @@ def overlap_of(
     along, away, _, _, _ = across(p[0] - x, p[1] - y, p[2] - z, ax, ay, az)
     found, _, _, _ = nearest_part(second, along, away)
     outside = min(outside, found) - first[SWEEP] - second[SWEEP]
-    # a depth up to twice the foot height is allowed: rims are set back by the feet in contacts with faces only
+    # rims are set back by the height of the feet in contacts with faces, but not here: allow a depth of both, twice
     return outside if outside < -DEEP * size - 2.0 * (first[FEET] + second[FEET]) else 0.0
 
 
@@ -101,8 +107,9 @@ def write_two(
     """Write the geometry block of two frustums, except the curvature matrices.
 
     ``distance`` is the distance of the cores [m] along ``normal``, from the point p on the core of ``one`` to the core
-    of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  A negative ``overlap`` while the features
-    are past their ends is written as the gap: it shows that another contact of the bodies was missed.
+    of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  ``overlap`` is the result of
+    :func:`overlap_of` [m].  If it is negative while the contact is past the boundary of its features (``past``
+    positive), it is written as the gap: no valid contact reports this overlap.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = one[SWEEP]
@@ -123,10 +130,11 @@ def write_two(
 def write_side(
     out: Floats, second: float, frustum: Floats, part: int, axis: Vector3, place: Vector3, normal: Vector3, away: float
 ) -> None:
-    """Write the matrices of a part of a frustum, which is the second body if ``second`` is 1, else the first.
+    """Write the curvature matrices of a part of a frustum, the second body if ``second`` is 1, else the first.
 
-    ``place`` is a vector from the axis of the frustum towards the contact point, of any length.  ``normal`` is the
-    outward normal there, ``away`` the distance of the point from the axis [m].
+    ``part`` is the number of the part, such as ``FLANK``.  ``place`` is a vector from the axis of the frustum towards
+    the contact point, of any length.  ``normal`` is the outward normal there, ``away`` the distance of the point from
+    the axis [m].
     """
     (ax, ay, az), (x, y, z), (nx, ny, nz) = axis, place, normal
     along = x * ax + y * ay + z * az
@@ -164,10 +172,10 @@ def edge_in_frustum(
 
 @compiled
 def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz: float) -> float:
-    """Return the sine of the angle by which a contact normal leaves the normals of an edge; negative within them.
+    """Return the sine of the angle between a contact normal and an edge's fan of normals; negative inside the fan.
 
-    The contact normal (nx, ny, nz), in the axes of the frustum, points from the frustum to the edge.  The normals of an
-    edge lie between the normals of its two faces.
+    The contact normal (nx, ny, nz), in the axes of the frustum, points from the frustum to the edge.  The fan lies
+    between the normals of the two faces of the edge.
     """
     ux, uy, uz = vector_in_world(b, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
     vx, vy, vz = vector_in_world(b, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
@@ -177,12 +185,13 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
 
 @compiled
 def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
-    """Return how far an edge that crosses a rim or a side is past the ends of both [m], negative before the ends.
+    """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
-    ``gap`` is the gap of the cores and ``over`` the distance past the ends of edge and rim or side [m].  ``sine`` is
-    the sine of the angle between the two features, ``astray`` the sine of the angle by which the contact normal leaves
-    their normals.  Overlapping features end earlier, by ``_INSIDE`` times the depth.  A negative ``overlap`` is the
-    depth of a contact point inside the other body [m]; the contact then extends up to the ends.
+    The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over`` the distance past the ends
+    of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.  ``astray`` is
+    the sine of the angle between the contact normal and the fans of normals of the features.  ``overlap`` is negative
+    if a contact point lies inside of the other body [m].  If it is 0 within round-off and the gap is negative, the
+    contact ends earlier, by ``_INSIDE`` times the depth.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
     if gap < 0.0 and overlap >= -DEEP * size:
@@ -203,13 +212,11 @@ def overlap_at(
     q: Vector3,
     place: Vector3,
 ) -> float:
-    """Return the signed distance of the deeper contact point of a crossing from the other body [m].
+    """Return the depth of a crossing's deeper contact point inside of the other body, as a negative number [m].
 
-    It is negative inside and 0 outside.  It is also 0 if the crossing is past the end of its edge, rim or side, by a
-    positive ``over`` [m].
-
-    p is the point of the frustum, from its centre ``place``, in world axes.  q is the point of the edge, from the same
-    centre, in the axes of the frustum.
+    It is 0 if both points are outside.  It is also 0 if ``over`` is positive, the distance of the crossing past the end
+    of its edge, rim or side [m].  The point of the frustum is ``p``, from its centre ``place``, in world axes.  The
+    point of the edge is ``q``, from the same centre, in the axes of the frustum.
     """
     (px, py, pz), (qx, qy, qz), (x, y, z) = p, q, place
     if over > 0.0:
@@ -218,7 +225,7 @@ def overlap_at(
     outside -= radius + frustum[SWEEP]
     if n_faces > 0.0:
         outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
-    # a depth up to twice the foot height is allowed: rims are set back by the feet in contacts with faces only
+    # rims are set back by the height of the feet in contacts with faces, but not here: allow a depth of twice that
     return float(min(outside + 2.0 * frustum[FEET], 0.0))
 
 
@@ -239,18 +246,19 @@ def write_crossing(
     overlap: float,
     size: float,
 ) -> None:
-    """Write the geometry block of an edge that crosses a rim or a side, except the matrices of the frustum.
+    """Write the geometry block of an edge that crosses a rim or a side, except the curvature matrices of the frustum.
 
-    ``distance`` is the distance of the cores [m], ``past`` the distance past the ends of edge and rim or side [m], p
-    the point on the core of the frustum in the world.  If the angle between both features has a small ``sine``, the
-    point of crossing moves faster than the bodies, by the factor 1 / sine.  The gap past the ends grows with ``sine``
-    times ``past``, so that its rate stays of the order of the bodies' velocities.
+    ``distance`` is the distance of the cores [m], ``past`` the distance past the boundary of edge and rim or side [m].
+    p is the point on the core of the frustum in the world.  ``sine`` is the sine of the angle between both features.
+    If it is small, the point of crossing moves faster than the bodies, by the factor 1 / sine.  Past the boundary, the
+    gap is therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = frustum[SWEEP]
     gap = distance - radius - sweep
     if past > 0.0:
-        # past the ends of its features, an overlap of the bodies means that another contact was missed: write its depth
+        # the crossing is not valid, but a contact point is deep inside of the other body: no contact reports this
+        # overlap, so write its depth as the gap
         gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.hypot(gap, max(PARALLEL, sine) * past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)

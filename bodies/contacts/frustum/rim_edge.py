@@ -36,18 +36,22 @@ from .frustum_writing import (
 )
 
 _STEEP = 0.5
-"""Cosine of the angle between edge and axis above which the edge can cross the nearer half of the rim only."""
+"""Cosine of the angle between edge and axis, above which contacts are sought on the rim's half nearer to the edge.
+
+The edge is then too steep to cross both halves of the rim.
+"""
 _STEPS = 100
 
 
 @compiled
 def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[float, float, float]:
-    """Return cosine and sine of the foot of a normal on the upper half of an ellipse, and how far it is from existing.
+    """Return the foot of the normal from (x, y) to the upper half of an ellipse: its cosine and sine, and a check.
 
-    The semi-axis along x is at least as long as the one along y.  A point (x, y) in the lower half-plane has such a
-    foot, with a local minimum of the distance, only if it lies within the evolute of the ellipse.  The third number is
-    0 then, else positive.  The foot is the zero of F = a x sin - b y cos - (a^2 - b^2) sin cos, between bounds of
-    opposite sign, by Newton's method and halvings.
+    The foot is the point (semi_x cosine, semi_y sine); semi_x is at least semi_y.  The check is 0 if there is a foot
+    with a local minimum of the distance, else positive.  A point (x, y) in the lower half-plane has such a foot only if
+    it lies within the evolute of the ellipse; the check is then a measure of the distance from the evolute.  The foot
+    is the zero of F = a x sin - b y cos - (a^2 - b^2) sin cos, with the semi-axes a and b, between bounds of opposite
+    sign, by Newton's method and halvings.
     """
     p, q = semi_x * abs(x), semi_y * y
     focal = max(semi_x * semi_x - semi_y * semi_y, 0.0)
@@ -85,10 +89,11 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 @compiled
 def _aside(b: Floats, frustum: Floats, n_faces: float, faces: Floats, p: Vector3, normal: Vector3) -> bool:
-    """Return whether bodies with a negative gap at a crossing lie on the far sides of each other, without an overlap.
+    """True if both contact points of a crossing lie outside of the other body, so that its negative gap is no overlap.
 
-    Then the contact point of each body is outside of the other body.  The same holds for a small overlap of a sharp rim
-    and a sharp edge, so that only deep overlaps can be judged.
+    ``p`` is the frustum's point in the world [m]; ``normal`` is the edge's point in the axes of the frustum [m].  In a
+    small overlap of a sharp rim and a sharp edge both points lie outside, too.  So the check is valid for deep overlaps
+    only.
     """
     (px, py, pz), (x, y, z) = p, normal
     if height_over(b, n_faces, faces, px, py, pz) <= 0.0:
@@ -128,7 +133,7 @@ def evaluate_rim_edge(
         hx, hy, hz, short = -hx, -hy, -hz, -short
     along = vx * gx + vy * gy
     over_rim = vx * hx + vy * hy + (vz - height) * hz
-    # if the edge is nearly in the plane of the rim, it can cross both halves: take the half of this contact
+    # an edge nearly in the plane of the rim can cross both half circles: this contact takes the one given by ``half``
     side = half
     if short > _STEEP:
         side = half * (1.0 if over_rim >= 0.0 else -1.0)
@@ -146,17 +151,18 @@ def evaluate_rim_edge(
     if total == 0.0 and crossing > 1e-6:
         nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
     else:
-        # rounded bodies, or an edge along the tangent: the line between both points, or out of the frustum without it
+        # rounded bodies, or an edge along the rim's tangent: the normal is along the line between both points, or
+        # radial if the points coincide
         apart = math.sqrt(wx * wx + wy * wy + wz * wz)
         nx, ny, nz = (wx / apart, wy / apart, wz / apart) if apart > 1e-9 * size else (ex, ey, 0.0)
     if total > 0.0:
-        # a rounded edge along the tangent touches the rim at one point, too
+        # a rounded edge along the tangent touches the rim at a single point, so the crossing is well defined
         crossing = 1.0
     ahead = nx * wx + ny * wy + nz * wz
     astray, flip = 2.0, 1.0
     for sign in (-1.0, 1.0):
         if total > 0.0 and sign * ahead < 0.0:
-            # the normal of rounded bodies points from the rim to the edge
+            # rounded bodies: the normal must point from the rim to the edge, so skip the opposite sign
             continue
         radial, axial = sign * (ex * nx + ey * ny), sign * nz
         off = max(-radial, astray_of_edge(b, edge, axes, sign * nx, sign * ny, sign * nz))
@@ -199,7 +205,8 @@ class RimEdge(ContactKinematics):
     rim : int
         1 for the lower rim, 3 for the upper one.
     half : float
-        1 for the half of the rim to which the edge runs, or that is nearer to one along the axis, -1 for the other.
+        1 for the half circle towards which the edge points, seen along the axis; -1 for the opposite half circle.  For
+        an edge at less than 60 degrees to the axis, 1 is the half circle nearer to the edge, and -1 has no contact.
     edge : tuple of float
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float

@@ -29,9 +29,10 @@ from .frustum_writing import size_of_both
 def _lowest(
     a: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
 ) -> tuple[float, float, float, float, float, float, float]:
-    """Return the rim's lowest point over a plane with ``normal`` [m], the unit vector to it from the centre, a sine.
+    """Return the rim's lowest point over a plane [m], the unit vector from the rim's centre to it, and a sine.
 
-    The sine is that of the angle between the axis of the rim and the normal.
+    The lowest point is the farthest against ``normal``, the normal of the plane.  The sine is that of the angle between
+    ``normal`` and the axis of the rim.
     """
     (x, y, z), (ax, ay, az), (nx, ny, nz) = center, axis, normal
     _, sine, ex, ey, ez = across(-nx, -ny, -nz, ax, ay, az)
@@ -79,7 +80,7 @@ def _evaluate(
         for j in range(int(n_faces)):
             highest = max(highest, plane_height(faces, FACE * j, px, py, pz))
         if height < 0.0:
-            # a point below a face touches it only from inside of the body
+            # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
             beyond = max(beyond, highest)
         beyond = max(beyond - margin, -least - 0.5 * faces[f + 4])
         if beyond < past:
@@ -87,7 +88,8 @@ def _evaluate(
     own = frustum[SWEEP]
     gap -= own + sweep
     if past > 0.0:
-        # the point is inside the body without a contact: another contact was missed, so write the depth
+        # a point inside of the polyhedron, past the borders of its face: no contact reports this overlap, so write its
+        # depth
         gap = deepest if deepest < -DEEP * size else math.sqrt(gap * gap + past * past)
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
@@ -110,10 +112,11 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class RimFace(ContactKinematics):
-    """Contact of the lowest point of a rim with the face that best separates the bodies.
+    """Contact of a rim with a face of the second body, at the rim's point that is lowest over the face.
 
-    A foot or an apex is a rim of radius 0.  A body that lies on its side has contacts of its two rims, a standing body
-    has contacts of its feet.
+    The face is the one over which the least height of the whole frustum is the largest, so that it best separates the
+    bodies.  Feet and the apex are treated as rims of radius 0.  A frustum whose axis is parallel to the face has
+    contacts of its two rims.  A frustum that stands on a cap has contacts of its feet.
 
     Attributes
     ----------
@@ -180,5 +183,5 @@ class RimFace(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the faces, with the other feature."""
+        """Names of the pairs of features: the rim, foot or apex of this contact with each face."""
         return tuple(f"{self.name} and face {i}" for i in range(len(self.faces) // FACE))

@@ -27,16 +27,20 @@ _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
 _SAMPLES, _STEPS = 12, 60
 _BEYOND = 3e-8
-"""Distance past the end of a side up to which a rounded body keeps its contact with a rim, relative to the size."""
+"""Length by which the contact of a rim extends past the end of a side if a body is rounded, relative to the size.
+
+On this length the contact of both rims begins, so that one of the two contacts always exists.
+"""
 _BENT = 1e-6
-"""Least second derivative of the height by the angle round the rim at a minimum, relative to the radius."""
+"""Least second derivative of the height by the angle at a minimum, over the rim's radius; if less, there is none."""
 
 
 @compiled
 def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: float) -> tuple[float, float, float]:
-    """Return the height over the side of the rim's point middle + g cos + h sin [m], and two derivatives by the angle.
+    """Return the height of a rim's point over the side, and its first and second derivative by ``angle`` [m].
 
-    All vectors are in the axes of the side.
+    The point is middle + g cos(angle) + h sin(angle), with the rim's centre ``middle``.  All vectors are in the axes of
+    the side's body ``second``.
     """
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
     c, s = math.cos(angle), math.sin(angle)
@@ -53,7 +57,11 @@ def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: floa
 
 @compiled
 def least_round(second: Floats, middle: Vector3, g: Vector3, h: Vector3, low: float, high: float) -> tuple[float, bool]:
-    """Return the angle between ``low`` and ``high`` with the least height, and whether it is a minimum."""
+    """Return the angle round a rim [rad] at its lowest point over the side of ``second``, and a check.
+
+    The angle lies between ``low`` and ``high``.  The check is True if the height has a minimum there, inside of the
+    interval.  ``middle``, ``g`` and ``h`` give the point of the rim at an angle, as in :func:`_height`.
+    """
     gx, gy, gz = g
     step = (high - low) / _SAMPLES
     best, angle = math.inf, low
@@ -76,7 +84,7 @@ def least_round(second: Floats, middle: Vector3, g: Vector3, h: Vector3, low: fl
         angle = after
     _, _, bend = _height(second, middle, g, h, angle)
     size = math.sqrt(gx * gx + gy * gy + gz * gz)
-    # over the whole rim a minimum cannot be past an end
+    # if the interval covers the whole rim, it has no ends, so that any minimum is inside of it
     within = low <= angle <= high or high - low > 1.5 * math.pi
     return angle, within and bend > _BENT * size
 
@@ -96,11 +104,12 @@ def _evaluate(
     mx, my, mz = back(axes, cx - kx, cy - ky, cz - kz)
     ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
     mx, my, mz = mx + height * ax, my + height * ay, mz + height * az
-    # h: in the plane of the rim, along the side's axis; g: perpendicular to h in this plane
+    # h: projection of the side's axis on the plane of the rim; g: perpendicular to h in this plane
     hx, hy, hz = -az * ax, -az * ay, 1.0 - az * az
     length = math.sqrt(hx * hx + hy * hy + hz * hz)
-    # two minima need a line of the side near the plane of the rim. Halves are used for nearly perpendicular axes, too,
-    # where one half has no minimum; for all other poses the whole rim is searched for its single minimum
+    # the height can have two minima round the rim only if a straight line of the side is nearly parallel to the plane
+    # of the rim; then each half is searched. Each half is also searched if the axes are nearly perpendicular, even if
+    # it has no minimum. In other poses, called steep, the whole rim is searched for its single minimum
     lean = math.asin(min(abs(az), 1.0))
     steep = lean > _STEEP and abs(lean - math.asin(second[SIN])) > _STEEP
     if length > 1e-9:
@@ -120,7 +129,7 @@ def _evaluate(
     if radius > 0.0:
         low, high = 0.0, math.pi
         if steep:
-            # the whole rim, from the point farthest from the side's axis
+            # search the whole rim; the interval begins at the point farthest from the side's axis
             low = math.atan2(mx * hx + my * hy, mx * gx + my * gy)
             high = low + 2.0 * math.pi
         angle, found = least_round(second, (mx, my, mz), (gx, gy, gz), (hx, hy, hz), low, high)
@@ -139,7 +148,7 @@ def _evaluate(
     astray = astray_of_rim(first, up, radial, axial, first[SIDE] == 0.0)
     over = max(-along, along - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
-        # margin within which the contact of both rims takes over
+        # extend the side past its end, until the contact of both rims is valid
         over -= _BEYOND * size
     if not found or (steep and half < 0.0):
         over = size
@@ -150,7 +159,7 @@ def _evaluate(
     if over <= 0.0:
         point = (kx + px, ky + py, kz + pz)
         overlap = overlap_of(own, first, other, second, gap, size, point, (wx, wy, wz))
-    # if the overlap is deep, a cap is nearer
+    # if the overlap is deeper than half of the side's lower radius, a cap is nearer: this contact is past its end
     past = max(past_border(gap, over, astray, overlap, size), -gap - 0.5 * second[0])
     write_two(a, out, swap, first, second, gap, past, (wx, wy, wz), (kx + px, ky + py, kz + pz), overlap)
     write_side(out, swap, first, part, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)

@@ -26,25 +26,27 @@ from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part
 from .frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
 
 _PARALLEL = 0.01
-"""Least sine of the angle between the tangents of crossing rims; below it, contacts of a rim over side or cap apply."""
+"""Least sine of the angle between the tangents of crossing rims; at a smaller angle, a rim touches a side or cap."""
 _BOTH = 1e-9
-"""Angle round the first rim by which its two halves overlap at the line of centres [rad]; no crossing is missed."""
+"""Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
 _ASIDE = 0.01
-"""Least offset of the common normal of two rims from the normal of either side, relative to ``REACH`` times the size.
+"""Least offset of the common normal of two rounded rims from a side's normal, relative to ``REACH`` times the size.
 
-The offset [m] is the distance of the rims times the sine of the angle to the side's normal, for rims that are apart.
-With a smaller offset, the contact of a rim over a side replaces the contact of both rims.
+The offset [m] is the distance of the rims' cores, times the sine of the angle between their common normal and the
+normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
+contact.
 """
 _LEAN = 0.02
-"""Sine of the largest angle by which the contact normal of overlapping rims may leave the normals of both rims.
+"""Sine of the largest angle between the contact normal and the fans of normals of both rims, if the rims overlap.
 
-The normals of a rim lie between those of its side and its cap.  Outside of them, the bodies do not overlap there.
+The fan of normals of a rim lies between the normals of its side and its cap.  If the normal is farther outside, the
+bodies do not overlap at this crossing.
 """
 _BESIDE, _NARROWINGS = 20.0, 40
-"""Half-length of the piece of a rim that is searched for points inside the other body; number of search steps.
+"""Search of the piece of a rim next to a crossing for points inside of the other body (:func:`_inside`).
 
-The half-length is measured from the crossing along the rim, relative to the depth over the sine of the angle of the
-rims.
+``_BESIDE`` is the half-length of the piece, relative to the depth over the sine of the angle between the rims; the
+overlap of sharp bodies along a rim is of the order of this quotient.  ``_NARROWINGS`` is the number of search steps.
 """
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 """Intervals into which half of a rim is sampled, most rounds of sampling, most Newton steps."""
@@ -77,7 +79,12 @@ def _slope(
 
 @compiled
 def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> bool:
-    """Whether two circles are linked: one of the first's two points in the plane of the second is inside the second."""
+    """True if two circles are linked like the links of a chain.
+
+    The first circle then crosses the plane of the second at two points, and exactly one of them is inside the second.
+    The second circle has the radius ``wide`` [m], about the origin in the plane z = 0.  The first has the given centre
+    [m] and ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
+    """
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = center, g, h
     size = radius * math.sqrt(gz * gz + hz * hz)
     if abs(cz) >= size:
@@ -94,11 +101,12 @@ def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3)
 
 @compiled
 def _inside(frustum: Floats, radius: float, c: Point, g: Point, h: Point, axis: Point, reach: float) -> float:
-    """Return the least signed distance of points of a rim near a crossing from the other body [m], negative inside.
+    """Return the least signed distance of a piece of a rim from a frustum, the other body [m]; negative inside of it.
 
-    The points are c + radius (g cos + h sin), with angles between -``reach`` and ``reach`` [rad].  The centre c, g, h
-    and the unit axis of the other body are relative to this body's centre.  The distance has one minimum near a
-    crossing, so that a search by intervals finds it.
+    The points of the piece are c + radius (g cos + h sin), at angles from -``reach`` to ``reach`` [rad] from the
+    crossing. c is the centre of the rim, relative to the centre of the frustum [m]. g and h are unit vectors in the
+    plane of the rim, ``axis`` is the unit axis of the frustum.  The distance has one minimum near a crossing, so that a
+    search by intervals finds it.
     """
     least, most, found = -reach, reach, math.inf
     for _ in range(_NARROWINGS):
@@ -160,7 +168,7 @@ def _evaluate(
         angle = begin + chosen * step
         if curved > 0.0 or low + 0.5 * step < angle < high - 0.5 * step:
             break
-        # circles that cross close to the line of centres have a maximum of the distance on it: refine there
+        # circles that cross close to the line of centres have a maximal distance on this line: refine next to it
         begin = low if angle < 1.0 else high - step
         step /= _SAMPLES
     least, most = angle - step, angle + step
@@ -279,7 +287,7 @@ class RimRim(ContactKinematics):
     rim_a, rim_b : int
         1 for the lower rim, 3 for the upper one.
     half : float
-        1 or -1, for either side.
+        1 or -1, for the half circle of the first rim on one side or the other of the line of centres.
     size : float
         Size of the bodies [m].
     """
@@ -307,7 +315,7 @@ class RimRim(ContactKinematics):
         return tuple(cls(one, i, two, j, half, size) for i in rims[0] for j in rims[1] for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both frustums and the choice of rims and half."""
+        """Return the numbers of both frustums, the rim of each, and the half circle of the first rim to search."""
         return {
             "first": self.first,
             "rim_a": float(self.rim_a),

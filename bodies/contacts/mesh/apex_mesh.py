@@ -30,7 +30,7 @@ from ..surface.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_nu
 
 @compiled
 def _within(surface: Floats, found: Found) -> float:
-    """Return the distance of a nearest point on an edge from the nearer end of this edge [m]; 0 at a corner."""
+    """Return the distance of a nearest point from the nearer end of its edge [m]: 0 at a corner, infinite on a face."""
     _, _, kind, number, x, y, z = found
     if kind == ON_CORNER:
         return 0.0
@@ -117,7 +117,10 @@ class ApexMesh(ContactKinematics):
 
     @classmethod
     def of_patches(cls, first: Numbers, second: Features, size: float) -> tuple[ApexMesh, ...]:
-        """Return the contacts of a frustum's apex with all patches; empty without an apex. ``first``: its numbers."""
+        """Return the contacts of the apex of a cone, given by its numbers ``first``, with all patches of a mesh.
+
+        The result is empty for other frustums, which have no apex.  ``size`` is the size of the larger body [m].
+        """
         if first[SIDE] == 0.0 or first[1] > 0.0:
             return ()
         patches = patches_for_ball(second, first[SWEEP])
@@ -136,6 +139,9 @@ class ApexMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of faces, convex edges and corners, by number; in this contact, a corner never closes."""
+        """Names of the apex with each face, convex edge and corner of the mesh; two points have no contact here.
+
+        Corners have names only so that the numbers of the features agree with the tables.
+        """
         kinds = zip(("face", "edge", "corner"), self.counts, strict=True)
         return tuple(f"apex and {part} {i}" for part, n in kinds for i in range(n))

@@ -58,7 +58,10 @@ class FlankMesh(ContactKinematics):
 
     @classmethod
     def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[FlankMesh, ...]:
-        """Return one contact for each convex edge with a frustum, given by its numbers; empty for a disc."""
+        """Return one contact of the side of a frustum with each convex edge of a mesh; empty for a disc (no side).
+
+        ``first`` are the numbers of the frustum, ``size`` is the size of the larger body [m].
+        """
         if first[SIDE] == 0.0:
             return ()
         return tuple(

@@ -39,7 +39,11 @@ from ..surface.surface_vertex import ASTRAY
 
 @compiled
 def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
-    """Return height over a cap's plane or the side's cone, distance past its ends [m], radial and axial normal."""
+    """Return height of a point over a cap's plane or the side's cone, distance past its border [m], and the normal.
+
+    The point has the coordinate ``along`` on the axis, from the frustum's centre, and the distance ``away`` from the
+    axis [m].  The normal is returned as its radial and its axial component.
+    """
     if part == LOW_CAP:
         return frustum[LOW] - along, away - frustum[0], 0.0, -1.0
     if part == HIGH_CAP:
@@ -52,7 +56,10 @@ def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[fl
 
 @compiled
 def _leaning(b: Floats, n_star: float, star: Floats, nx: float, ny: float, nz: float) -> float:
-    """Return the sine of the angle by which the steepest edge of a corner leads below the plane with normal n."""
+    """Return the sine of the largest angle at which an edge of a corner leads below the plane with the normal n.
+
+    It is negative if all edges lead above the plane.
+    """
     nx, ny, nz = vector_in_body(b, nx, ny, nz)
     down = -1.0
     for i in range(int(n_star)):
@@ -92,11 +99,12 @@ def _evaluate(
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         if height < 0.0 and not flat:
-            # a corner below a cap or the side touches it only from inside of the body
+            # a corner below a cap's plane or the side's cone touches it only if the corner is inside of the frustum
             beyond = max(beyond, deepest)
         beyond = max(beyond - margin, size * (_leaning(b, n_star, star, nx, ny, nz) - ASTRAY))
         if flat and height < -DEEP * size and beyond <= 0.0:
-            # a corner below a disc touches it if it went through the disc, or if the disc is inside of its body
+            # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
+            # the point of the disc nearest to the corner
             past_rim = tip_past_rim(
                 b, n_star, star, lengths, (px - cx, py - cy, pz - cz), (nx, ny, nz), -height, frustum[0]
             )
@@ -113,7 +121,8 @@ def _evaluate(
             best, found, gap, past = key, part, height, beyond
     if past > 0.0:
         if deepest < -DEEP * size and not flat:
-            # the corner is inside without a contact of its own: another contact was missed
+            # the corner is inside of the frustum, past the borders of all parts: no contact reports this overlap, so
+            # write its depth
             found, gap = inner, deepest
         else:
             gap = math.sqrt(gap * gap + past * past)
@@ -137,7 +146,8 @@ write_corner = compiled(_evaluate)
 class FrustumCorner(ContactKinematics):
     """The contact of a corner of the second body with the nearest part of the first, cap or side.
 
-    A cap or the side has no contact with the corner if an edge of the corner leads below its surface.
+    A cap or the side touches the corner only if no edge of the corner leads below the cap's plane or the side's tangent
+    plane; otherwise the edge touches it first.
 
     Attributes
     ----------
@@ -174,7 +184,10 @@ class FrustumCorner(ContactKinematics):
 
     @classmethod
     def of_corners(cls, first: Numbers, second: Features, size: float) -> tuple[FrustumCorner, ...]:
-        """Return one contact for each corner of a mesh with a frustum, given by its numbers."""
+        """Return one contact of each corner of a mesh with a frustum.
+
+        ``first`` are the numbers of the frustum, ``size`` is the size of the larger body [m].
+        """
         surface = surface_numbers(second, patches_for_body(second, 0.0))
         places = second.vertices[list(second.corners)].tolist()
         return tuple(
@@ -204,5 +217,8 @@ class FrustumCorner(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the corner with each part of the frustum; the names of rims serve only for the numbering."""
+        """Names of the corner with each part of the frustum; in this contact, the corner never touches a rim.
+
+        Rims have names only so that the numbers of the features agree with those of the parts.
+        """
         return tuple(f"{part} and corner {self.corner}" for part in part_names(self.frustum))

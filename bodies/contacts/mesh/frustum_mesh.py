@@ -1,4 +1,7 @@
-"""Contacts of a cylinder, cone or disc and a triangle mesh, convex or not: a rim over a patch, and all others."""
+"""Contacts of a cylinder, cone or disc with a triangle mesh: a rim with a patch, and the list of all contacts.
+
+The mesh need not be convex.
+"""
 
 from __future__ import annotations
 
@@ -51,20 +54,27 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumMesh(ContactKinematics):
-    """The contact of the lowest point of a rim with a patch of a mesh.
+    """The contact of a rim, at its lowest point, with a patch of a mesh.
 
-    The same two bodies have further contacts: feet and apex over the patches, corners of the mesh over caps and side,
-    and convex edges of the mesh across the side and the rims.  Whether a contact exists at present depends only on the
-    surface next to its points, so that the mesh need not be convex.  A rounded body touches at the distance of its
-    radius from its core: its apex is a sphere, and corners of the mesh meet its rims and its apex, too.
+    A patch is a group of faces of which the body can touch only one at a time (:mod:`bodies.meshes.patches`).  A
+    cylinder, cone or disc has flat faces, the caps, with small feet.  :meth:`between` returns this contact for each rim
+    and patch, and further contacts of the two bodies:
 
-    If these contacts are too many, :class:`bodies.contacts.mesh.frustum_pairs.FrustumPairs` takes their place: only
-    features near each other become contacts.
+    - feet, and the apex of a cone, over the patches;
+    - corners of the mesh over the caps and the side;
+    - convex edges of the mesh across the side and the rims.
+
+    Whether a contact exists depends only on the mesh next to its points, so the mesh need not be convex.  The surface
+    of a rounded body is at a constant distance, the radius of rounding, from a smaller core.  Its apex is a sphere,
+    and corners of the mesh also touch its rims and its apex.
+
+    If these contacts are too many, :meth:`between` returns :class:`bodies.contacts.mesh.frustum_pairs.FrustumPairs`
+    instead: only features that are near each other become contacts.
 
     Attributes
     ----------
     frustum : tuple of float
-        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+        Dimensions of the first body (:func:`bodies.shapes.frustum.frustum_numbers`).
     radius : float
         Radius of the rim [m].
     center : tuple of float
@@ -72,9 +82,9 @@ class FrustumMesh(ContactKinematics):
     up : float
         1 for the upper rim, else -1.
     surface : SharedNumbers
-        The surface (:mod:`bodies.contacts.surface.surface_tables`).
+        Tables of the mesh (:mod:`bodies.contacts.surface.surface_tables`).
     patch : int
-        Number of the patch.
+        Index of the patch.
     n_faces : int
         Number of the faces of the mesh.
     """
@@ -117,12 +127,12 @@ class FrustumMesh(ContactKinematics):
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
             surface = surface_numbers(second, patches)
-            # patches without faces have edges or corners only, which a rim cannot lie on
+            # a rim touches faces here; edges and corners have contacts of their own, so skip patches without faces
             for patch in sorted(set(patches.of_faces)):
                 yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both bodies by the names of the evaluator's arguments."""
+        """Return the dimensions of the frustum and its rim, and the tables of the mesh."""
         x, y, z = self.center
         return {
             "frustum": self.frustum,
@@ -142,7 +152,7 @@ class FrustumMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the faces, with the other feature."""
+        """Names of the pairs of features: the rim with each face."""
         rim = "rim" if self.up < 0.0 else "upper rim"
         return tuple(f"{rim} and face {i}" for i in range(self.n_faces))
 
@@ -150,14 +160,14 @@ class FrustumMesh(ContactKinematics):
 def _sharp_vertices(
     first: Frustum, numbers: Numbers, second: Features, size: float
 ) -> tuple[PointMesh | FrustumCorner, ...]:
-    """Return the contacts of the apex, a point, and of the corners of the second body."""
+    """Return the contacts of a sharp apex and of the corners of the mesh."""
     return *PointMesh.of_vertices(apex_of(first), second, 0.0), *FrustumCorner.of_corners(numbers, second, size)
 
 
 def _rounded_vertices(
     _: Frustum, numbers: Numbers, second: Features, size: float
 ) -> tuple[ApexMesh | FrustumSwept, ...]:
-    """Return the contacts of the apex, a sphere, and of the corners of the second body."""
+    """Return the contacts of a rounded apex, a sphere, and of the corners of the mesh."""
     places = second.vertices[list(second.corners)].tolist()
     corners = (
         FrustumSwept(numbers, 0.0, (x, y, z), tuple(star_of(second, i)), size, f"corner {i}")
@@ -167,7 +177,10 @@ def _rounded_vertices(
 
 
 def _crossings(numbers: Numbers) -> int:
-    """Return the number of contacts of one edge with the side and the halves of the rims."""
+    """Return the number of contacts of one edge of a mesh with the side and the half rims of a frustum.
+
+    ``numbers`` are those of the frustum (:func:`bodies.shapes.frustum.frustum_numbers`).
+    """
     if numbers[SIDE] == 0.0:
         return 2
     return 5 if numbers[1] > 0.0 else 3

@@ -59,7 +59,11 @@ def _from_rim(frustum: Floats, upper: int, pose: FrustumPose, x: float, y: float
 
 @compiled
 def _swing(radial: float, turn: float) -> float:
-    """Return a bound of the motion of a rim's lowest point, in radii, as a normal with this radial component turns."""
+    """Return a bound of the displacement of a rim's lowest point, relative to the rim's radius, if the normal turns.
+
+    The point is the lowest against a normal with the component ``radial`` across the rim's axis.  The normal turns by
+    at most ``turn`` [rad].
+    """
     return 2.0 if turn >= radial else min(2.0, 0.5 * math.pi * turn / radial)
 
 
@@ -67,9 +71,9 @@ def _swing(radial: float, turn: float) -> float:
 def _lowest(
     frustum: Floats, upper: int, pose: FrustumPose, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float, float, float]:
-    """Return the rim's farthest point along a normal [m], the normal's radial component, and a sine.
+    """Return a rim's farthest point along a normal [m], the normal's radial component, and a sine.
 
-    The sine is that of the angle by which the normal leaves the normals of the rim; negative within them.
+    The sine is that of the angle between the normal and the fan of normals of the rim, negative inside this fan.
     """
     cx, cy, cz, ax, ay, az = pose
     axial, radial, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, 1.0, 0.0, 0.0)
@@ -83,7 +87,7 @@ def _lowest(
 def rim_is_near(
     surface: Floats, triangle: int, frustum: Floats, upper: int, pose: FrustumPose, reach: float, turn: float
 ) -> bool:
-    """Return whether the lowest point of a rim over a triangle may touch it before the next search.
+    """Return whether a rim may touch a triangle, at its point that is lowest over it, before the next search.
 
     Parameters
     ----------
@@ -92,7 +96,8 @@ def rim_is_near(
     frustum, upper, pose : Floats, int, tuple
         The frustum, 1 for its upper rim or 0 for the lower one, and its pose in the axes of the surface.
     reach, turn : float
-        Largest distance from the core [m], and largest relative rotation of the bodies until the next search [rad].
+        Distance from the frustum's core up to which features are near [m], and largest relative rotation of the bodies
+        until the next search [rad].
     """
     t, f = triangle, int(surface[FACES]) + FACE * int(surface[triangle + 9])
     x, y, z, radial, astray = _lowest(frustum, upper, pose, -surface[f], -surface[f + 1], -surface[f + 2])
@@ -161,8 +166,9 @@ def edge_is_near(
 ) -> tuple[bool, bool, bool]:
     """Return whether an edge may touch the side, the lower rim and the upper rim before the next search.
 
-    The arguments are those of :func:`rim_is_near`; the row of the edge begins at index ``edge``.  An edge that goes
-    through the frustum counts for any normals, because the bodies overlap.
+    The arguments are those of :func:`rim_is_near`; the row of the edge begins at index ``edge``.  An edge that passes
+    through the frustum may touch each part that the frustum has, at any angle between the normals, because the bodies
+    overlap.
     """
     e = edge
     x, y, z, dx, dy, dz, length = (
@@ -201,7 +207,11 @@ def _rim_crosses(
     length: float,
     reach: float,
 ) -> bool:
-    """Return whether an edge may touch a rim at its farthest point along a normal, for normals within an angle."""
+    """Return whether an edge may touch a rim at the rim's farthest point along a normal near ``normal``.
+
+    All normals within the angle ``off`` [rad] of ``normal`` are considered.  The edge is given by its start [m], its
+    direction and its length [m].  ``reach`` is the distance from the core up to which features are near [m].
+    """
     (nx, ny, nz), (x, y, z), (dx, dy, dz) = normal, start, along
     px, py, pz, radial, astray = _lowest(frustum, upper, pose, nx, ny, nz)
     if astray > off:
@@ -226,8 +236,8 @@ def corner_is_near(
 ) -> bool:
     """Return whether a corner may touch the frustum before the next search; arguments as in :func:`rim_is_near`.
 
-    If the corner touches a rounded frustum, none of its edges leads towards the core's nearest point.  The vector to
-    that point changes by at most the displacement of the corner.
+    A corner touches a rounded frustum only if none of its edges leads towards the point of the frustum's core that is
+    nearest to the corner.  The vector from the corner to this point changes by at most the displacement of the corner.
     """
     c = int(surface[CORNERS]) + CORNER * corner
     cx, cy, cz, ax, ay, az = pose
@@ -247,7 +257,7 @@ def corner_is_near(
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         slack = turn
         if part == FLANK:
-            # the normal turns about the axis as the corner moves
+            # as the corner moves by up to ``reach``, the side's normal turns round the axis: add a bound of the angle
             slack += 2.0 if reach >= away else 0.5 * math.pi * reach / away
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         if abs(height) <= reach and beyond <= reach and steepest(surface, c, -nx, -ny, -nz) <= ASTRAY + slack:

@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc against a surface of many features: only features near each other are contacts."""
+"""A cylinder, cone or disc against a mesh of many features: only features that are near each other are contacts."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ In this order: rim over a face, point over a patch, round apex over a patch, cor
 across the side, edge across the first half of a rim, edge across the second half.
 """
 POINT_ROW = 4
-"""Numbers of a point (a foot or the apex) before its unit vectors: its place, 3 numbers [m], and the vector count."""
+"""Floats in the row of a point (foot or apex) before its unit vectors: position (3) [m], number of unit vectors."""
 
 
 @compiled
@@ -78,7 +78,7 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 
 @compiled
 def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Append a face and a rim to the ``n`` candidates, if not there yet; return the new number of candidates."""
+    """Append a rim over a face to the ``n`` candidates, unless it is one of them; return their new number."""
     for i in range(n):
         if out[1 + 3 * i] == RIM and out[2 + 3 * i] == face and out[3 + 3 * i] == upper:
             return n
@@ -87,9 +87,10 @@ def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
 
 @compiled
 def _add_halves(edge: float, rim: int, out: Floats, n: int, most: int) -> int:
-    """Append two candidates, an edge of the surface with either half of a rim, to the ``n`` candidates in ``out``.
+    """Append two candidates, an edge of the surface with each half of a rim, to the ``n`` candidates in ``out``.
 
-    Return the new number of candidates.
+    ``rim`` is ``LOW_RIM`` or ``HIGH_RIM``.  Nothing is appended if n exceeds ``most``.  Return the new number of
+    candidates.
     """
     n = _add(ACROSS_BACK, edge, float(rim), out, n, most)
     return int(_add(ACROSS_FRONT, edge, float(rim), out, n, most))
@@ -111,8 +112,9 @@ def _member_near(
     """Append the candidates of one triangle, edge or corner of the surface that may soon touch the frustum.
 
     ``member`` counts triangles first, then edges, then corners.  A feature may touch if it is within ``reach`` [m] of
-    the core and if its normals match after a rotation by ``turn`` [rad].  ``out`` holds ``n`` candidates; return the
-    new number of candidates, at most one more than ``most``.
+    the core and if its normals agree with those of the frustum after a rotation by up to ``turn`` [rad], the largest
+    until the next search.  ``out`` holds ``n`` candidates.  Return the new number of candidates; a number above
+    ``most`` means that there are too many.
     """
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
     if member < n_triangles:
@@ -152,12 +154,13 @@ def find_near_frustum(
     turning: float,
     narrow: float,
 ) -> None:
-    """Find near features: faces under rims, patches under points and apex, corners, edges across side and rims.
+    """Find near features: faces with rims, patches with points and apex, corners, edges with side and rims.
 
-    On entry, ``out[0]`` is the distance up to which features are near [m].  A rim has its contacts with faces, not with
-    patches, because patches for a body as large as the rim would hold one face each.  ``turning`` is the largest
-    relative rotation of the bodies until the next search, per metre of ``out[0]`` [rad/m].  ``narrow`` is explained in
-    :func:`bodies.contacts.surface.surface_near.room_ahead`.
+    On entry, ``out[0]`` is the distance up to which features are near [m]; on return, it is the number of candidates
+    found, or ``most`` + 1 if there are too many.  A rim has candidates with faces, not with patches, because a patch
+    for a body as large as the rim would hold a single face.  ``turning`` is the largest relative rotation of the bodies
+    until the next search, per metre of ``out[0]`` [rad/m].  ``most`` is the largest number of candidates; if ``out[0]``
+    exceeds ``narrow`` [m], the limit is smaller (:func:`bodies.contacts.surface.surface_near.room_ahead`).
     """
     reach, limit, n, node = out[0], room_ahead(out[0], narrow, int(most)), 0, 0
     turn, sweep = turning * reach, frustum[SWEEP]
@@ -220,7 +223,7 @@ def _evaluate(
         if frustum[SWEEP] > 0.0:
             write_vertex_ball(a, b, out, frustum, 0.0, x, y, z, n, star, size)
         else:
-            # lengths of edges are used for a disc only, and stored for a disc only
+            # only a disc uses the lengths of the edges at its corner; for other frustums the table is a single 0
             own = block_at(lengths, int(surface[c + 4]) // 3 if frustum[SIDE] == 0.0 else 0)
             write_corner(a, b, out, frustum, x, y, z, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
@@ -235,7 +238,7 @@ def _evaluate(
 @final
 @dataclass(frozen=True)
 class FrustumPairs(ContactKinematics):
-    """Contact between a feature of a cylinder, cone or disc and a surface's feature, a pair that is near at present.
+    """The contact of a feature of a cylinder, cone or disc with a feature of a mesh that is currently near it.
 
     Attributes
     ----------
@@ -299,15 +302,15 @@ class FrustumPairs(ContactKinematics):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both shapes, and a candidate without features."""
+        """Return the dimensions of both shapes, and a placeholder for the pair of features that the search finds."""
         return {**self.search.values, "candidate": NO_CANDIDATE, "rims": self.rims, "lengths": self.lengths}
 
     @property
     def evaluator(self) -> Callable[..., None]:
-        """The function for the kind of the candidate's features: a closed form or a search."""
+        """Evaluator, which calls the function for the kind of the current pair of features."""
         return _evaluate
 
     @property
     def features(self) -> tuple[str, ...]:
-        """The features of the surface, by number."""
+        """Names of the features of the mesh, by their index."""
         return tuple(f"feature {i}" for i in range(self.n_features))

@@ -1,4 +1,4 @@
-"""Checks of crossings of a frustum with an edge of a mesh: whether an overlap is real, and whether a face is nearer."""
+"""Corrects the contact of a frustum with a crossing edge of a mesh, if the overlap is not real or a face is nearer."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ..surface.surface_search import THROUGH, depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
 _ASTRAY = 1e-6
-"""Sine of the largest angle by which a closed crossing's normal may leave the edge's normals, or a face is nearer."""
+"""Sine of the largest angle between a contact normal and the edge's fan of normals; beyond it, a face is nearer."""
 
 
 @compiled
@@ -40,7 +40,7 @@ def _pierced(
         square, slope = dx * dx + dy * dy, dz * frustum[SIN] / frustum[COS]
         s = 0.5 * edge[LENGTH]
         if square > slope * slope:
-            # the point at which the distance from the axis changes as the radius of the side
+            # at the least gap, the distance from the axis and the radius of the side change at the same rate
             s = -(x * dx + y * dy) / square
             nearest = math.hypot(x + s * dx, y + s * dy)
             s -= slope * nearest / math.sqrt(square * (square - slope * slope))
@@ -62,12 +62,16 @@ def _pierced(
 def judge_crossing(
     a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
 ) -> None:
-    """Correct the geometry block of a crossing by three rules.
+    """Correct the geometry block of a frustum and a crossing edge of a mesh by three rules.
 
-    The crossing is opened if its normal is not a normal of the edge: a face is nearer, and a rim that rolls over the
-    edge changes contacts there.  It is opened if neither contact point is inside of the other body: the bodies lie on
-    the far sides of each other.  A negative gap is written if the edge goes through the frustum: another contact was
-    missed.
+    First: if the contact normal is outside of the edge's fan of normals, a face is nearer, which has a contact of its
+    own.  This contact is then opened, except at a deep overlap.
+
+    Second: if the gap is positive but the edge goes through the frustum, no contact reports this overlap.  Minus its
+    depth is then written as the gap.
+
+    Third: if the gap shows a deep overlap but neither contact point is inside of the other body, the bodies do not
+    overlap there.  This contact is then opened.
     """
     x, y, z = vector_in_body(b, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
     astray = max(

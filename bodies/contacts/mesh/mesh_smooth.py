@@ -42,7 +42,7 @@ def _evaluate_near(
 @final
 @dataclass(frozen=True)
 class MeshSmoothNear(PatchNear):
-    """Contact of a smooth body with one patch of a mesh; a search assigns a patch that is near at present."""
+    """Contact of a smooth body with one patch of a mesh, which a search assigns: a patch that is near at present."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SmoothShape)
 
@@ -91,7 +91,10 @@ class MeshSmooth(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return one contact for each patch; of many patches, contacts that a search assigns to near patches."""
+        """Return one contact for each patch of the mesh.
+
+        If there are many patches, a search assigns near patches to the contacts (:class:`MeshSmoothNear`).
+        """
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, SmoothShape)
         own = first.features

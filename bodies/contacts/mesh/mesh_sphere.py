@@ -1,4 +1,4 @@
-"""A sphere against a triangle mesh, in closed form; of many patches, only near ones are contacts."""
+"""Contacts of a sphere and a triangle mesh, in closed form; if the mesh has many patches, only with near patches."""
 
 from __future__ import annotations
 

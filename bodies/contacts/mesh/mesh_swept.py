@@ -27,10 +27,10 @@ from .swept_pairs import SweptPairs, surface_of_core
 class MeshSwept(ContactKinematics):
     """Contact of a convex edge of a mesh with a rounded edge of a polyhedron, or with the side of a capsule.
 
-    The two bodies have further contacts: vertices of the second body, as spheres, over each patch of the mesh, and
-    corners of the mesh over faces, edges and vertices of the second body.  A sharp polyhedron has the contacts of two
-    meshes (:class:`bodies.MeshMesh`).  If there are hundreds of pairs, near pairs only are contacts
-    (:class:`bodies.contacts.mesh.swept_pairs.SweptPairs`).
+    The two bodies have further contacts: each vertex of the second body, as a sphere, with each patch of the mesh, and
+    each corner of the mesh with the nearest face, edge or vertex of the second body.  A sharp polyhedron has the
+    contacts of two meshes (:class:`bodies.MeshMesh`).  If there are hundreds of pairs of features, only near pairs get
+    contacts (:class:`bodies.contacts.mesh.swept_pairs.SweptPairs`).
 
     Attributes
     ----------

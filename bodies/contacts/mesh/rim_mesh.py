@@ -68,7 +68,10 @@ class RimMesh(ContactKinematics):
 
     @classmethod
     def of_edges(cls, first: Numbers, second: Features, size: float) -> tuple[RimMesh, ...]:
-        """Return the contacts of both halves of each rim of a frustum, given by its numbers, with each convex edge."""
+        """Return one contact for each convex edge of a mesh and each half of each rim of a frustum.
+
+        ``first`` are the numbers of the frustum, ``size`` is the size of the larger body [m].
+        """
         return tuple(
             cls(crossing, surface)
             for row, surface, name in edges_of(second)

@@ -35,14 +35,17 @@ from ..surface.surface_vertex import ASTRAY, over_face, touched_face
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
 RimPose: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
-"""Centre of a rim [m], its axis, and the direction to its lowest point if it is parallel to a face."""
+"""Centre of a rim [m], its unit axis, and the direction to its contact point if the rim is parallel to a face."""
 
 
 @compiled
 def lowest_on_rim(
     nx: float, ny: float, nz: float, ax: float, ay: float, az: float, fx: float, fy: float, fz: float
 ) -> tuple[float, float, float, float, float]:
-    """Return axial and radial component of a normal, and its radial unit vector, or f without a radial component."""
+    """Return axial and radial component of the unit normal n, and the unit vector of its radial part.
+
+    The vector f is returned as this unit vector if n is along the axis within round-off, without a radial part.
+    """
     axial, radial, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
     if radial < _FLAT:
         return axial, radial, fx, fy, fz
@@ -65,9 +68,13 @@ def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z:
 def _gap_beyond(
     surface: Floats, frustum: Floats, radius: float, up: float, pose: RimPose, gap: float, x: float, y: float, z: float
 ) -> float:
-    """Return ``gap`` [m], or a negative depth if the body goes through the surface next to a point of its rim."""
+    """Return ``gap`` [m]; return minus the depth if the frustum passes through the surface next to a point of its rim.
+
+    The point of the rim is (x, y, z), in the axes of the surface.
+    """
     cx, cy, cz, ax, ay, az, _, _, _ = pose
-    # from the rim's point to the opposite side of the core, or of the disc
+    # the frustum passes through if the line from the rim's point to the opposite point of the other rim (for a disc, of
+    # the same rim) pierces the surface
     onward, far = up * (frustum[LOW] - frustum[HIGH]), frustum[0] + frustum[1] - radius
     ex, ey, ez = (cx - x) / radius, (cy - y) / radius, (cz - z) / radius
     ex, ey, ez = cx + onward * ax + far * ex, cy + onward * ay + far * ey, cz + onward * az + far * ez
@@ -84,10 +91,11 @@ def rim_under(
     up: float,
     pose: RimPose,
 ) -> tuple[int, float, float]:
-    """Return face, gap and distance past the end [m] of a rim over a patch of a surface, by the rules for a vertex.
+    """Return face of a patch paired with a rim, gap, and distance past the face's border [m].
 
-    For every face, the lowest point of the rim over that face takes the place of the vertex.  Past the end, the gap is
-    negative if the body goes through the surface.
+    The face is chosen as for a vertex (:func:`bodies.contacts.surface.surface_vertex.touched_face`), but each face
+    takes the point of the rim that is lowest over it.  Past the border, the gap is negative if the body goes through
+    the surface.
 
     Parameters
     ----------
@@ -156,9 +164,9 @@ def rim_under(
 def rim_over(
     surface: Floats, face: int, frustum: Floats, radius: float, up: float, pose: RimPose, reach: float
 ) -> tuple[float, float]:
-    """Return gap and distance past the end [m] of a rim over one face, which is treated as a patch of its own.
+    """Return gap and distance past the border of a face [m], for a rim over one face, whatever the patch of the face.
 
-    If no part of the face is within ``reach`` [m], gap and distance past the end are ``reach``.
+    If no part of the face is within ``reach`` [m], both are ``reach``.
     """
     cx, cy, cz, ax, ay, az, fx, fy, fz = pose
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
@@ -208,7 +216,11 @@ def write_rim(
     gap: float,
     past: float,
 ) -> None:
-    """Write the geometry block of a rim with centre (x, y, z) over a face, with given gap and distance past the end."""
+    """Write the geometry block of a rim with centre (x, y, z) over a face.
+
+    ``gap`` and ``past``, the distance past the border of the face [m], are results of :func:`rim_under` or
+    :func:`rim_over`.
+    """
     ax, ay, az = axis_in_world(a, frustum)
     fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
     cx, cy, cz = point_in_world(a, x, y, z)

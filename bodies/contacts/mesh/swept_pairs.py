@@ -129,7 +129,7 @@ BALL: a vertex of the rounded body, with its radius, over a patch of the mesh.  
 rounded body.  ACROSS: an edge of the mesh and an edge of the rounded body.
 """
 _ROW = 5
-"""Numbers of a vertex of the core: place (3) [m], number of its edges, index of the unit vectors along its edges."""
+"""Floats in the row of a core's vertex: position (3) [m], number of its edges, index of the unit vectors along them."""
 
 
 def _find(
@@ -149,11 +149,12 @@ def _find(
     turning: float,
     narrow: float,
 ) -> None:
-    """Find pairs that may soon touch: patches and vertices of the core, corners and the core, edges and edges.
+    """Find pairs that may soon touch: patch and vertex, corner and core, edge and edge, of the mesh and of the core.
 
-    On entry, ``out[0]`` is the distance up to which features are near [m].  ``turning`` is the largest relative
-    rotation of the bodies until the next search, per metre of ``out[0]`` [rad/m].  ``narrow`` is explained in
-    :func:`bodies.contacts.surface.surface_near.room_ahead`.
+    On entry, ``out[0]`` is the distance up to which features are near [m]; on return, it is the number of pairs found,
+    or ``most`` + 1 if there are too many.  ``turning`` is the largest relative rotation of the bodies until the next
+    search, per metre of ``out[0]`` [rad/m].  ``most`` is the largest number of pairs; if ``out[0]`` exceeds ``narrow``
+    [m], the limit is smaller (:func:`bodies.contacts.surface.surface_near.room_ahead`).
     """
     reach, limit, n = out[0], room_ahead(out[0], narrow, int(most)), 0
     turn = turning * reach
@@ -277,12 +278,12 @@ class SweptPairs(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Numbered names for the features of the body with more features."""
+        """Names by number, "feature 0" and so on, as many as mesh or core has features, whichever has more."""
         return tuple(f"feature {i}" for i in range(self.n_features))
 
 
 def _vertices(core: Polytope) -> SharedNumbers:
-    """Return one row for each vertex of a core, followed by the unit vectors along the edges of all vertices."""
+    """Return the row of each vertex of a core (:data:`_ROW`), then the unit vectors along the edges of all vertices."""
     stars = [star_of(core, i) for i in range(len(core.vertices))]
     begins = itertools.accumulate((len(star) for star in stars), initial=_ROW * len(stars))
     rows = [(*place, len(star) // 3, begin) for place, star, begin in zip(core.vertices, stars, begins, strict=False)]
@@ -290,7 +291,7 @@ def _vertices(core: Polytope) -> SharedNumbers:
 
 
 def surface_of_core(core: Polytope) -> SharedNumbers:
-    """Return the surface of a core; for a segment, which has no faces, a surface without features."""
+    """Return the tables of faces, edges and corners of a core, a polyhedron; empty tables for a segment."""
     if not core.faces:
         return NOTHING
     features = features_of_core(core)

@@ -119,7 +119,10 @@ class PolyhedronPoint(ContactKinematics):
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the single contact of a polyhedron and a point, a ball of radius 0 for a rounded polyhedron."""
+        """Return the single contact of a polyhedron and a point.
+
+        If the polyhedron is rounded, the point is treated as a ball of radius 0.
+        """
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Point)
         if first.rounding > 0.0:
@@ -139,7 +142,7 @@ class PolyhedronPoint(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the faces, with the other feature."""
+        """Names of the pairs of features: each face of the polyhedron with the vertex of the other body."""
         return self.tables.features
 
 
@@ -181,7 +184,7 @@ class PointPolyhedron(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the faces, with the other feature."""
+        """Names of the pairs of features: each face of the polyhedron with the vertex of the other body."""
         return self.tables.features
 
 

@@ -1,4 +1,4 @@
-"""Contacts of two polyhedra: crossings of an edge of each, and the vertices of each over the other's faces."""
+"""Contacts of two polyhedra: an edge of one with an edge of the other, and a vertex with the other body's faces."""
 
 from __future__ import annotations
 
@@ -25,27 +25,34 @@ from .polyhedron_point import PointPolyhedron, PolyhedronPoint
 from .swept_swept import MOST_CONTACTS, SweptSwept
 
 _ASTRAY = 0.25
-"""Sine of the largest angle by which the contact normal may leave the normals of an edge: 14 degrees.
+"""Sine of the largest angle between the contact normal and the fans of normals of both edges: 14 degrees.
 
-The normals of an edge lie between those of its two faces. The margin lets a contact be followed before it can close.
+The fan of normals of an edge lies between the normals of its two faces.  The margin lets a contact be followed before
+it can close.
 """
 
 
 _INSIDE = 4.0
-"""Least distance of the crossing of overlapping edges from their ends, relative to the depth.
+"""Least distance of a crossing from the ends of two edges that overlap, relative to the depth of the overlap.
 
-It applies if both contact points are outside of the other body: closer to its end, an edge may not overlap at all.
+Closer to its end, an edge may pass the other body without an overlap.  The rule applies only if both contact points are
+outside of the other body; otherwise the overlap is certain.
 """
 _BLUNT = 8.0
-"""Factor on depth over edge length, which limits the sine by which a normal may leave the normals of thin wedges.
+"""Factor in a rule for edges of thin wedges, for which both signs of the contact normal are possible.
 
-Edges of thin wedges may lie on either side of each other. Within this limit they count as apart, not as overlapping.
+The sign with a positive gap is taken if the normal then has a small angle to the fans of normals of both edges.  The
+sine of this angle may be at most this factor times the depth of the overlap with the other sign, over the length of the
+shorter edge.
 """
 
 
 @compiled
 def _astray(frame: Floats, edge: Floats, sign: float, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle by which a vector (x, y, z), times ``sign``, leaves the normals of an edge."""
+    """Return the sine of the angle between the vector ``sign`` * (x, y, z) and the fan of normals of an edge.
+
+    It is not positive if the vector lies inside of the fan, between the normals of both faces of the edge.
+    """
     ux, uy, uz = vector_in_world(frame, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
     vx, vy, vz = vector_in_world(frame, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     one, other = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz
@@ -90,7 +97,7 @@ def _evaluate(
         s, t, over, past = 0.0, 0.0, 0.0, 2.0 * margin
     gap = wx * nx + wy * ny + wz * nz
     overlap = 0.0
-    # a contact may close up to the margin past its end, so the normal must be right there, too
+    # a contact may close up to the margin past the end of an edge, so its normal is checked there, too
     if past <= margin:
         plus = max(_astray(a, edge_a, 1.0, nx, ny, nz), _astray(b, edge_b, -1.0, nx, ny, nz))
         minus = max(_astray(a, edge_a, -1.0, nx, ny, nz), _astray(b, edge_b, 1.0, nx, ny, nz))
@@ -99,14 +106,14 @@ def _evaluate(
             plus, minus = minus, plus
         outside = 0.0
         if gap < 0.0 or plus > _ASTRAY:
-            # the overlap is certain if the point of one edge lies in the other body
+            # the overlap is certain if the closest point of one edge lies inside of the other body
             px, py, pz = ax + s * ex, ay + s * ey, az + s * ez
             outside = height_over(b, n_faces_b, faces_b, px, py, pz)
             px, py, pz = bx + t * fx, by + t * fy, bz + t * fz
             outside = min(outside, height_over(a, n_faces_a, faces_a, px, py, pz))
         deep = outside < -DEEP * size
         if not deep and gap < 0.0 and minus <= min(_ASTRAY, -_BLUNT * gap / min(edge_a[6], edge_b[6])):
-            # edges of thin wedges may as well lie on the other side of each other: take the positive gap
+            # for edges of thin wedges, both signs of the normal are possible: take the sign with a positive gap
             nx, ny, nz, gap = -nx, -ny, -nz, -gap
             past = max(past, size * (minus - _ASTRAY))
         else:
@@ -123,7 +130,8 @@ def _evaluate(
     put(out, POINT_A, ax + s * ex, ay + s * ey, az + s * ez)
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
-    # the edge as tangent is fixed to a body, also if round-off turns the normal of an edge in a face
+    # take the edge as tangent: it is fixed to a body. If both edges lie in a face, round-off turns the normal, and a
+    # tangent that is computed from the normal would turn with it
     put(out, TANGENT, ex, ey, ez)
     write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)

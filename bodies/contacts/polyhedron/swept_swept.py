@@ -23,16 +23,24 @@ from ..features.vertex_face import height_over
 from ..features.writing import write_principal
 
 MOST_CONTACTS = 4000
-"""Largest number of potential contacts of two shapes; for more, the pair is refused, or near pairs are searched."""
+"""Largest number of contacts of two shapes without a search.
+
+Two sharp polyhedra with more pairs of features use a search for near pairs.  Rounded polyhedra and frustums with more
+are refused.
+"""
 _PARALLEL = 1e-5
-"""Least sine of the angle between crossing edges; contacts of the spheres at their ends suffice below it."""
+"""Least sine of the angle between two crossing edges; at a smaller angle, the rounded vertices at their ends touch."""
 _ASTRAY = 0.25
-"""Sine of the largest angle by which the normal may leave the normals of the edges, if the cores overlap."""
+"""Sine of the largest angle between the contact normal and the edges' fans of normals, if the cores overlap.
+
+It is 14 degrees.  If the angle is larger after the normal was reversed for an overlap, the cores are not treated as
+overlapping at these edges.
+"""
 
 
 @compiled
 def _astray(frame: Floats, edge: Floats, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle by which a vector (x, y, z) leaves the outward normals of an edge."""
+    """Return the sine of the angle between the vector (x, y, z) and an edge's fan of normals; at most 0 inside."""
     ux, uy, uz = vector_in_world(frame, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
     vx, vy, vz = vector_in_world(frame, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     return float(max(x * ux + y * uy + z * uz, x * vx + y * vy + z * vz))
@@ -62,7 +70,8 @@ def _evaluate(
     s = t = 0.0
     if sine > 0.01 * _PARALLEL:
         cx, cy, cz = cx / sine, cy / sine, cz / sine
-        # places of the nearest points: (w x f) . c / sine along the first line, (w x e) . c / sine along the second
+        # s, t: distances of the nearest points along both edges, s = (w x f) . c / sine, t = (w x e) . c / sine; e, f:
+        # directions of the edges, w: from start to start, c: unit vector perpendicular to both
         s = (cx * (wy * fz - wz * fy) + cy * (wz * fx - wx * fz) + cz * (wx * fy - wy * fx)) / sine
         t = (cx * (wy * ez - wz * ey) + cy * (wz * ex - wx * ez) + cz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6])) + END * size
@@ -106,10 +115,11 @@ def _evaluate(
 class SweptSwept(ContactKinematics):
     """Contact of a rounded edge of the first shape that crosses a rounded edge of the second.
 
-    Rounded shapes touch if the distance of their cores is the sum of their radii.  The nearest points are a vertex over
-    a face, an edge or a vertex, or two edges that cross.  So every vertex and every pair of edges is a contact of its
-    own, whose features never change.  A face on a face, or an edge on a face, is several contacts at once.  A contact
-    whose features are not the nearest ones is past their end.
+    Rounded shapes touch if the distance of their cores is the sum of their radii.  The nearest points belong to a
+    vertex and a face, a vertex and an edge, two vertices, or two edges that cross.  So every vertex and every pair of
+    edges is a contact of its own, whose features never change.  A face on a face, or an edge on a face, has several
+    contacts at once.  A contact whose features are not the nearest ones is open: its distance past the feature's
+    boundary is positive.
 
     Attributes
     ----------

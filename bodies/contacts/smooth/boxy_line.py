@@ -19,7 +19,7 @@ from .boxy_newton import Answer
 from .smooth_core import Axes, back, forth
 
 _LOOKS = 8
-"""Directions evenly round the line at which the gap is evaluated first."""
+"""Number of directions, evenly spaced round the axis of the line, at which the gap is sampled before the search."""
 _STEPS = 200
 _CLOSED = 4e-16
 """Angle between two directions below which they differ by round-off only [rad]."""
@@ -34,11 +34,11 @@ _PATIENCE = 3
 def across_line(
     core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> Answer:
-    """Return the largest gap over the directions round a line and a core with flat places [m], core's point and normal.
+    """Return the gap of a line and a core with flat places [m], the core's point [m] and the normal.
 
-    The line goes through the origin.  All vectors are in the axes of the line's body.  The gap is nan if no maximum was
-    found.  A positive ``reach`` replaces the line by a cylinder with this radius.  If ``sine`` is not 0, either, it is
-    replaced by a cone about the line.
+    The gap is the largest over all normals round the line; it is nan if no maximum was found.  The line goes through
+    the origin.  All vectors are in the axes of the line's body.  A positive ``reach`` replaces the line by a cylinder
+    with this radius, or, if ``sine`` is not 0, by a cone about the line.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def across_line(
     x, y, z = place
     spread = math.pi / _LOOKS
     found = _look(core, turn, place, e, n, cosine, sine, 0.0)
-    # uphill from the given direction; from the best of all directions if no positive gap is found there
+    # climb from the given direction n; if no positive gap is found, climb from the best of all sampled directions
     at, low, high, rising, falling, most = 0, 0.0, 0.0, found[7], found[7], found[0]
     way = 1 if found[7] > 0.0 else -1
     for i in range(1, _LOOKS // 2 + 2):
@@ -80,7 +80,8 @@ def across_line(
                 falling = look[7]
             last = look[7]
         low, high = (at - 1) * spread, (at + 1) * spread
-        # an overlap may have two maxima between the neighbours: take the one uphill from the best direction
+        # in an overlap the gap may have two maxima between the samples next to the best one: bisect the interval, in
+        # the direction in which the gap rises from the best sample, until one maximum remains
         for _ in range(_LOOKS):
             if rising > 0.0 > falling:
                 break
@@ -103,7 +104,7 @@ def across_line(
     side, slow = 0, 0
     for _ in range(_STEPS):
         width = high - low
-        # where the derivative jumps, as it nearly does at a flat place, secants do not converge: halve
+        # secant step; if several steps are slow, halve the interval: at a flat place the derivative nearly jumps
         middle = (low * falling - high * rising) / (falling - rising)
         if slow >= _PATIENCE or not (low < middle < high):
             middle, slow = 0.5 * (low + high), 0
@@ -111,7 +112,7 @@ def across_line(
         if abs(found[7]) <= none:
             return found[0] - reach, found[1], found[2], found[3], found[4], found[5], found[6]
         if width <= _CLOSED or middle == low or middle == high:
-            # a flat place faces the line: interpolate between the points of both sides
+            # the derivative jumps, so a flat place faces the line: interpolate between the points of both directions
             one = _look(core, turn, place, e, n, cosine, sine, low)
             two = _look(core, turn, place, e, n, cosine, sine, high)
             part = min(max(one[7] / (one[7] - two[7]), 0.0), 1.0) if one[7] > two[7] else 0.5
@@ -134,7 +135,12 @@ def across_line(
 def _look(
     core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
 ) -> tuple[float, float, float, float, float, float, float, float]:
-    """Return gap, core's point, normal and the gap's derivative by the angle, at an angle round the line [rad]."""
+    """Return gap, core's point, normal, and the gap's derivative by the angle, at an ``angle`` round the line [rad].
+
+    The line has the unit direction ``e``; the unit vector ``n``, perpendicular to it, is at angle 0.  The normal has
+    the component ``cosine`` across the line and ``sine`` along it.  The gap is that of the line itself [m]; the
+    derivative is in [m].
+    """
     (x, y, z), (ex, ey, ez), (nx, ny, nz) = place, e, n
     ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
     c, s = cosine * math.cos(angle), cosine * math.sin(angle)

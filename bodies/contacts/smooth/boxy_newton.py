@@ -1,8 +1,9 @@
 """Newton's method for a body with flat places (boxy, :func:`bodies.shapes.support_function.is_boxy`) and a smooth one.
 
-At its flat points the second derivative of a boxy body's support function is infinite, that of its gauge f is not: the
-unknown is the point p of its surface, f(p) = 1, instead of the normal.  There the normal is n = f' / |f'|, the shape
-operator K = f'' / |f'| in the tangent plane, 0 where it is flat.
+At its flat points the second derivative of a boxy body's support function is infinite.  The second derivative of its
+gauge f is finite.  So the unknown is not the normal, but the point p of the surface, with f(p) = 1.  At p, the normal
+is n = f' / |f'|, with the gradient f'.  The shape operator is K = f'' / |f'| in the tangent plane; it is 0 at a flat
+point.
 """
 
 from __future__ import annotations
@@ -22,27 +23,33 @@ _STEPS = 200
 _HALVINGS = 40
 _ROUND_OFF = 2e-16
 _SEEN = 1e-14
-"""Difference of two evaluations of d that is round-off, relative to the size of the bodies."""
+"""Difference of two distances of the contact points that is round-off, relative to the size of the bodies."""
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, below which the iteration ends if a step does not halve the residual.
+
+The residual is then limited by round-off.
+"""
 _RIGHT = 1e-13
-"""Largest residual of a solution, relative to the size of the bodies."""
+"""Largest residual of Newton's method that is accepted for a result, relative to the size of the bodies."""
 _ENOUGH = 1e-4
-"""Least decrease of the merit by a step, relative to the decrease predicted by its derivative."""
+"""Least decrease of the merit function by a step, relative to the decrease predicted by its derivative."""
 _LONGEST = 0.5
-"""Longest step, relative to the size of the boxy body."""
+"""Longest Newton step of the contact point, relative to the size of the boxy body: its surface is linearised."""
 _FLATTEST = 1e-12
-"""Least curvature that is written, relative to 1 / size: on a plane, the engine divides by the body's curvature."""
+"""Curvature that is added to the curvature of a boxy core, relative to 1 / size.
+
+Without it the curvature is 0 at flat places, but the engine divides by it in a contact with a plane.
+"""
 
 Norm: TypeAlias = tuple[float, float, float, float, float]
-"""Three semi-axes [m] and two powers of a core; with semi-axes 0 it is a point."""
+"""Three semi-axes [m] and two powers of a core; a core whose semi-axes are 0 is a point."""
 Point: TypeAlias = tuple[float, float, float]
 Answer: TypeAlias = tuple[float, float, float, float, float, float, float]
 """Gap [m], point (3) [m] and unit normal (3), the result of a search."""
 Place: TypeAlias = tuple[
     float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
 ]
-"""Point of a surface [m], normal, two tangents, and elements 11, 12, 22 of the shape operator K along them [1/m]."""
+"""Point of a surface [m], unit normal, two unit tangents, and the shape operator along these: K11, K12, K22 [1/m]."""
 
 
 @compiled
@@ -65,24 +72,27 @@ def place_on(core: Floats, x: float, y: float, z: float) -> Place:
 def climb_boxy(
     core: Floats, other: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the gap of a boxy core and one that is not, the point on the former, and the normal from it, in its axes.
+    """Return the gap of a boxy core and another core [m], the point on the boxy core [m], and the normal from it.
 
-    The gap is nan if the search fails.
+    Point and normal are in the axes of the boxy core.  The gap is nan if the search fails.  The other core must not be
+    boxy.
 
-    With q the other's farthest point against n and d = q - p, the residual is d along the tangents; a step is
-    (1 + (H + g) K) delta = residual with g = n . d.  Half the square of d falls on the way: its least value is the
-    answer for bodies apart.
+    The unknown is the point p of the boxy core, with the normal n and the shape operator K.  The point q of the other
+    core is the farthest in the direction -n; H is the second derivative of this core's support function.  The residual
+    is the part of d = q - p in the tangent plane.  Newton's step delta solves (1 + (H + g) K) delta = residual, with
+    the gap g = n . d.  A step is shortened until it decreases |d|^2 / 2, which is least at the result if the bodies are
+    apart.
 
     Parameters
     ----------
     core : Floats
         The boxy core; its radius is not used.
     other : Floats
-        The core of the other, or its semi-axes and powers.
+        The other core, or its semi-axes and powers (:data:`Norm`).
     turn : Axes
-        Rotation from the axes of the other to those of the boxy one.
+        Rotation from the axes of the other core to those of the boxy core.
     x, y, z : float
-        The other's centre from that of the boxy one [m].
+        Centre of the other core from the centre of the boxy core [m].
     sx, sy, sz : float
         Direction of the point to begin with, of any length.
     """
@@ -120,7 +130,7 @@ def climb_boxy(
             m21, m22 = h12 * k11 + (h22 + g) * k12, 1.0 + h12 * k12 + (h22 + g) * k22
             determinant = m11 * m22 - m12 * m21
             if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
-                # a stationary point that is not a maximum does not give the shortest way out
+                # a stationary point that is not a maximum of the gap is not the shortest separating translation
                 if residual > _RIGHT * size or determinant <= 0.0 or m11 + m22 <= 0.0:
                     return math.nan, px, py, pz, nx, ny, nz
                 return g, px, py, pz, nx, ny, nz
@@ -150,7 +160,9 @@ def climb_boxy(
 
 @compiled
 def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: float, z: float) -> None:
-    """Write slide K and turn 1, without the radius, at the point (x, y, z) of a boxy core's surface, in its own axes.
+    """Write the curvature matrices of a boxy body: slide is the shape operator K of its core, turn is 1 + radius K.
+
+    The contact point of the core is (x, y, z), in the axes of the core [m].
 
     The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """

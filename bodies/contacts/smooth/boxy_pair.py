@@ -1,8 +1,9 @@
 """Newton's method for two bodies with flat places (boxy): the unknowns are a point on each surface.
 
-With d from the first point to the second and the normals n and m, the residuals are d and m along the tangents of n:
-the line between the points is along n, and the normals are opposite.  Neither has a second derivative of a support
-function in it, so that a face of one may lie before an edge or a corner of the other, and edges may cross.
+Let d be the vector from the first point to the second, n and m the outward normals there.  The residuals are the
+components of d and of m in the tangent plane of n.  Both are zero if the line between the points is along n and the
+normals are opposite.  The residuals contain no second derivative of a support function, which is infinite at flat
+places.  Therefore a face of one body may be opposite to an edge or a corner of the other, and two edges may cross.
 """
 
 from __future__ import annotations
@@ -19,11 +20,14 @@ _STEPS = 100
 _HALVINGS = 30
 _ROUND_OFF = 2e-16
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, below which Newton's method ends once a step no longer halves it.
+
+Below this bound, round-off limits the residual.
+"""
 _RIGHT = 1e-13
-"""Largest residual of a solution, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, above which a result of Newton's method is rejected."""
 _LONGEST = 0.3
-"""Longest step of a point, relative to the size of its body."""
+"""Longest Newton step of a contact point, relative to the largest semi-axis of its body: surfaces are linearised."""
 
 
 @compiled
@@ -46,7 +50,9 @@ def meet(
     start: Point,
     other: Point,
 ) -> Answer:
-    """Return the gap of two boxy cores, the point on the first and the normal from it, in its axes; nan if not found.
+    """Return the gap of two boxy cores [m], the point on the first core and its outward normal.
+
+    Point and normal are in the axes of the first core, from its centre.  The gap is nan if no solution was found.
 
     Parameters
     ----------

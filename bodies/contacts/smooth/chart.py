@@ -33,7 +33,7 @@ Chart: TypeAlias = tuple[Point, Point, Point, Point, Symmetric, Symmetric, Point
 
 @compiled
 def _part(one: float, two: float, power: float) -> tuple[float, float, float]:
-    """Return a vector of two components divided by its norm of a power of 2 or more, and this norm."""
+    """Return both components of the vector (one, two) divided by its p-norm, and this norm; p = ``power`` >= 2."""
     larger, smaller = max(abs(one), abs(two)), min(abs(one), abs(two))
     if larger == 0.0:
         return 1.0, 0.0, 0.0
@@ -48,7 +48,7 @@ def _dual(one: float, power: float) -> float:
 
 @compiled
 def start_of(core: Norm, nx: float, ny: float, nz: float) -> Point:
-    """Return the chart's vector w for a unit normal."""
+    """Return the chart's vector w (see the module) at the core's surface point with the outward unit normal n."""
     a, b, c, p, q = core
     if p == 2.0 and q == 2.0:
         return nx, ny, nz
@@ -146,9 +146,11 @@ def _of_ellipsoid(a: float, b: float, c: float, length: float, x: float, y: floa
 
 @compiled
 def write_chart(out: Floats, side: int, core: Floats, axes: Axes, nx: float, ny: float, nz: float) -> None:
-    """Write slide and turn of a core at its outward normal, in its own axes.
+    """Write the curvature matrices of a core at the surface point with the outward normal (nx, ny, nz).
 
-    The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
+    The normal is in the axes of the core.  The matrices slide [1/m] and turn [1] satisfy slide u = turn nu: if the
+    contact point moves by u along the surface [m], the normal turns by nu.  The geometry block ``out`` must already
+    hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     norm, size = (core[0], core[1], core[2], core[3], core[4]), max(core[0], core[1], core[2])
     w = start_of(norm, nx, ny, nz)

@@ -1,7 +1,8 @@
 """Newton's method for two smooth bodies of any kind, in their charts (:mod:`bodies.contacts.smooth.chart`).
 
-With d from the first point to the second and the normals n and m, the residuals are d and m along the tangents of n, as
-in :mod:`bodies.contacts.smooth.boxy_pair`; no curvature and no radius of curvature stands in the equations.
+Let d be the vector from the first point to the second, n and m the outward normals there.  The residuals are the
+components of d and of m in the tangent plane of n, as in :mod:`bodies.contacts.smooth.boxy_pair`.  The equations
+contain neither curvatures nor radii of curvature, which can be infinite.
 """
 
 from __future__ import annotations
@@ -18,18 +19,23 @@ _STEPS = 40
 _HALVINGS = 10
 _ROUND_OFF = 2e-16
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, below which Newton's method ends once a step no longer halves it.
+
+Below this bound, round-off limits the residual.
+"""
 _RIGHT = 1e-13
-"""Largest residual of a solution, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, above which a result of Newton's method is rejected."""
 _LONGEST = 0.3
-"""Longest step, relative to the size of the smaller body."""
+"""Longest Newton step eps in either chart, a length, relative to the smaller body's size: charts are linearised."""
 
 
 @compiled
 def meet_in_charts(
     first: Norm, second: Norm, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float, parts: int
 ) -> Answer:
-    """Return the gap of two cores, the point on the first and the normal from it, in its axes; nan if not found.
+    """Return the gap of two cores [m], the point on the first core and its outward normal.
+
+    Point and normal are in the axes of the first core, from its centre.  The gap is nan if no solution was found.
 
     Parameters
     ----------
@@ -40,9 +46,10 @@ def meet_in_charts(
     x, y, z : float
         The second core's centre from the first's [m].
     nx, ny, nz : float
-        The normal to begin with, of any length.
+        The normal with which the search starts, of any length.
     parts : int
-        Steps from ellipsoids to the cores' own powers, if the direct search fails; 0 for no further search.
+        Used if the direct search fails: the search is repeated with ellipsoids, whose powers then change to the cores'
+        own powers in this number of steps; 0 for no further search.
     """
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
     nx, ny, nz = nx / length, ny / length, nz / length
@@ -61,7 +68,10 @@ def meet_in_charts(
 
 @compiled
 def _between(core: Norm, part: float) -> Norm:
-    """Return the core between an ellipsoid (``part`` 0) and ``core`` (``part`` 1); 1 / p and 1 / q are interpolated."""
+    """Return a core interpolated between the ellipsoid of equal semi-axes (``part`` 0) and ``core`` (``part`` 1).
+
+    The reciprocal powers 1 / p and 1 / q vary linearly with ``part``.
+    """
     a, b, c, p, q = core
     return a, b, c, 1.0 / (0.5 + part * (1.0 / p - 0.5)), 1.0 / (0.5 + part * (1.0 / q - 0.5))
 
@@ -70,7 +80,11 @@ def _between(core: Norm, part: float) -> Norm:
 def _climb(
     first: Norm, second: Norm, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> Answer:
-    """Return the largest gap [m], first core's point and normal; start at both cores' points with the normal n."""
+    """Return the largest gap of two cores over all directions [m], the first core's point and normal there.
+
+    Newton's method starts at the support points of the cores, along the unit normal (nx, ny, nz) and against it.  The
+    other arguments are those of :func:`meet_in_charts`.  The gap is nan if no solution was found.
+    """
     extent_a, extent_b = max(first[0], max(first[1], first[2])), max(second[0], max(second[1], second[2]))
     size = abs(x) + abs(y) + abs(z) + extent_a + extent_b
     weight = max(extent_a, extent_b)

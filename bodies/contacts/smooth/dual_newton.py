@@ -1,9 +1,11 @@
 """Newton's method on the support functions of two bodies, of which one at least is smooth.
 
-The gap is the largest value of g(n) = n . X - h_A(n) - h_B(-n) over the unit vectors n, with X from centre to centre.
-With the support points, d = p_B - p_A, the gradient of g on the sphere is r = d - g n and the second derivative
--(H_A + H_B + g), so that a step is (H_A + H_B + g) delta = r.  Bodies that are apart have one maximum; if they overlap
-a little, it is the one near the line of centres.
+The gap is the largest value of g(n) = n . X - h_A(n) - h_B(-n) over the unit vectors n.  X is the vector from the
+centre of body A to that of body B; h_A and h_B are the support functions, H_A and H_B their second derivatives.  Let d
+be the vector from the support point of A to that of B.  On the unit sphere the gradient of g is r = d - g n, and the
+second derivative is -(H_A + H_B + g).  A Newton step delta of n solves (H_A + H_B + g) delta = r.
+
+If the bodies are apart, g has one maximum.  If they overlap a little, the gap is the maximum near the line of centres.
 """
 
 from __future__ import annotations
@@ -26,9 +28,12 @@ _ROUND_OFF = 2e-16
 _SEEN = 1e-14
 """Difference of two evaluations of g that is round-off, relative to the size of the bodies."""
 _CLOSE = 1e-12
-"""Residual below which a step that does not lower it is limited by round-off, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, below which Newton's method ends once a step no longer halves it.
+
+Below this bound, round-off limits the residual.
+"""
 _RIGHT = 1e-13
-"""Largest residual of a solution, relative to the size of the bodies."""
+"""Residual, relative to the size of the bodies, above which a result of Newton's method is rejected."""
 _SADDLE = 0.3
 """Angle by which the search leaves a stationary direction that is not a maximum of g [rad]."""
 

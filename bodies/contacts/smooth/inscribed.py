@@ -1,11 +1,12 @@
-"""Proof that an overlap is the shortest way out of two smooth bodies, by balls inside of both at the contact points.
+"""Proof, by inscribed balls, that no translation shorter than the overlap d separates two smooth bodies.
 
-A ball inside of a body has no wider gap than the body itself, in any direction n.  Of two balls that touch the bodies'
-surfaces from within at the points of a stationary answer -d, their gap along n is largest along the answer's normal,
-where it is -d, if their radii are d or more together.
+A search has found contact points with the gap -d.  Inscribe a ball in each body that touches its surface at the contact
+point.  In every direction, the gap between the bodies is at most the gap between the balls, because the balls lie
+inside.  If the sum of the radii is d or more, the gap between the balls is at most -d in every direction.
 
-The radius is by a bound of the second derivative L of the function that is 1 on the surface, within a ball of the
-radius d: from its gradient G at the point on, a ball of the radius G / L stays below 1.
+The radius of a ball follows from a function that is 1 on the surface of its body and less inside.  Let G be the
+function's gradient at the contact point, L a bound of its second derivative within the distance d of the point.  In the
+ball of the radius G / L the function stays below 1.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from .smooth_core import Axes, back
 def no_shorter_way(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: tuple[float, ...]
 ) -> bool:
-    """Return whether an overlap is proved to be the shortest way out, by balls inside of both cores.
+    """Return True if inscribed balls prove that no translation shorter than the overlap separates the cores.
 
     Parameters
     ----------
@@ -33,7 +34,8 @@ def no_shorter_way(
     x, y, z : float
         The second core's centre from the first's [m].
     found : tuple
-        The gap, below 0, the second's point and the normal, in the axes of the first and from its centre.
+        The gap, below 0 [m], the second core's contact point and the normal, in the axes of the first core and from
+        its centre.
     """
     g, qx, qy, qz, nx, ny, nz = found
     depth = -g
@@ -47,7 +49,10 @@ def no_shorter_way(
 
 @compiled
 def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
-    """Return the radius [m], at most ``most``, of a ball in a core that touches its surface at a point of normal n."""
+    """Return the radius of a ball inside the core that touches its surface at the point (x, y, z) [m].
+
+    The outward normal at the point is n.  The radius is at most ``most`` [m]; it is 0 if no ball was found.
+    """
     a, b, c = core[0], core[1], core[2]
     height = nx * x + ny * y + nz * z
     if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
@@ -64,7 +69,7 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
         r, w = low_x + low_y, low_z
     s, t = (high_s, high_t) if k >= 2.0 else (low_s, low_t)
     if min(min(r, w), min(s, t)) == 0.0:
-        # close to a sharp place there is no ball
+        # near a sharp place of the surface the second derivative has no bound: the radius is 0
         return 0.0
     bend = 1.0 - 2.0 / k
     along = (j - 1.0) * (high_s ** (bend + 1.0) / (a * a) + high_t ** (bend + 1.0) / (b * b))

@@ -1,10 +1,14 @@
 """Gap of a convex polyhedron or segment and a body with a smooth support function.
 
-The signed distance of a point from a convex body is a convex function, so that it has one minimum over the polytope.  A
-walk over faces, edges and vertices leads there.  On each feature it takes the minimum over the feature's plane or line,
-by Newton's method on the support function.  If this minimum lies outside of the feature, the walk continues on the
-border that it crosses; if the distance still falls into a neighbour, on that neighbour.  Every stop has a smaller
-distance than the one before.  A stop inside of its feature, without a better neighbour, is the minimum.
+The signed distance of a point from a convex body is a convex function, so that it has one minimum over the polytope.
+The search for it, the walk, goes from feature to feature: faces, edges, vertices.  On each feature, Newton's method on
+the support function finds the minimum over the feature's plane or line.  This minimum is called a stop.
+
+1. If the stop is outside of its feature, the walk continues on the edge or vertex of the border that it crossed.
+2. If the distance decreases from the stop into a neighbouring feature, the walk continues on this neighbour.
+3. Otherwise the stop is the minimum over the polytope.
+
+Every stop has a smaller distance than the stop before, so that the walk ends.
 """
 
 from __future__ import annotations
@@ -33,8 +37,9 @@ Numbers = tuple[float, ...]
 COUNTS, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = 6, 9, 10, 11, 12, 13, 14
 """Indices in the head of a polytope's numbers.
 
-``COUNTS``: number of vertices, followed by the numbers of edges and faces.  The others: offset of the list of that
-name.
+At ``COUNTS`` is the number of vertices; the numbers of edges and of faces follow.  At ``VERTICES``, ``EDGES``,
+``FACES``, ``LOOPS``, ``STARS`` and ``LISTS`` is the index at which the list of this name begins.  ``LISTS`` are the
+lists of the edges of each vertex.
 """
 EDGE, FACE = 4, 6
 """Length of the row of an edge and of the row of a face, respectively.
@@ -86,13 +91,20 @@ def _numbers(
 
 
 _HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
-"""Kinds of features to which the walk goes next; ``_HERE``: it ends on the present feature."""
+"""Kind of the feature on which the walk continues; ``_HERE``: the walk ends, on the present feature."""
 _ON_BORDER = 1e-14
-"""Tolerance for round-off: of a point past a border, relative to the size, and of a unit normal past its range."""
+"""Tolerance for round-off: a point or unit normal this far outside still belongs to a feature.
+
+For the point it is the distance past the feature's border, relative to the size.  For the normal it is the sine of the
+angle past the range of the feature's normals.
+"""
 _SHALLOW = 1e-6
-"""Overlap of the cores, relative to the size, up to which the first stop is taken as nearest without a proof."""
+"""Overlap of the cores, relative to the size, up to which the walk's final stop is accepted without further tests.
+
+A deeper overlap can have several locally shortest separations, so that its stop is tested and compared with others.
+"""
 _ROUND = 8
-"""Directions round a segment from which the search on its side starts, if the segment is deep in the body."""
+"""Number of directions about a segment from which Newton's method starts, if the segment is deep in the body."""
 
 Point: TypeAlias = tuple[float, float, float]
 Stop: TypeAlias = tuple[float, float, float, float, int, int, Point]
@@ -131,7 +143,10 @@ def _point_along(
 def _exit(
     hull: Floats, face: int, near: float, fx: float, fy: float, fz: float, tx: float, ty: float, tz: float
 ) -> int:
-    """Return the edge of a face that the line from its point f to the point t of its plane crosses, or -1."""
+    """Return the number of the face's edge that the line from f to t crosses first, or -1 if it crosses none.
+
+    Both points are in the plane of the face, f on the face.  A point up to ``near`` past an edge [m] is on the face.
+    """
     at = int(hull[FACES]) + FACE * face
     nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
     loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
@@ -153,7 +168,7 @@ def _exit(
 
 @compiled
 def _best_face(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> int:
-    """Return the face over whose plane the smooth body is highest, or -1 for a segment."""
+    """Return the face whose plane has the largest gap to the smooth body, or -1 if the polytope is a segment."""
     best, widest = -1, -math.inf
     for i in range(int(hull[COUNTS + 2])):
         at = int(hull[FACES]) + FACE * i
@@ -268,9 +283,9 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
             g, nx, ny, nz, after, where, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
         if after == _HERE and g >= -_SHALLOW * size:
             return g, nx, ny, nz, _feature(hull, kind, number), way
-        # a stop counts only if the smooth body's centre is on its outer side
+        # a final stop is valid only if the smooth body's centre is on the outer side of the feature
         if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
-            # the polytope's point lies in the smooth body, which proves the overlap
+            # if the polytope's point lies in the smooth body (gauge below 1), the overlap is proved
             px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
             px, py, pz = back(turn, px - g * nx - x, py - g * ny - y, pz - g * nz - z)
             if gauge(core, px, py, pz) < 1.0:
@@ -294,7 +309,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
     if best == best and not g > best:
         return best, bx, by, bz, feature, base
     if g != g and found[0] == found[0]:
-        # a point of the segment lies in the smooth body, which proves the overlap
+        # the trial of all features found nothing: return the overlap that the search along the segment found
         return found[0], found[4], found[5], found[6], number, on_segment
     if g != g and n_faces == 0:
         end: Nearest = _deep_segment(hull, core, turn, x, y, z, size)
@@ -334,10 +349,11 @@ def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z:
 
 @compiled
 def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float) -> Nearest:
-    """Return gap, normal, feature and point as `_nearest` does, by a trial of all features of the polytope.
+    """Return gap, normal, feature and point as `_nearest` does, by Newton's method on every feature of the polytope.
 
-    It serves for overlaps in which the walk fails.  Of all features on which the walk would end, it takes the one with
-    the largest gap.  On each feature, Newton's method starts from the mean of its outward normals.
+    It is used for overlaps in which the walk does not lead to a proved solution.  The result is the final stop with the
+    largest gap.  Newton's method starts from an outward direction.  At an edge it is the sum of the normals of its
+    faces, at a vertex the sum of the unit vectors opposite to its edges.
     """
     best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
     for kind in (_FACE, _EDGE, _VERTEX):
@@ -358,7 +374,10 @@ def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
 
 @compiled
 def _outward_of_edge(hull: Floats, number: int, x: float, y: float, z: float) -> Point:
-    """Return the sum of the normals of an edge's two faces; for a segment, the vector from its start to (x, y, z)."""
+    """Return a direction out of the polytope at an edge, of any length: the sum of the normals of its two faces.
+
+    A segment has no faces: there it is the vector from its start to the smooth body's centre (x, y, z) [m].
+    """
     at = int(hull[EDGES]) + EDGE * number
     if hull[at + 2] < 0.0:
         vx, vy, vz = _vertex(hull, int(hull[at]))
@@ -392,10 +411,10 @@ def _feature(hull: Floats, kind: int, number: int) -> int:
 
 
 def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
-    """Write the geometry block of a polytope and a smooth body.
+    """Write the geometry block of the contact between a polytope and a smooth body.
 
     ``first`` holds the numbers of the polytope (:func:`polyhedron_numbers`), ``second`` the numbers of the smooth body
-    (:func:`bodies.shapes.smooth.core_numbers`).  The gap is nan if no feature can be proved to be the nearest.
+    (:func:`bodies.shapes.smooth.core_numbers`).  The gap is nan if no nearest feature was found.
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     bx, by, bz = point_in_world(b, second[6], second[7], second[8])

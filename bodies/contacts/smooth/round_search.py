@@ -1,12 +1,14 @@
-"""Gap of a smooth body and a circle or a segment, by searches for the place on it: slow, but without failures.
+"""Gap of a smooth body and a circle or a segment, by bracketing the nearest point of the circle or segment.
 
-The unknown is the angle round the circle, or the place along the segment.  The distance of this point from the smooth
-body falls or rises along the circle by the tangential component of the normal.  Between two angles at which it falls
-and rises, secants and halvings narrow the interval.  The search needs no radius of curvature of the circle.  Close to
-the axis of the circle this radius varies without bound, so that Newton's method on the normal does not converge there.
+The unknown is the angle of a point round the circle, or its distance along the segment.  The derivative of the point's
+distance from the smooth body is the tangential component of the normal.  Between two angles at which this derivative
+is negative and positive, secant steps and bisections narrow the interval.
 
-If the bodies overlap, steps uphill lead to the direction with the largest gap.  The circle's point is then again found
-by a search along the circle.
+The search is slow but robust, because it needs no radius of curvature of the circle.  For normals close to the circle's
+axis this radius varies without bound, and Newton's method on the normal does not converge.
+
+If the bodies overlap, the direction with the largest gap is found first, by steps that increase the gap.  The circle's
+point is then found by a search along the circle.
 """
 
 from __future__ import annotations
@@ -28,23 +30,38 @@ from .smooth_starts import Start, gap_along, settle, starts_of, uphill
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""
 _LOOKS, _STEPS, _PATIENCE = 16, 120, 3
-"""Angles round the circle that are sampled; most steps of a search; most successive slow secants before a halving."""
-_SAME = 4e-16
-"""Angle [rad] below which two directions are equal, and slope that is zero, within round-off."""
-_ACROSS = 1e-9
-"""Largest slope at a solution; the error of its gap is of the order of the square of the slope."""
-_TOP, _OVER = 1e-9, 1e-11
-"""Angle to a maximum up to which steps go uphill [rad]; largest relative distance of its point from the surface."""
-_GOLDEN = 0.3819660112501051
-"""Fraction of an interval, from either end, at which a golden-section search for a minimum evaluates."""
-_NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
-"""Limits of Newton's method next to the axis.
+"""Numbers of angles and steps of a search.
 
-Largest number of steps; residual of a solution, relative to the size; largest angle between normal and axis [rad].
+``_LOOKS``: angles round the circle that are sampled.  ``_STEPS``: largest number of steps.  ``_PATIENCE``: after this
+many successive secant steps that did not halve the interval, the interval is bisected.
+"""
+_SAME = 4e-16
+"""Round-off: two angles closer than this [rad] are equal, and a smaller derivative of the distance is zero."""
+_ACROSS = 1e-9
+"""Largest derivative of the distance by the arc length at an accepted solution.
+
+At the exact solution it is 0.  The error of the gap is of the order of its square.
+"""
+_TOP, _OVER = 1e-9, 1e-11
+"""Accuracy of a maximum of the gap.
+
+``_TOP``: angle to the maximum at which the steps uphill end [rad].  ``_OVER``: largest distance of the body's contact
+point from its surface, relative to the size of both bodies.
+"""
+_GOLDEN = 0.3819660112501051
+"""Golden-section search: distance of its two inner points from the ends of the interval, (3 - sqrt 5) / 2 of it."""
+_NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
+"""Limits of Newton's method for a normal close to the axis of the circle (:func:`next_to_axis`).
+
+``_NEWTON``: largest number of steps.  ``_CLOSED``: largest residual of a solution, relative to the size of the bodies.
+``_STEEPEST``: angle between normal and axis at which the method gives up [rad].
 """
 
 Look: TypeAlias = tuple[float, Answer]
-"""Derivative of the distance by the angle round the circle, over the radius, and the stop: gap, point, normal."""
+"""Derivative of the distance by the arc length of the circle [1], and a stop.
+
+A stop is the gap between one point of the circle and the body [m], the body's nearest point to it, and the normal.
+"""
 
 
 @compiled
@@ -67,7 +84,7 @@ def round_circle(
     Parameters
     ----------
     point, core : Floats
-        A point as a core, and the smooth body's core.
+        Core numbers of a point (a body of size 0, used for each point of the circle), and of the smooth body.
     turn : Axes
         Rotation from the axes of the core to those of the circle.
     x, y, z : float
@@ -127,17 +144,18 @@ def _between(
     falling: float,
     rising: float,
 ) -> Answer:
-    """Return the stop at the least distance between two angles of the circle.
+    """Return gap, smooth body's point and normal at the least distance between two angles of the circle.
 
-    At ``low`` the distance falls towards ``high``, at ``high`` it falls towards ``low``; ``falling`` and ``rising`` are
-    the slopes there.
+    At the angle ``low`` the distance decreases towards ``high``, and at ``high`` towards ``low``.  ``falling`` and
+    ``rising`` are the derivatives of the distance at these angles.  ``place`` is the centre of the core [m]; the other
+    arguments are those of :func:`round_circle`.
     """
     x, y, z = place
     side, slow = 0, 0
     look: Look = _look(point, core, turn, x, y, z, radius, high)
     for _ in range(_STEPS):
         width = abs(high - low)
-        # secants; after several that leave more than half of the interval, a halving
+        # a secant step; after _PATIENCE secant steps in succession that did not halve the interval, a bisection
         middle = (low * rising - high * falling) / (rising - falling)
         if slow >= _PATIENCE or not (min(low, high) < middle < max(low, high)):
             middle, slow = 0.5 * (low + high), 0
@@ -156,7 +174,7 @@ def _between(
         slow = slow + 1 if abs(high - low) > 0.5 * width else 0
     found = look[1]
     if not abs(look[0]) <= _ACROSS:
-        # the circle is deep in the body, and the nearest point of the surface jumps: no solution
+        # deep in the body the nearest surface point is discontinuous along the circle: no stationary point
         return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
     return found
 
@@ -165,11 +183,11 @@ def _between(
 def next_to_axis(
     core: Floats, turn: Axes, x: float, y: float, z: float, radius: float, sx: float, sy: float, up: float
 ) -> Answer:
-    """Return the result of :func:`round_circle` for a normal that is nearly the axis of the circle, by Newton's method.
+    """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
 
-    It needs a body with radii of curvature.  The unknowns are the angle between normal and axis, at first 0, and the
-    angle round the axis.  With these unknowns the equations stay regular at the axis, and it also finds overlaps.  The
-    normal is along the axis if ``up`` is 1, against it if ``up`` is -1.
+    The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
+    the angle between normal and axis, which starts at 0, and the angle round the axis.  With these unknowns the
+    equations are regular at the axis.  The normal is along the axis if ``up`` is 1, against it if ``up`` is -1.
     """
     tilt, angle = 0.0, math.atan2(sy, sx)
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + radius
@@ -208,9 +226,11 @@ def next_to_axis(
 def along_segment(
     core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, ez: float, length: float
 ) -> tuple[Answer, float]:
-    """Return gap, smooth body's point and normal at the least distance from a segment, and the place on it [m].
+    """Return the least distance of a smooth body from a segment: (gap [m], body's point, normal), distance along it.
 
-    The segment goes from the origin along the unit vector e.  The other arguments are those of :func:`round_circle`.
+    The last number is the distance of the segment's nearest point from the start of the segment [m].  The segment goes
+    from the origin along the unit vector e over ``length`` [m].  The core's centre is (x, y, z) [m]; ``turn`` is the
+    rotation from the axes of the core to those of the segment.
     """
     point = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)
     low, high = 0.0, length
@@ -227,7 +247,7 @@ def along_segment(
             break
         if i > 1 and (abs(ahead) <= _SAME or s == low or s == high):
             if g < 0.0 and abs(ahead) > _ACROSS:
-                # the segment is deep in the body, and the nearest point of the surface jumps: no solution
+                # deep in the body the nearest surface point is discontinuous along the segment: no solution
                 best = math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
             break
         if ahead > 0.0:
@@ -248,9 +268,9 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
     core, turn, x, y, z : Floats, Axes, float
         As in :func:`round_circle`.
     up : float
-        1 or -1, the side of the circle's plane on which normals are allowed; 0 for both sides.
+        1 or -1: normals are allowed from this direction of the circle's axis to the limit ``lean``; 0 allows all.
     lean : tuple of float
-        Radial and axial component of the last normal that is allowed on the other side, and size of both bodies [m].
+        Radial and axial component of the unit normal at this limit, and size of both bodies [m].
     """
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     for start in starts_of(circle, core, turn, x, y, z):
@@ -264,7 +284,7 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
             found = _along(circle, top)
         top = found[0], found[4], found[5], found[6]
         if not _leans_so(top, up, lean):
-            # close to a sharp place the gap hardly depends on the normal: try the last allowed normal
+            # near a sharp place of the body the gap hardly depends on the normal: try the normal at the limit `lean`
             away = math.sqrt(top[1] * top[1] + top[2] * top[2])
             if away == 0.0:
                 continue
@@ -282,14 +302,20 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
 
 @compiled
 def _leans_so(top: Start, up: float, lean: Point) -> bool:
-    """Return whether the normal of a maximum is among the allowed normals; arguments as in :func:`up_hills`."""
+    """Return True if the normal at a maximum of the gap is between the axis and the limit ``lean``.
+
+    ``up`` and ``lean`` are those of :func:`up_hills`; ``top`` is gap and normal at the maximum.
+    """
     _, nx, ny, nz = top
     return bool(up == 0.0 or up * (lean[0] * nz - lean[1] * math.sqrt(nx * nx + ny * ny)) >= -_TOP)
 
 
 @compiled
 def _along(circle: Floats, top: Start) -> Answer:
-    """Return gap, point and normal of a maximum of the gap, from the circle's farthest point along its direction."""
+    """Return gap, body's point and normal for a maximum ``top`` of the gap: the gap and its direction n.
+
+    The body's point is the circle's farthest point along n, moved by the gap along n.
+    """
     g, nx, ny, nz = top
     a = support_of(circle, nx, ny, nz)
     return g, a[1] + g * nx, a[2] + g * ny, a[3] + g * nz, nx, ny, nz
@@ -302,9 +328,8 @@ def _facing(
     """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
 
     Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
-    nearly the axis, its radial component is round-off, and so is the direction of the circle's farthest point.  The
-    right point of the circle is the one from which the point at the gap along the normal lies on the surface of the
-    body.
+    nearly the axis, its radial component is round-off, and so is the direction of the circle's farthest point.  A
+    search along the circle finds its point p for which p + gap normal is nearest to the surface of the body.
     """
     g, px, py, pz, nx, ny, nz = found
     extent, radius = max(core[0], core[1], core[2]), circle[0]
@@ -317,7 +342,7 @@ def _facing(
     qx, qy, _ = forth(turn, b[1], b[2], b[3])
     qx, qy = x + qx - g * nx, y + qy - g * ny
     cx, cy = px - g * nx, py - g * ny
-    # search from the circle's point nearest to the body's point, to both sides as far as the present point
+    # search an arc about the circle's point nearest to the body's support point; it includes the present point
     middle = math.atan2(qy, qx)
     wide = abs(math.atan2(cx * qy - cy * qx, cx * qx + cy * qy)) if cx * cx + cy * cy > 0.0 else 0.0
     low, high = middle - wide - _FIRST, middle + wide + _FIRST
@@ -342,6 +367,6 @@ def _facing(
 
 @compiled
 def _over(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
-    """Return the difference of a point's gauge from 1, which is 0 on the surface of the core."""
+    """Return abs(gauge - 1) of a point: 0 on the surface of the core, where :func:`gauge` is 1, larger off it."""
     bx, by, bz = back(turn, x, y, z)
     return float(abs(gauge(core, bx, by, bz) - 1.0))

@@ -127,11 +127,12 @@ def back(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]
 
 @compiled
 def write_core(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: float, z: float) -> None:
-    """Write the curvature matrices of a smooth body: slide 1, and turn, the matrix of its radii of curvature [m].
+    """Write the curvature matrices slide and turn of a smooth body at its outward normal (x, y, z).
 
-    Turn is the second derivative of the support function at the normal (x, y, z), in the axes of the core, plus the
-    radius.  The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the
-    world.
+    The normal is in the axes of the core.  The matrices satisfy slide u = turn nu: if the contact point moves by u
+    along the surface [m], the normal turns by nu.  Slide is the identity.  Turn is the matrix of the radii of curvature
+    [m]: the second derivative of the support function at the normal, plus the core's radius.  The geometry block
+    ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     s = support_of(core, x, y, z)
     tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])

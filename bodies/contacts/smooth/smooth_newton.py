@@ -1,8 +1,9 @@
 """The gap of two smooth bodies of any kind, and the curvature of their surfaces.
 
 Cores are of three kinds, by their powers (:mod:`bodies.shapes.support_function`): round cores have radii of curvature
-everywhere, boxy cores have flat places, mixed cores have flat and sharp places.  Round cores are searched by their
-normals, boxy cores by their points, mixed cores by charts.
+everywhere, boxy cores have flat places, mixed cores have flat and sharp places.  The unknown of Newton's method is the
+unit normal for round cores, the surface point for boxy cores, and the chart's vector for mixed cores
+(:mod:`bodies.contacts.smooth.chart`).
 """
 
 from __future__ import annotations
@@ -25,31 +26,46 @@ from .smooth_core import Axes, back, forth, write_core
 from .smooth_starts import gap_along, settle, starts_of, uphill
 
 _DEEP = 1e-2
-"""Overlap up to which a solution is taken as the shortest way out without a proof, relative to the least semi-axis."""
+"""Overlap, relative to the least semi-axis, up to which a solution is accepted without a proof.
+
+In a deeper overlap, a shorter translation could separate the bodies: see :mod:`bodies.contacts.smooth.inscribed`.
+"""
 
 _TOUCHING = 1e-12
-"""Overlap up to which no common point is needed as a proof, relative to the distance of the centres."""
+"""Overlap, relative to the distance of the centres, up to which no common point of the bodies is required.
+
+So small an overlap is round-off of touching bodies, which may have no common point.
+"""
 
 _TOPS = 4
 """Directions with large gaps from which the search begins, before the twelve axes of both bodies."""
 _THIN = 4.0
 _BURIED = 0.5
-"""Limits beyond which the search also starts along the axes of both bodies, although a solution was found.
+"""Limits above which the search also starts along the axes of both bodies, to find a larger gap than the one found.
 
-In this order: largest semi-axis over least semi-axis; overlap over least semi-axis.
+``_THIN``: ratio of the largest to the least semi-axis.  ``_BURIED``: ratio of the overlap to the least semi-axis.
 """
 _NEARBY, _NEXT_TO = 0.05, 1e-6
-"""Angle to a maximum of the gap from which Newton's method starts after one failure, and after two [rad]."""
-_FEW_PARTS, _PARTS = 4, 24
-"""Numbers of steps in which powers are changed from ellipsoids to the cores, tried in turn if direct searches fail."""
-_ON_AXIS, _SUNK = 1e-5, 0.2
-"""Rules for a maximum of the gap on the axis of a circle.
+"""Accuracy of the direction from which Newton's method is restarted, as its angle to a maximum of the gap [rad].
 
-A maximum within the first number [rad] of the axis is on the axis.  The second is the largest overlap, relative to the
-least semi-axis, for which the rule applies.
+``_NEARBY``: first restart.  ``_NEXT_TO``: further restarts, for mixed cores only.
+"""
+_FEW_PARTS, _PARTS = 4, 24
+"""Numbers of steps in which the powers of mixed cores are changed from 2 (ellipsoids) to their own values.
+
+They are used if the direct search fails: first the few steps, which cost less, then the many.
+"""
+_ON_AXIS, _SUNK = 1e-5, 0.2
+"""A maximum of the gap on the axis of a circle is rejected: it belongs to the middle of the disc, not to its rim.
+
+``_ON_AXIS``: angle to the axis up to which a maximum is on the axis [rad].  ``_SUNK``: largest overlap, relative to the
+least semi-axis, in which maxima are tested.
 """
 _SAMPLES = 8
-"""Intervals between the two points of a solution, at whose ends a common point of both bodies is sought."""
+"""Number of equal parts into which the line between both contact points is divided.
+
+To prove an overlap, the ends of the parts are tested: is one of them inside of both bodies?
+"""
 _NOWHERE = 1e-300
 """Least gauge, which replaces the gauge 0 of a centre in a division."""
 _ON_SURFACE = 1e-12
@@ -60,10 +76,11 @@ _ON_SURFACE = 1e-12
 def widest(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
     """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
 
-    The gap is nan if no solution was found.  A positive gap is unique.  A negative gap is returned only with a common
-    point of both bodies as a proof.  Thin bodies that overlap have several locally shortest ways out.  If the first
-    search fails, or its solution is not proved to be the shortest, the search also starts from directions with a large
-    gap.
+    The gap is the largest one over all directions [m].  If it is positive, it is the only maximum.  A negative gap is
+    returned only if a common point of both bodies proves the overlap.  Overlapping bodies can have several maxima: each
+    is a locally shortest translation that separates them.  If the first search fails, or its solution is not proved to
+    be the shortest translation, the search also starts from directions with a large gap.  The gap is nan if no solution
+    was found.
 
     Parameters
     ----------
@@ -147,7 +164,8 @@ def _share_a_point(first: Floats, second: Floats, turn: Axes, x: float, y: float
         bx, by, bz = back(turn, px - x, py - y, pz - z)
         if gauge(second, bx, by, bz) <= 1.0 + _ON_SURFACE and gauge(first, px, py, pz) <= 1.0 + _ON_SURFACE:
             return True
-    # on the line of centres, each body covers the piece next to its own centre
+    # on the line of centres, each body covers the part 1 / gauge of its length, from the body's own centre: the bodies
+    # overlap if these parts together are longer than the line
     ax, ay, az = back(turn, -x, -y, -z)
     one, two = max(gauge_of(first, x, y, z), _NOWHERE), max(gauge_of(second, ax, ay, az), _NOWHERE)
     return bool(1.0 / one + 1.0 / two >= 1.0)
@@ -162,7 +180,7 @@ def _thickness(first: Floats, second: Floats) -> float:
 
 @compiled
 def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Answer:
-    """Return gap, point and normal of the largest gap; the search starts along the line of centres."""
+    """Return the largest gap over all directions, second core's point and normal; search from the line of centres."""
     if not (is_mixed(first) or is_mixed(second)):
         found: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
         return found
@@ -170,7 +188,7 @@ def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z
     g, nx, ny, nz = climb(one, two, turn, (x, y, z), (0.0, 0.0, 0.0), (x, y, z))
     found = (g, x, y, z, nx, ny, nz)
     if g == g:
-        # start from the normal of ellipsoids with the same semi-axes
+        # Newton's method starts with the contact normal of two ellipsoids that have the semi-axes of the cores
         found = _by_parts(first, second, turn, x, y, z, nx, ny, nz, 0)
     return found
 
@@ -179,7 +197,7 @@ def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z
 def _from_start(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return gap, point and normal of the largest gap; the search starts in the direction (sx, sy, sz)."""
+    """Return the largest gap over all directions [m], second core's point and normal; search from (sx, sy, sz)."""
     if is_mixed(first) or is_mixed(second):
         mixed: Answer = _by_parts(first, second, turn, x, y, z, sx, sy, sz, 0)
         return mixed
@@ -197,10 +215,12 @@ def _from_start(
 def _in_charts(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the largest gap, second core's point and normal, if a core is flat in one direction and sharp in another.
+    """Return the largest gap over all directions [m], second core's point and normal, if a core is mixed.
 
-    The search starts from the normal of ellipsoids with the same semi-axes.  If the first core is a circle (the rim of
-    a frustum), a maximum along the circle's axis gives nan: it is the gap to the middle of the disc, not to the rim.
+    A mixed core has one power below 2 and one above, so that it has flat and sharp places.  The search starts with the
+    contact normal of two ellipsoids that have the semi-axes of the cores; this normal is searched from the direction
+    (sx, sy, sz).  If the first core is a circle (the rim of a frustum), a maximum along the circle's axis gives nan: it
+    is the gap to the middle of the disc, not to the rim.
     """
     one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
     found: Answer = meet_in_charts(one, two, turn, x, y, z, sx, sy, sz, 0)
@@ -249,7 +269,10 @@ def _by_parts(
 def widest_of_round(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the largest gap, second core's point and normal; the first core is round, a point or a circle."""
+    """Return the largest gap over all directions [m], second core's point and normal; search from (sx, sy, sz).
+
+    The first core is round; it may be a point or a circle.  The second core is of any kind.
+    """
     if is_mixed(second) or is_boxy(second):
         if is_mixed(second):
             found: Answer = _in_charts(first, second, turn, x, y, z, sx, sy, sz)
@@ -269,7 +292,10 @@ def widest_of_round(
 def _from_boxy(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the largest gap, second core's point and normal, by a search over points of the second, boxy core."""
+    """Return the largest gap over all directions [m], second core's point and normal; search from (sx, sy, sz).
+
+    The second core is boxy: the unknown of Newton's method is the point of its surface.
+    """
     ax, ay, az = back(turn, -x, -y, -z)
     sx, sy, sz = back(turn, -sx, -sy, -sz)
     g, px, py, pz, nx, ny, nz = climb_boxy(second, first, opposite(turn), ax, ay, az, sx, sy, sz)
@@ -311,9 +337,10 @@ def opposite(turn: Axes) -> Axes:
 def _both(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, sz: float
 ) -> Answer:
-    """Return the gap of two cores with flat places, the first core's point and the normal.
+    """Return the gap of two boxy cores (with flat places) [m], the first core's point and the normal.
 
-    The search first replaces the second core by an ellipsoid, then the first, and starts from the normal so found.
+    The search starts with the contact normal for which the second core is replaced by an ellipsoid.  If the search
+    fails, it starts with the normal for which the first core is replaced instead, and last from (sx, sy, sz).
     """
     other = second[0], second[1], second[2], 2.0, 2.0
     g, _, _, _, nx, ny, nz = climb_boxy(first, other, turn, x, y, z, sx, sy, sz)
@@ -338,7 +365,10 @@ def _both(
 def _from(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> Answer:
-    """Return the gap of two boxy cores, the first's point and the normal; start at their points with the normal n."""
+    """Return the gap of two boxy cores [m], the first core's point and the normal.
+
+    Newton's method starts at the support points of the first core along (nx, ny, nz), and of the second against it.
+    """
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
     nx, ny, nz = nx / length, ny / length, nz / length
     mx, my, mz = back(turn, -nx, -ny, -nz)
@@ -350,7 +380,12 @@ def _from(
 
 @compiled
 def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
-    """Return gap, core's point and normal for a core of any kind and the origin, or the line along ``axis`` there."""
+    """Return the gap between the origin and a core of any kind [m], the core's point and the normal.
+
+    If ``axis`` is not zero, the gap is measured from the line through the origin along this unit vector.  ``place`` is
+    the centre of the core [m], ``hull`` begins with the core numbers of a point, and ``turn`` is the rotation from the
+    core's axes.  The search starts in the direction ``start``.
+    """
     (x, y, z), (along_x, along_y, along_z), (start_x, start_y, start_z) = place, axis, start
     if is_round(core):
         g, nx, ny, nz = climb(hull, core, turn, place, axis, start)
@@ -374,7 +409,11 @@ def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Ve
 
 @compiled
 def write_surface(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3, p: Vector3) -> None:
-    """Write the curvature matrices of a core of any kind at its point p with outward normal, both in its own axes."""
+    """Write the curvature matrices of a core of any kind at its surface point p with the outward normal ``normal``.
+
+    Point and normal are in the core's axes.  ``side`` is the index of the matrices in the geometry block ``out``;
+    ``axes`` are the core's axes in the world.
+    """
     (nx, ny, nz), (px, py, pz) = normal, p
     if is_mixed(core):
         write_chart(out, side, core, axes, nx, ny, nz)

@@ -17,7 +17,10 @@ from ..features.frames import tangent_of
 from .smooth_core import Axes, back, forth
 
 _LONGEST, _MOVES = 0.2, 100
-"""First step uphill [rad]; largest number of steps."""
+"""Limits of the search uphill (:func:`uphill`), which increases the gap by turning the direction.
+
+``_LONGEST``: first step [rad].  ``_MOVES``: largest number of steps.
+"""
 _NEAR = 0.95
 """Cosine of the angle within which two directions are the same start; the one with the larger gap is kept."""
 Start: TypeAlias = tuple[float, float, float, float]
@@ -128,8 +131,8 @@ _CUTS, _WIDE = 400, 0.1
 _ELLIPSES = 8
 """Largest number of runs of the ellipsoid method.
 
-A run starts from the direction that the run before found, as long as a run turns the direction by more than about half
-of ``_WIDE``.
+Each run starts from the direction that the run before found.  The search ends after a run that turns the direction by
+less than about 0.045 rad: the maximum is then well inside the first ellipse of the run.
 """
 _HIGHER = 1e-16
 """The ellipsoid method ends if the gap can grow by less than this, relative to the size of the bodies."""
@@ -137,7 +140,10 @@ _HIGHER = 1e-16
 
 @compiled
 def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
-    """Return the largest gap that one run of the ellipsoid method finds, and its direction; see :func:`settle`."""
+    """Return the largest gap near the direction ``start`` [m], and its direction, by one run of the ellipsoid method.
+
+    The method and the arguments are those of :func:`settle`.
+    """
     best: Start = start
     _, nx, ny, nz = start
     tx, ty, tz = tangent_of(nx, ny, nz)
@@ -171,7 +177,9 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
 
 @compiled
 def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
-    """Return the largest gap near a direction and that direction, by the ellipsoid method, also on narrow ridges.
+    """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
+
+    The method also converges on narrow ridges, where the gap changes little along one curve of directions.
 
     Directions are points of the plane that touches the unit sphere at the start.  An ellipse in this plane holds the
     maximum.  The gradient of the gap at its centre shows in which half of the ellipse the gap can be larger.  The next

@@ -64,7 +64,7 @@ def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Flo
     x, y, z = x / sine, y / sine, z / sine
     plus = max(edge_astray(a, surface_a, one, 1.0, x, y, z), edge_astray(b, surface_b, two, -1.0, x, y, z))
     minus = max(edge_astray(a, surface_a, one, -1.0, x, y, z), edge_astray(b, surface_b, two, 1.0, x, y, z))
-    # the common normal turns with both edges, by a factor up to 1 / sine faster
+    # a rotation by `turn` turns the normals of an edge by `turn`, the common normal of both by at most 2 turn / sine
     return bool(min(plus, minus) <= ASTRAY + turn * (1.0 + 2.0 / sine))
 
 
@@ -83,10 +83,11 @@ def edges_across(
     n: int,
     most: int,
 ) -> int:
-    """Append pairs of near edges of the first body's surface and one edge of the second body; return the new number.
+    """Append candidates: pairs of an edge of the first body's surface and one near edge of the second body.
 
-    The row of the second body's edge begins at index ``two``; its number is the third number of the candidates.  The
-    other arguments are those of :func:`edges_near`.
+    Return the number of candidates after that.  The row of the second body's edge begins at index ``two`` of ``edges``;
+    ``number`` is the number of this edge, the third number of each candidate.  The other arguments are those of
+    :func:`edges_near`.
     """
     first, members = int(surface[N_TRIANGLES]), int(surface[MEMBERS])
     px, py, pz = seen_from(a, b, edges[two], edges[two + 1], edges[two + 2])

@@ -205,7 +205,7 @@ class MeshPoint(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the faces, with the other feature."""
+        """Names of the pairs of features in contact: each face of the patch with the vertex."""
         return self.vertex.features
 
 
@@ -252,7 +252,7 @@ class PointMesh(ContactKinematics):
 
     @property
     def features(self) -> tuple[str, ...]:
-        """Names of the faces, with the other feature."""
+        """Names of the pairs of features in contact: each face of the patch with the vertex."""
         return self.vertex.features
 
 

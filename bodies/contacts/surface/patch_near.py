@@ -1,4 +1,7 @@
-"""Base class for contacts of a sphere or smooth body with a surface of many patches; near patches only are contacts."""
+"""Base class for contacts of a sphere or smooth body with a surface of many patches.
+
+A search finds the patches near the body; only these patches are evaluated as contacts.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +25,10 @@ from .surface_tables import N_PATCHES, surface_numbers
 MOST_EACH = 8
 """Largest number of patches of a surface for which each patch is a contact of its own, without a search."""
 NEAR = 1.0
-"""First of the three numbers of a candidate, its kind; the second is the number of a patch, the third is 0."""
+"""Kind of a candidate: a patch near the body.
+
+A candidate has three numbers: its kind, the number of the patch, and 0.
+"""
 
 
 def _find(
@@ -42,9 +48,10 @@ def are_many(patches: Patches) -> bool:
 
 @dataclass(frozen=True)
 class PatchNear(ContactKinematics, ABC):
-    """Contact of a sphere or smooth body with one patch of a surface; a search assigns a patch that is near at present.
+    """Contact of a sphere or smooth body with one patch of a surface, which changes as the bodies move.
 
-    The evaluator's argument ``candidate`` holds the number of the patch as its second number.
+    A search assigns a patch near the body to the contact.  The number of this patch is the second number of the
+    evaluator's argument ``candidate``.
 
     Attributes
     ----------
@@ -99,7 +106,10 @@ class PatchNear(ContactKinematics, ABC):
         return self.search
 
     def parameters(self) -> dict[str, Value]:
-        """Return the parameters of the evaluator, with a candidate without a patch."""
+        """Return the parameters of the evaluator.
+
+        The parameter ``candidate`` is a placeholder without a patch; the search assigns the patch during the run.
+        """
         return {**self.values, "candidate": NO_CANDIDATE}
 
     @property

@@ -1,4 +1,7 @@
-"""Geometry block of a ball against a patch of a surface, and matrices of a face, an edge or a corner."""
+"""Writes the geometry block of a ball against a patch of a surface.
+
+It also writes the curvature matrices of the feature in contact: a face, an edge or a corner.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,11 @@ from .surface_tables import EDGE, EDGES, FACE, FACES, N_EDGES, N_FACES, N_PATCHE
 def out_of_surface(
     frame: Floats, surface: Floats, found: Found, past: float, x: float, y: float, z: float
 ) -> tuple[float, float, float]:
-    """Return the unit vector, in world axes, from the nearest point of a surface to (x, y, z) of the body frame."""
+    """Return the unit normal, in world axes, at a surface's nearest point to the point (x, y, z) of the body frame.
+
+    On a face it is the normal of the face; else it points from the nearest point to (x, y, z).  ``found`` is the result
+    of :func:`nearest_in_patch`, and ``past`` the distance past the end of the feature [m].
+    """
     distance, _, kind, number, px, py, pz = found
     if kind == ON_FACE and (past <= 0.0 or distance == 0.0):
         f = int(surface[FACES]) + FACE * number
@@ -33,7 +40,7 @@ def out_of_surface(
 
 @compiled
 def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: int, number: int) -> None:
-    """Write the matrices of a face, an edge or a corner, and its number (faces first, then edges, then corners).
+    """Write the curvature matrices and the number of a face, an edge or a corner (faces first, then edges, corners).
 
     The geometry block ``out`` must already hold the normal and the first tangent.
     """

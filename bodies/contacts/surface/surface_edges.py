@@ -23,15 +23,20 @@ _PARALLEL_ROUNDED = 1e-5
 It can be smaller than for sharp edges, because the normal is the line between the edges, which stays accurate.
 """
 _NEAR_ENDS = 4.0
-"""Least distance of the crossing of overlapping edges from their ends, relative to the depth.
+"""Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
 
-It applies if no contact point is inside of the other body: closer to its end, an edge may not overlap at all.
+It applies if neither contact point is inside of the other body.  Closer to an end, the edges may pass each other
+without an overlap of the bodies.
 """
 
 
 @compiled
 def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle by which (x, y, z), times ``sign``, leaves the normals of the edge at ``at``."""
+    """Return the sine of the angle from the unit vector ``sign`` (x, y, z) to the range of normals of an edge.
+
+    The normals of an edge lie between the normals of its two faces.  The result is not positive within this range.  The
+    row of the edge begins at index ``at`` of ``edge``.
+    """
     x, y, z = vector_in_body(frame, sign * x, sign * y, sign * z)
     one = x * edge[at + 7] + y * edge[at + 8] + z * edge[at + 9]
     return float(max(one, x * edge[at + 10] + y * edge[at + 11] + z * edge[at + 12]))
@@ -76,9 +81,9 @@ def write_edges(
     """Write the geometry block of two edges at the nearest points of their lines; the second edge has a radius [m].
 
     The normal is perpendicular to both edges, with the sign for which it is nearer to the normals of the edges.  The
-    contact is open if the normal is not among these normals, or if a nearest point is past the end of its edge.  Then
-    the gap is positive, unless one of the points is inside of the other body.  The rows of the edges begin at the
-    indices ``at_a`` and ``at_b``.
+    contact is open if the normal is outside of the range of normals of an edge, or if a contact point is past the end
+    of its edge.  An open contact has a positive gap, unless one of the points is inside of the other body.  The rows of
+    the edges begin at the indices ``at_a`` and ``at_b``.
     """
     ax, ay, az = point_in_world(a, edge_a[at_a], edge_a[at_a + 1], edge_a[at_a + 2])
     bx, by, bz = point_in_world(b, edge_b[at_b], edge_b[at_b + 1], edge_b[at_b + 2])
@@ -92,7 +97,8 @@ def write_edges(
     s, t, over, past = 0.0, 0.0, 0.0, size * parallel
     if sine > 1e-3 * parallel:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
-        # places of the nearest points: (w x f) . n / sine along the first line, (w x e) . n / sine along the second
+        # s and t: distances of the nearest points along the lines, s = (w x f) . n / sine and t = (w x e) . n / sine,
+        # with the unit vectors e and f of the lines and the vector w from the start of the first to that of the second
         s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
         t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[at_a + 6]), max(-t, t - edge_b[at_b + 6]))
@@ -118,7 +124,8 @@ def write_edges(
     if gap < 0.0 and depth <= DEEP * size:
         past = max(past, over - _NEAR_ENDS * gap - margin)
     if past > 0.0:
-        # an overlap without a contact of these edges: another contact was missed, so write the depth
+        # the edges are not in contact; if one of the points is nevertheless deep inside of the other body, another
+        # contact was missed, and the gap is the negative depth
         apart = abs(gap) - radius
         gap = -depth - radius if depth > DEEP * size else math.sqrt(apart * apart + past * past)
     else:

@@ -36,17 +36,20 @@ In this order: corner of the second body over a patch of the first, corner of th
 two edges.  The numbers of patch and corner, or of the edges of the first and the second body, follow.
 """
 FEW = 64
-"""Largest number of candidates that a search beyond the margin ``narrow`` may list.
+"""Largest number of candidates of a search whose margin (its reach) exceeds ``narrow``; see :func:`room_ahead`.
 
-All candidates are evaluated at every step, so that more of them cost more than another search.
+All candidates are evaluated at every step: more of them cost more than another search with a smaller margin.
 """
 NARROW = 1e-2
-"""Margin up to which a search may fill all contacts with candidates, relative to the extent of the smaller body."""
+"""Margin of a search, relative to the smaller body's extent, up to which its candidates may fill all contacts.
+
+With a larger margin, a search lists at most ``FEW`` candidates.
+"""
 
 
 @compiled
 def room_ahead(reach: float, narrow: float, most: int) -> int:
-    """Return the largest number of candidates: ``most`` up to the reach ``narrow`` [m], beyond it at most `FEW`."""
+    """Return the largest number of candidates of a search: ``most`` up to a reach of ``narrow`` [m], else `FEW`."""
     return most if reach <= narrow else min(most, FEW)
 
 
@@ -60,7 +63,7 @@ def seen_from(frame: Floats, other: Floats, x: float, y: float, z: float) -> tup
 
 @compiled
 def _is_near(surface: Floats, x: float, y: float, z: float, reach: float) -> bool:
-    """Return whether the box of a leaf of a surface is within ``reach`` [m] of a point."""
+    """Return True if the box of any leaf of the surface's tree is within ``reach`` [m] of the point (x, y, z)."""
     node = 0
     while node < int(surface[N_NODES]):
         at = int(surface[NODES]) + NODE * node
@@ -87,7 +90,10 @@ def _patch_of(surface: Floats, member: int) -> float:
 
 @compiled
 def _add_patch(patch: float, kind: float, third: float, first: int, out: Floats, n: int) -> int:
-    """Append a patch to the ``n`` candidates, unless candidates from ``first`` on hold it; return the new number."""
+    """Append the candidate (kind, patch, third) to the ``n`` candidates in ``out``; return the number after that.
+
+    It is not appended if a candidate from number ``first`` on already has this patch.
+    """
     for known in range(first, n):
         if out[2 + 3 * known] == patch:
             return n
@@ -108,7 +114,9 @@ def patches_near(
     n: int,
     most: int,
 ) -> int:
-    """Append the patches with a leaf within ``reach`` [m] of a point to the candidates; return the new number.
+    """Append candidates: the patches with a leaf of the surface's tree within ``reach`` [m] of a point.
+
+    Return the number of candidates after that.  A candidate has three numbers: kind, number of the patch, third number.
 
     Parameters
     ----------
@@ -117,7 +125,7 @@ def patches_near(
     x, y, z, reach : float
         The point in the axes of the surface, and the largest distance from it [m].
     kind, third : float
-        The first and the third number of these candidates; the second is the number of the patch.
+        The first and the third number of the candidates that are appended.
     out, n, most : Floats, int
         As in :func:`corners_near`.
     """
@@ -137,7 +145,10 @@ def patches_near(
 
 @compiled
 def is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, at: int, reach: float) -> bool:
-    """Return whether a node of the other body's tree may be within ``reach`` [m] of a surface."""
+    """Return False only if a node of the other body's tree is farther than ``reach`` [m] from a surface.
+
+    The node is at index ``at`` of the other body's numbers ``parts``; ``surface`` belongs to the body ``frame``.
+    """
     dx, dy, dz = parts[at + 3] - parts[at], parts[at + 4] - parts[at + 1], parts[at + 5] - parts[at + 2]
     x, y, z = seen_from(frame, other, parts[at] + 0.5 * dx, parts[at + 1] + 0.5 * dy, parts[at + 2] + 0.5 * dz)
     return bool(_is_near(surface, x, y, z, 0.5 * math.sqrt(dx * dx + dy * dy + dz * dz) + reach))
@@ -159,11 +170,12 @@ def patches_under(
     n: int,
     most: int,
 ) -> int:
-    """Append the patches of faces that a vertex of the other body may soon touch; return the new number of candidates.
+    """Append the patches of faces that a vertex of the other body may soon touch.
 
-    The faces are within ``reach`` [m] of the vertex, and no edge of it leads below them after a rotation by ``turn``.
-    ``place`` is the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other
-    arguments are those of :func:`corners_near` and :func:`patches_near`.
+    Return the number of candidates after that.  A face may be touched if it is within ``reach`` [m] of the vertex, and
+    if a rotation by ``turn`` [rad] can turn all edges of the vertex out of the face (within ``ASTRAY``).  ``place`` is
+    the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other arguments are those
+    of :func:`corners_near` and :func:`patches_near`.
     """
     x, y, z = seen_from(frame, other, place[0], place[1], place[2])
     members, first, node = int(surface[MEMBERS]), n, 0
@@ -199,7 +211,9 @@ def corners_near(
     n: int,
     most: int,
 ) -> int:
-    """Append pairs of a corner of the other body and a near patch of the surface in ``frame``; return the new number.
+    """Append candidates: pairs of a corner of the other body and a near patch of the surface in ``frame``.
+
+    Return the number of candidates after that.
 
     Parameters
     ----------

@@ -1,4 +1,7 @@
-"""Contacts of two surfaces with very many features: a search assigns near pairs of features as the bodies move."""
+"""Contacts of two surfaces with very many features.
+
+As the bodies move, a search finds the near pairs of features and assigns each pair to a contact.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +31,10 @@ MOST_NEAR = 256
 
 
 def _find(a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Floats, most: float, turning: float) -> None:
-    """Find near pairs of corners and patches, and of edges.
+    """Write the near pairs of corners and patches, and of edges, to ``out`` as candidates.
 
-    ``turning`` is the largest relative rotation of the bodies until the next search, per metre of ``out[0]`` [rad/m].
+    On entry ``out[0]`` is the largest distance of a pair [m], on return the number of candidates.  The largest relative
+    rotation of the bodies until the next search is ``turning`` [rad/m] times this distance.
     """
     reach, limit, n = out[0], int(most), 0
     turn = turning * reach

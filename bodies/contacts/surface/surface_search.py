@@ -36,9 +36,10 @@ ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
 """Kinds of features of a surface."""
 
 THROUGH = 1e-3
-"""Least distance of a line's ends from a triangle's plane, and of the line from its edges, for a line that pierces it.
+"""Least distance, relative to the size of the surface, for a line segment that pierces a triangle (:func:`pierced`).
 
-It is relative to the size of the surface, and much larger than overlaps before contacts are found.
+Both ends of the segment are at least this far from the triangle's plane, and the piercing point from the edges of the
+triangle.  The distance is much larger than the overlaps of bodies in contact.
 """
 
 Point: TypeAlias = tuple[float, float, float]
@@ -63,7 +64,11 @@ def face_height(surface: Floats, face: int, x: float, y: float, z: float) -> flo
 
 @compiled
 def over_ends(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float]:
-    """Return how far a point over a triangle's plane is past its edges, and past those on its face's border [m]."""
+    """Return two distances of a point past edges of a triangle [m]; negative if the point is inside of them.
+
+    The first is the largest distance past any of the three edges.  The second is the largest one past the edges on the
+    border of the triangle's face; -inf if there are none.  Both are measured in the plane of the triangle.
+    """
     over, ends = -math.inf, -math.inf
     for i in range(3):
         e = triangle + 10 + 4 * i
@@ -119,9 +124,10 @@ def has_patch(surface: Floats, at: int, patch: float) -> bool:
 
 @compiled
 def first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> int:
-    """Return the leaf of the tree, with features of a patch, in which the search for the nearest feature starts.
+    """Return the number of the tree node in which the search for a patch's nearest feature starts: a leaf.
 
-    Its box is near the point (x, y, z), so that the distance found there excludes most other leaves.
+    The leaf may hold features of ``patch`` (of any patch if it is negative).  The leaf's box is near the point
+    (x, y, z), so that the distance found there excludes most other leaves.
     """
     nodes, node = int(surface[NODES]), 0
     while surface[nodes + NODE * node + 8] == 0.0:
@@ -169,7 +175,10 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
 
 @compiled
 def pierced(surface: Floats, px: float, py: float, pz: float, qx: float, qy: float, qz: float) -> float:
-    """Return the distance of a line's nearer end from the plane of a triangle that the line pierces [m]; 0 if none."""
+    """Return the depth to which the line segment from p to q pierces a surface [m]; 0 if it pierces no triangle.
+
+    The depth is the distance of the segment's nearer end from the plane of the first pierced triangle that is found.
+    """
     nodes, members, margin = int(surface[NODES]), int(surface[MEMBERS]), THROUGH * surface[SIZE]
     node = 0
     while node < int(surface[N_NODES]):
@@ -228,14 +237,13 @@ def past_corner(surface: Floats, corner: int, x: float, y: float, z: float) -> f
 
 @compiled
 def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float, reach: float) -> Found:
-    """Return the nearest feature of a patch that a ball about the point may touch.
+    """Return the nearest feature of a patch that a ball about the point (x, y, z) may touch.
 
-    Where none is nearer than a reach [m], that is the distance and the way past the end.
-
-    A feature may be touched if no point of the surface next to it is nearer.  Where none may, it is the one with the
-    least distance and way past its ends together: a feature that ends is held against those that may be touched, so
-    that the way past it grows from 0.  Where a face meets its edge, or an edge its corner, both may be touched over a
-    way of the margin, and their distances differ by less than round-off: there it is the face, then the edge.
+    A ball may touch a feature if no neighbouring point of the surface is nearer: the distance past the feature's end is
+    then not positive.  If the ball may touch no feature, the result is the feature with the least sum of two squares,
+    of the distance and of the distance past the end.  Within the margin at the border of a face and its edge, or of an
+    edge and its corner, the ball may touch both; the face is preferred to the edge, the edge to the corner.  If no
+    feature is nearer than ``reach`` [m], distance and distance past the end are ``reach``.
     """
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])

@@ -1,8 +1,9 @@
 """Gap of a surface, convex or not, and a body with a smooth support function.
 
-The smooth body has one nearest point to the plane of each face, to the line of each convex edge and to each corner.
-For a plane it follows from the support function, for lines and corners from Newton's method on it.  It belongs to a
-contact if the point lies on the feature, and if the common normal is a normal of the feature.
+For each face, convex edge and corner, the smooth body's nearest point to the feature's plane, line or corner is found.
+For a plane this point follows from the support function, for lines and corners from Newton's method on this function.
+The body may touch the feature if the opposite point lies on the feature, and if the common normal is a normal of the
+feature.
 """
 
 from __future__ import annotations
@@ -58,12 +59,16 @@ from .surface_tables import (
 _SAME = 1e-15
 """Difference of two distances that is round-off, relative to the size of the bodies."""
 Aim: TypeAlias = tuple[float, float, float, float]
-"""Supporting plane of the smooth body: unit normal, and height over the origin of the body's lowest point [m]."""
+"""Supporting plane of the smooth body, below it: unit normal, and the plane's distance from the origin along it [m]."""
 
 
 @compiled
 def _extent(core: Floats) -> float:
-    """Return a bound of the distance of the body's farthest point from its centre [m], by a box for boxy cores."""
+    """Return an upper bound of the distance of the body's farthest point from its centre [m].
+
+    For round cores it is the largest semi-axis plus the radius.  For other cores, and for cores given by a function, it
+    is half of the diagonal of the bounding box.
+    """
     if is_round(core) and core[3] != OF_FUNCTION:
         return float(max(core[0], core[1], core[2]) + core[RADIUS])
     return math.sqrt(core[0] * core[0] + core[1] * core[1] + core[2] * core[2])
@@ -95,7 +100,11 @@ def _least(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
 def _on_face(
     surface: Floats, member: int, core: Floats, turn: Axes, center: Point
 ) -> tuple[float, float, float, float, float]:
-    """Return distance of the core from a triangle's plane [m], distance past the border of its face [m], and normal."""
+    """Return distance of the core from a triangle's plane [m], distance past the end of the contact [m], unit normal.
+
+    The distance past the end is positive if the core's nearest point to the plane is past the border of the triangle's
+    face, or if the centre of the body is below the plane.
+    """
     t = int(surface[TRIANGLES]) + TRIANGLE * member
     f = int(surface[FACES]) + FACE * int(surface[t + 9])
     nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
@@ -115,7 +124,11 @@ def _on_face(
 def _on_edge(
     surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, center: Point, size: float
 ) -> tuple[float, float, float, float, float]:
-    """Return distance of the core from an edge's line [m], or nan; distance past the edge's ends [m]; normal."""
+    """Return distance of the core from an edge's line [m], distance past the end of the contact [m], unit normal.
+
+    The distance past the end is positive if the nearest point is past an end of the edge, or if the normal, from the
+    edge to the core, is not a normal of the edge.  The distance of the core is nan if the search failed.
+    """
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
     g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (ex, ey, ez), (wx, wy, wz))
@@ -131,9 +144,9 @@ def _on_edge(
 def _on_corner(
     surface: Floats, c: int, core: Floats, point: Floats, turn: Axes, center: Point, size: float
 ) -> tuple[float, float, float, float, float]:
-    """Return distance of the core from a corner [m], distance past the end of the contact [m], and normal.
+    """Return distance of the core from a corner [m], distance past the end of the contact [m], unit normal.
 
-    The contact is past its end, by a positive number, if an edge of the corner is nearer to the core than the corner.
+    The distance past the end is positive if an edge of the corner is nearer to the core than the corner itself.
     """
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
     g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (0.0, 0.0, 0.0), (wx, wy, wz))
@@ -146,13 +159,19 @@ def _on_corner(
 
 @compiled
 def _above(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a lower bound of the smooth body's distance from the point at index ``at`` [m], by its plane ``aim``."""
+    """Return a lower bound of the smooth body's distance from the surface's point at index ``at`` [m].
+
+    It is the distance of the point below the body's supporting plane ``aim``.
+    """
     return float(aim[3] - aim[0] * surface[at] - aim[1] * surface[at + 1] - aim[2] * surface[at + 2])
 
 
 @compiled
 def _above_box(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a lower bound of the smooth body's distance from the box of a node [m], by its plane ``aim``."""
+    """Return a lower bound of the smooth body's distance from the box of a node of the surface's tree [m].
+
+    It is the least distance of the box, at index ``at``, below the body's supporting plane ``aim``.
+    """
     x = surface[at + 3] if aim[0] > 0.0 else surface[at]
     y = surface[at + 4] if aim[1] > 0.0 else surface[at + 1]
     z = surface[at + 5] if aim[2] > 0.0 else surface[at + 2]
@@ -171,10 +190,13 @@ def _look_at(
     best: float,
     aim: Aim,
 ) -> tuple[float, float, float, float, float, float]:
-    """Return distance of the core from a feature [m], distance past its end [m], normal, lower bound of the distance.
+    """Evaluate one feature of the surface; return six numbers.
 
-    ``member`` numbers the features of the tree: triangles, then convex edges, then corners.  The distance is infinite
-    if the feature belongs to another patch or cannot be nearer than ``best``.  It is nan if the search failed.
+    They are the distance of the core from the feature [m], the distance past the end of the contact [m], the three
+    components of the unit normal, and a lower bound of the body's distance [m].  The distance of the core is infinite
+    if the feature belongs to another patch or cannot be nearer than ``best`` [m]; it is nan if the search failed.
+    ``member`` is the number of the feature in the tree: triangles, then convex edges, then corners.  ``aim`` is the
+    body's supporting plane for the nearest feature so far.
     """
     x, y, z = center
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
@@ -215,7 +237,10 @@ def _look_at(
 
 @compiled
 def _aim(surface: Floats, core: Floats, turn: Axes, center: Point, normal: Point) -> Aim:
-    """Return the supporting plane of the body with a normal, raised by the round-off of features in one plane."""
+    """Return the smooth body's supporting plane across the unit vector ``normal``.
+
+    The plane is raised by round-off: features in one plane then get the same bound, and none of them is excluded.
+    """
     px, py, pz = _point_against(core, turn, center, normal)
     level = normal[0] * px + normal[1] * py + normal[2] * pz - core[RADIUS]
     none = _SAME * (abs(px) + abs(py) + abs(pz) + surface[SIZE])
@@ -228,9 +253,10 @@ def _nearest(
 ) -> tuple[float, float, int, int, float, float, float]:
     """Return distance of the core [m], distance past the end [m], kind and number of a patch's feature, and normal.
 
-    The feature is the nearest one that can touch.  If no feature can touch, it has the least root of squared gap plus
-    squared distance past its end.  If no feature is nearer than ``reach`` [m], gap and distance past the end are
-    ``reach``.  The distance is nan if the search failed for a feature that may be nearer.
+    The feature is the nearest one that the body may touch: its distance past the end is not positive.  If there is no
+    such feature, it is the one with the least sqrt(gap^2 + past^2), where past is the distance past the end.  If no
+    feature is nearer than ``reach`` [m], gap and distance past the end are ``reach``.  The distance is nan if the
+    search failed for a feature that may be nearer.
     """
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     x, y, z = center
@@ -239,7 +265,8 @@ def _nearest(
     best, missed, found = reach, math.inf, 0
     distance, past, bx, by, bz = reach + core[RADIUS], reach, 0.0, 0.0, 1.0
     aim: Aim = (0.0, 0.0, 0.0, -math.inf)
-    # first the feature nearest to the centre, then faces, which cost least: they exclude most of the others
+    # first evaluate the feature nearest to the centre, then all faces, which cost least; their distances exclude most
+    # edges and corners from the search
     _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z, reach + size)
     if kind != ON_FACE:
         found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
@@ -301,7 +328,8 @@ def write_surface_smooth(
         gap = math.sqrt(gap * gap + past * past)
         depth = depth_inside(surface, x, y, z)
         if depth > 0.0:
-            # the centre is inside without a contact: one was missed, so write a large overlap
+            # the centre is inside of the mesh, but no feature is in contact: a contact was missed, and the gap is an
+            # overlap larger than the depth of the centre
             gap = -depth - _extent(second)
     px, py, pz = _point_against(second, turn, (x, y, z), (nx, ny, nz))
     if kind == ON_EDGE and not is_round(second):

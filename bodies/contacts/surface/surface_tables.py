@@ -27,17 +27,26 @@ SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CO
 others are indices of the offset at which the rows of that name begin.
 """
 NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
-"""Number of floats in the row of each kind.  The rows hold, in this order:
+"""Number of floats in the row of each kind.  Numbers in brackets count floats, if there are several.
 
-- node of the tree: lowest corner of its box (3) and highest corner (3) [m]; number of the node that follows its whole
-  branch; index of its list of members; number of its members, 0 unless it is a leaf; patches in its branch, as bits;
-- face: outward normal (3), distance of its plane from the origin [m], patch;
-- triangle: vertices (9) [m]; face; for each edge the outward normal in the plane (3) and its distance from the origin
-  [m]; for each edge 1 if the face ends there, else 0; outward vectors at the edges (9) and at the vertices (9);
-- edge: first end (3) [m], unit vector along it (3), length [m], unit vectors from it into its two faces (6), patch;
-- corner: place (3) [m], patch, index of the unit vectors along its edges, number of its edges.
+=========  ============================================================================================
+row        contents, in this order
+=========  ============================================================================================
+node       lowest corner of its box (3) [m]; highest corner (3) [m]; number of the node after its
+           subtree; index of its list of members; number of its members, 0 unless it is a leaf; the
+           patches of all features in its subtree, one bit for each patch
+face       outward normal (3); distance of its plane from the origin [m]; number of its patch
+triangle   vertices (9) [m]; number of its face; for each edge the outward normal in the plane (3) and
+           the edge's distance from the origin along it [m]; for each edge 1 if the face ends there,
+           else 0; outward normals, of any length, at the edges (9) and at the vertices (9): they give
+           the sign of the distance of a point
+edge       first end (3) [m]; unit vector along it (3); length [m]; unit vectors from the edge into its
+           two faces (6); number of its patch
+corner     position (3) [m]; number of its patch; index of the unit vectors along its edges; number of
+           its edges
+=========  ============================================================================================
 
-Members of a node are features by number: triangles first, then convex edges, then corners.
+The members of a node are the features in its box, by number: triangles first, then convex edges, then corners.
 """
 NOTHING = SharedNumbers((0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(4 * [0.0])))
 """The surface of a body without volume: no point is inside of it."""
@@ -87,7 +96,7 @@ def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
 
 
 def edge_rows(features: Features) -> Vector:
-    """Return the rows of all convex edges without their patches, shape [n, 13]; numbers as in ``EDGE``."""
+    """Return a row for each convex edge, shape [n, 13]: the contents of an ``EDGE`` row, but without the patch."""
     edges = np.array(features.edges, dtype=int).reshape(-1, 4)
     start, way = features.vertices[edges[:, 0]], features.vertices[edges[:, 1]] - features.vertices[edges[:, 0]]
     length = np.linalg.norm(way, axis=1, keepdims=True)
@@ -97,7 +106,7 @@ def edge_rows(features: Features) -> Vector:
 
 
 def edge_row(features: Features, number: int) -> Numbers:
-    """Return the row of a convex edge without its patch, 13 numbers as in ``EDGE``."""
+    """Return the row of one convex edge, 13 numbers: the contents of an ``EDGE`` row, but without the patch."""
     one, two, left, right = features.edges[number]
     start, end = features.vertices[one].tolist(), features.vertices[two].tolist()
     way = [y - x for x, y in zip(start, end, strict=True)]
@@ -153,7 +162,11 @@ def _triangles(features: Features) -> Vector:
 def _branch(
     low: Vector, high: Vector, bits: Integers, own: Integers, members: list[int], nodes: list[list[float]]
 ) -> None:
-    """Append the nodes of a tree over the boxes ``own``: a node first, then its branch, depth first."""
+    """Append a tree of bounding boxes over the features ``own`` to ``nodes``: the root, then its halves, depth first.
+
+    ``low`` and ``high`` are the corners of the boxes of all features [m], ``bits`` their patches as bits, and ``own``
+    indices into these arrays.  The features of the leaves are appended to ``members``.
+    """
     box = [*np.min(low[own], axis=0).tolist(), *np.max(high[own], axis=0).tolist()]
     node = [*box, 0.0, float(len(members)), 0.0, float(np.bitwise_or.reduce(bits[own]))]
     nodes.append(node)

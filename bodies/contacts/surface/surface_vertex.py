@@ -41,7 +41,11 @@ Exactly, no edge may lead below the face.  The margin lets a contact be followed
 
 @compiled
 def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats, begin: int) -> float:
-    """Return the sine of the angle by which the steepest edge of the other body's vertex leads below a face."""
+    """Return the sine of the angle at which the steepest edge of the other body's vertex descends below a face.
+
+    It is negative if all edges ascend from the face.  The vertex has ``n_star`` edges; unit vectors along them begin at
+    index ``begin`` of ``star``.
+    """
     nx, ny, nz = vector_in_world(frame, surface[face], surface[face + 1], surface[face + 2])
     nx, ny, nz = vector_in_body(other, nx, ny, nz)
     down = -1.0
@@ -55,12 +59,22 @@ def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: fl
 def over_face(
     surface: Floats, triangle: int, height: float, lean: float, margin: float, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
-    """Return three distances past ends [m] of a point over a triangle, and its squared distance [m^2].
+    """Return four numbers for a vertex (x, y, z) and a triangle of the surface.
 
-    They are the distance past the triangle, past the border of its face, and past the part that the point may touch.
-    ``lean`` is the angle by which an edge of the point's body leads below the face, as a length [m]; no distance is
-    smaller.  The third is measured in the plane of the face for points above it, so that faces about the same corner
-    differ.
+    1. Distance past the edges of the triangle [m].
+    2. Distance past those of its edges that are on the border of its face [m].
+    3. Distance past the part of the face that the vertex may touch [m].  For a vertex above the plane, it is measured
+       in the plane, so that it distinguishes faces about one corner, whose distances are equal.
+    4. Squared distance of the vertex from the triangle [m^2].
+
+    Parameters
+    ----------
+    height : float
+        Height of the vertex over the plane of the triangle [m].
+    lean : float
+        Least value of the three distances [m]: positive if an edge of the vertex descends too steeply below the face.
+    margin : float
+        Distance past an edge up to which the vertex is still over the triangle [m].
     """
     over, ends = over_ends(surface, triangle, x, y, z)
     over, ends = max(over - margin, lean), max(ends - margin, lean)
@@ -88,7 +102,10 @@ def touched_face(
     y: float,
     z: float,
 ) -> tuple[int, float, float]:
-    """Return face, gap and distance past the end for a point, from two faces: the nearest, and the least deep above it.
+    """Select one of two faces for a point; return its number, the gap and the distance past its end [m].
+
+    The first face is the nearest one.  The second is the face with the least depth among those that are above the
+    point, if the point is inside of the body.
 
     Parameters
     ----------
@@ -134,10 +151,12 @@ def face_under(
 ) -> tuple[int, float, float]:
     """Return face, gap and distance past the end [m] for a vertex of the other body and a patch in ``frame``.
 
-    A vertex can touch a face that it is over, if none of its edges leads below the face.  A vertex inside the body
-    belongs to the nearest face.  Past the end the gap is positive, unless the vertex is inside.  ``star`` holds unit
-    vectors along the vertex's edges, from index ``begin`` on.  If no face is within ``reach`` [m], gap and distance
-    past the end are ``reach``.
+    The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
+    face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face.  If
+    the vertex may not touch the face, the gap is positive, unless the vertex is inside of the body.
+
+    ``star`` holds unit vectors along the vertex's edges, from index ``begin`` on.  If no face is within ``reach`` [m],
+    gap and distance past the end are ``reach``.
     """
     px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
     x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])

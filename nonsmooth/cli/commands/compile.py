@@ -1,4 +1,4 @@
-"""``nonsmooth compile``: compiles the engine ahead, which the first run on a machine does otherwise."""
+"""``nonsmooth compile``: compiles the engine now, so that the first run on this machine need not compile it."""
 
 from __future__ import annotations
 

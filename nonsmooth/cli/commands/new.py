@@ -64,7 +64,7 @@ def _check_name(name: str) -> None:
 
 
 def _holder(name: str) -> str:
-    """Return the present owner of a name, such as "a module of Python"; "" if a new package may have the name."""
+    """Return what already has the name of a new plug-in, such as "a module of Python"; "" if the name is free."""
     if name in registry.names("laws"):
         return f"a law of {registry.source('laws', name)}"
     if name == "tests":

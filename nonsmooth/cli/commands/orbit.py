@@ -102,7 +102,10 @@ def _period(arguments: argparse.Namespace, scenario: Scenario) -> float | None:
 
 
 def _period_along(arguments: argparse.Namespace, name: str, scenario: Scenario) -> Callable[[float], float] | float:
-    """Return the period of a request [s], by default that of the driven bodies at each value of the parameter."""
+    """Return the period of the option --period [s], as a number or as a function of the varied parameter ``name``.
+
+    Without the option, it is a function that computes the period of the driven bodies.
+    """
     if arguments.period is not None:
         return values.period(arguments.period, name)
     return lambda value: _drive_period(scenario.varied(**{name: value}))
@@ -157,7 +160,10 @@ def _continue(arguments: argparse.Namespace) -> bool:
 
 
 def _found(arguments: argparse.Namespace, scenario: Scenario, period: float | None) -> orbits.Orbit:
-    """Find the periodic orbit of a request, with its period [s] or None for a section."""
+    """Find the periodic orbit that the command line requests.
+
+    ``period`` is the orbit's period [s]. It is None if a Poincare section defines the orbit instead.
+    """
     symmetries = (*([orbits.Turn()] if arguments.turn else []), *map(_spin, arguments.spin))
     words = given(orbits.orbit, _ORBIT, arguments)
     return orbits.orbit(scenario, period, **words, symmetries=symmetries)

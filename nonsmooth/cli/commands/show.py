@@ -74,9 +74,10 @@ def _described(owner: Any, title: str, *imported: str) -> str:
 
 
 def _near_bodies(name: str, trust: bool) -> str:
-    """Return a table of the bodies near each other at the start, of a scenario with its defaults or of a scenario file.
+    """Return a table of the pairs of bodies that are near each other at the start of a run.
 
-    ``trust`` lets the file name code that is not installed.
+    ``name`` is the name of a scenario, which gets its default parameters, or the path of a scenario file. If ``trust``
+    is True, the file may name code that is not installed.
     """
     # imported on use: the other commands start faster without it
     from nonsmooth.queries.proximity import proximity

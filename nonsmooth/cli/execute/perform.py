@@ -60,7 +60,10 @@ class Interrupt:
             raise KeyboardInterrupt
 
     def progress(self, meter: ProgressMeter) -> Callable[..., None]:
-        """Return the callback ``(t, t_end, *n_events)`` of a run: it shows the progress, and raises after Ctrl-C."""
+        """Return the callback ``(t, t_end, *n_events)`` that a run calls with the time reached and the end time [s].
+
+        It shows the progress, with the number of events if this is given.  After Ctrl-C it raises KeyboardInterrupt.
+        """
         shown = TimeReached(meter)
 
         def after_steps(t: float, t_end: float, *n_events: int) -> None:

@@ -76,7 +76,10 @@ def described(kind: str, made: Any) -> dict[str, Any]:
 
 
 def replacements(laws: Mapping[str, Any]) -> dict[str, str]:
-    """Return {replaced role: role of the new law}. A compliant normal law also replaces the impact law."""
+    """Map the role of each replaced law to the role of the law that replaces it, "normal", "friction" or "impact".
+
+    A new law replaces the law with its own role. A compliant normal law also replaces the impact law.
+    """
     replaced = {role: role for role in laws}
     if isinstance(laws.get("normal"), CompliantNormalLaw):
         replaced["impact"] = "normal"

@@ -52,7 +52,7 @@ TRUST = flag(
 JSON = flag("--json", "print one JSON object and nothing else")
 
 RUN_WORDS = (SCENARIO, SET, LAW, ENGINE)
-"""Options whose values are stored with a run, so that its job can be made again."""
+"""Options whose values are stored with a run, so that a later command, such as ``resume``, can rebuild the run."""
 
 
 @dataclass(frozen=True)

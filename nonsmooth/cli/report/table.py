@@ -9,7 +9,7 @@ from typing import Any
 
 from nonsmooth.parameters import Rule
 
-HEAD = ("parameter", "default", "unit", "allowed", "")
+HEAD = ("parameter", "default", "unit", "allowed", "meaning")
 ASSUMED = "* assumed: the source does not give this value, we chose it"
 _WIDTH = 80
 """Width of a line [characters]."""

@@ -133,7 +133,8 @@ def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bo
     """Find forces at least ``largest`` / 4^n_quarterings [N] inside their cones. True if there are any."""
     # from the forces of least norm, along the null space: the motion stays the same
     _set_least_norm(ws)
-    # a float as exponent: with an integer exponent, numba's power may raise an error
+    # a float as exponent: with an integer exponent, numba's power contains code that raises an error, and machine code
+    # with such code would need numba at every start of a program
     return distribute(ws, inset=0.25 ** float(n_quarterings) * largest, allowed=_DISTRIBUTED * largest)
 
 

@@ -51,9 +51,9 @@ from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point
 from nonsmooth.engine.numerics.vectors import length
 
 _VANISHED = 1e-9
-"""Limit of the normal force at a static friction bound, relative to the force at the start of the step.
+"""Normal force up to which friction at its static bound means a lift-off, relative to the force at the step's start.
 
-The bound vanishes with the normal force. If friction reaches the bound at a smaller force, the event is a lift-off.
+The static bound vanishes with the normal force. So friction reaches the bound in every lift-off, too.
 """
 
 
@@ -90,7 +90,7 @@ def cause_at_start(ws: Workspace, which: int) -> Cause:
     # a negative end guard means that the contact point is past the end of an edge or a face
     if end_of(ws, contact).at_end < 0.0:
         return Cause.FEATURE_END
-    # a contact that is not past its end has a negative normal guard (a pulling force), or a negative friction guard
+    # two causes remain: a negative normal guard (the contact pulls), or a negative friction guard (beyond the bound)
     pulls = normal_of(ws, contact).at_end < 0.0
     return Cause.LIFT_OFF if pulls else Cause.STICK_TO_SLIP
 
@@ -101,14 +101,20 @@ _SPACINGS = 4.0 * 2.0**-52
 
 @kernel("i8(ws, f8)")
 def _commit(ws: Workspace, h: float) -> int:
-    """Accept the step of ``h`` [s] with its samples. Number of bodies whose own steps (multirate) end."""
+    """Accept the step of ``h`` [s] and record its samples.
+
+    Returns the number of bodies whose own step (multirate) ends with it.
+    """
     record_samples(ws, h)
     return _take_over(ws, h)
 
 
 @kernel("i8(ws, f8)")
 def _take_over(ws: Workspace, h: float) -> int:
-    """Accept the step of ``h`` [s]: state, time, constraints. Number of bodies whose own steps (multirate) end."""
+    """Accept the step of ``h`` [s]: set state and time to those at its end, and project on the constraints.
+
+    Returns the number of bodies whose own step (multirate) ends with it.
+    """
     for i in range(ws.model.n_y):
         ws.island.y[i] = ws.step.y_new[i]
     ws.island.time += h
@@ -125,7 +131,10 @@ def _take_over(ws: Workspace, h: float) -> int:
 
 @kernel("Status(ws, Status)")
 def _up_to_end(ws: Workspace, status: Status) -> Status:
-    """Repeat a failed step once, up to the end of the run: a law need not have a value after the end. Its status."""
+    """Prepare one repetition of a failed step, which ends at the end time: a law need not have a value after that time.
+
+    Returns ``RUNNING`` if the step is to be repeated, else the ``status`` of its failure.
+    """
     if ws.island.resumed_step <= ws.request.t_end - ws.island.time:
         return status
     ws.island.resumed_step, ws.island.follows_a_step = ws.request.t_end - ws.island.time, False

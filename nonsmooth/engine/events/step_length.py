@@ -1,4 +1,7 @@
-"""Length of a step between events: by the tolerance, and by everything that holds for a limited time only."""
+"""Chooses the length of the next step between events.
+
+The tolerance, expected events, and the time for which the neighbour list and bounds of gaps are valid limit the length.
+"""
 
 from __future__ import annotations
 
@@ -22,23 +25,32 @@ from nonsmooth.engine.numerics.vectors import dot
 _FIRST_WAY = 1e-3
 """Displacement of surfaces in the first step of a compliant contact, relative to the size of the smaller body."""
 _SHORTEST = 0.01
-"""Least first step to an expected closing of a gap, relative to the first step without it."""
+"""Least length of a first step that an expected closing of a gap shortens, relative to its length without the closing.
+
+The first step is the step after an event.
+"""
 _TURN = 0.5
-"""Largest rotation in a step of a body in ballistic motion whose surface moves by it [rad].
+"""Largest rotation, in one step, of a body in ballistic motion or of a body that may touch it [rad].
+
+The rotation of the smaller of both shapes about its axis of revolution does not count: its surface does not move.
 
 The bounds of gaps assume that no speed within a step exceeds the sum of the speeds at its ends.  Integrated bodies
 fulfil this by their error control, which ballistic bodies do not have.
 """
 _ASTRAY = 2.0
-"""Largest deviation of gaps in a step with averaged forces, relative to the deviation that ends the averaging."""
+"""Largest deviation of a gap from its linear model in a step with averaged forces, relative to the allowed deviation.
+
+A step with a larger deviation is repeated with half its length. Averaged forces are those of the time-stepping
+fallback, and the linear model is that of :mod:`nonsmooth.engine.flow.averaging_time`.
+"""
 
 
 @kernel("f8(ws, ContactRecord)")
 def _first_of_compliant(ws: Workspace, contact: ContactRecord) -> float:
-    """Largest first step of a closed contact [s]; infinite unless it is a compliant contact that has just closed.
+    """Largest first step of a compliant contact that has just closed [s]; infinite for any other closed contact.
 
-    Such a contact has no force yet. If it opened again before the second stage of the step, no stage would have a
-    contact force, and the bodies would pass through each other.
+    A compliant contact that has just closed has no force yet. If a long step carried the bodies through each other
+    before its second stage, no stage would have a contact force.
     """
     if not contact.is_compliant or normal_of(ws, contact).at_end > ADJACENT * ws.tolerance.gap:
         return math.inf
@@ -57,7 +69,7 @@ def is_held(ws: Workspace) -> bool:
 
 @kernel("f8(ws)")
 def longest_wanted(ws: Workspace) -> float:
-    """Upper bound of the next step [s], also if bodies begin steps of their own (multirate) before it."""
+    """Upper bound of the next step [s], which also holds if bodies get own steps (multirate) before the step begins."""
     if not is_held(ws):
         return float(min(ws.island.free_step, ws.tolerance.largest_step))
     course = ws.island.own_steps_end - ws.island.time if ws.island.own_steps_end < math.inf else 0.0
@@ -66,7 +78,10 @@ def longest_wanted(ws: Workspace) -> float:
 
 @kernel("f8(ws)")
 def _wanted(ws: Workspace) -> float:
-    """Length of the step if nothing shortens it [s]; if all bodies have own steps, the time to the end of these."""
+    """Length of the step by error control alone [s].
+
+    If only own steps of bodies (multirate) are under way, it is the time until the first of these steps ends.
+    """
     if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:
         return float(min(ws.island.own_steps_end - ws.island.time, ws.tolerance.largest_step))
     return float(min(ws.island.closed_step if is_held(ws) else ws.island.free_step, ws.tolerance.largest_step))
@@ -92,7 +107,7 @@ def _first_attempt(ws: Workspace, wanted: float) -> float:
             if contact.mode != Mode.OPEN:
                 ws.island.first_step = min(ws.island.first_step, _first_of_compliant(ws, contact))
         h = min(h, ws.island.first_step)
-        # a first step that ends where a gap is expected to close is short, and shows when the gap closes
+        # let the first step end just after a gap is expected to close: its interpolant then gives the closing time
         ws.step.closing_step = max(_SHORTEST * h, ABOUT * soonest)
         keep_falls(ws, min(h, ws.step.closing_step))
     if ws.island.n_ballistic > 0 and soonest < h:
@@ -105,7 +120,7 @@ def _first_attempt(ws: Workspace, wanted: float) -> float:
 
 @kernel("Limit(ws, f8, f8)")
 def _limit(ws: Workspace, wanted: float, h: float) -> Limit:
-    """Cause that limits the step of ``h`` [s] that is tried first; ``wanted`` is its length without limits [s]."""
+    """Cause that limits the first trial step of ``h`` [s]. ``wanted`` is the length by error control alone [s]."""
     if h == wanted or h == ws.island.own_steps_end - ws.island.time:
         return Limit.LARGEST_STEP if h == ws.tolerance.largest_step else Limit.ERROR
     if h == ws.step.listed_step:
@@ -134,9 +149,12 @@ def _overran(ws: Workspace, h: float) -> bool:
 
 @kernel("void(ws, f8, f8, f8)")
 def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None:
-    """Store length [s] and error of the accepted step, and the length of the next one."""
+    """Store the length [s] and the relative error of the accepted step, and propose the length of the next step.
+
+    If the accepted step is shorter than ``wanted`` [s], the next step is at least ``wanted``.
+    """
     ws.step.h, ws.step.error = h, error
-    # the end of a bounce, which limited the step, has passed or is an event in it
+    # remove the limit of the first step after an event: it does not hold for the next step
     ws.island.first_step = math.inf
     # a step that was shortened does not shorten the next one
     following = h * step_factor(error)
@@ -150,7 +168,10 @@ def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None
 
 @kernel("Status(ws)")
 def accepted_step(ws: Workspace) -> Status:
-    """Take a step that meets the tolerance; its length is in ``ws.step.h`` [s]. ``RUNNING``, or why there is none."""
+    """Take a step that meets the tolerance, and store its length in ``ws.step.h`` [s].
+
+    Returns ``RUNNING``, or the reason why no step was found.
+    """
     wanted = _wanted(ws)
     ws.step.relaxation = relaxation_rate(ws)
     h = _first_attempt(ws, wanted)
@@ -188,7 +209,8 @@ def accepted_step(ws: Workspace) -> Status:
                 return Status.NOT_FINITE
             factor = step_factor(error) if error < math.inf else 0.1
             if ws.island.stage_time > 0.0 and error > explained > 0.0:
-                # if a slip settles within the step, the error falls with a low power of its length
+                # if a slip velocity decays within the step, its error falls with a low power of the step length:
+                # assume the first power
                 factor = max(SHRINK, SAFETY / error)
             explained = factor * factor * error
             h *= factor

@@ -27,11 +27,17 @@ from nonsmooth.engine.native.kernel import ContactRecord, Floats, Workspace, ent
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 _CURVED = 4.0
-"""Largest rate at which the normal turns on a curved surface or an edge, relative to the rotation of the body."""
+"""Assumed largest angular velocity of a contact normal on a curved surface or an edge, relative to that of the bodies.
+
+The bound of a gap's acceleration uses it.
+"""
 _CLOSINGS = 8
-"""Largest number of Newton steps to the time at which a gap between ballistic bodies closes."""
+"""Largest number of Newton steps to the closing time of a gap between ballistic bodies.
+
+If more were needed, the closing time is taken as unknown, and does not limit the step.
+"""
 ABOUT = 1.1
-"""Factor on the first expected closing time, within which gaps are searched: expected times are so inaccurate."""
+"""Gaps are searched up to this multiple of the first expected closing time, because expected times are inaccurate."""
 
 
 @kernel("f8(F, i8, i8)")
@@ -104,7 +110,10 @@ def bound_speeds(ws: Workspace) -> None:
 
 @kernel("v3(ws, i8)")
 def arm_of(ws: Workspace, c: int) -> Vector:
-    """Vector from the origin to the witness point of the body with the smaller radius [m], as evaluated last."""
+    """Vector from the frame's origin to the witness point of the body with the smaller support radius [m].
+
+    The witness point is that of the last evaluation of contact ``c``.
+    """
     contact = ws.contacts[c]
     if contact.support_radius_b <= contact.support_radius_a:
         return minus(contact.point_b, frame_at(ws.floats, contact.frame_b).origin)
@@ -132,12 +141,15 @@ def _acceleration(ws: Workspace, c: int, side: int, is_angular: bool, du: int) -
 
 @kernel("v3(ws, i8, i8)")
 def fall_of(ws: Workspace, c: int, du: int) -> Vector:
-    """Bound of the acceleration with which the gap of contact ``c`` closes, at the present state, as three numbers.
+    """Bound of the acceleration with which the gap of contact ``c`` closes, as three numbers.
 
-    They are the bound [m/s^2], its growth per second of the step [m/s^3], and the relative rotation of the bodies
-    [rad/s], without rotation about an axis of revolution. ``du`` is the offset of the accelerations of all bodies. The
-    normal is kept fixed to one body: along any fixed normal, a convex second body is at most as far away as the gap.
-    The terms of the rotation hold for all points of the smaller shape.
+    1. Bound at the present state [m/s^2].
+    2. Increase of the bound per second after this state [m/s^3].
+    3. Relative angular velocity of the bodies [rad/s], without rotation about an axis of revolution.
+
+    ``du`` is the offset of the accelerations of all bodies. The normal is fixed to the body with the larger support
+    radius. The distance of a convex body along a fixed normal is at most the gap, and so bounds the gap from below.
+    Rotation enters with the support radius of the smaller shape, so the bound holds for all points of this shape.
     """
     contact = ws.contacts[c]
     second = contact.support_radius_b <= contact.support_radius_a
@@ -176,8 +188,8 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
 def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     """Time after which the gap of contact ``c`` closes at constant accelerations [s]; infinite if it does not close.
 
-    It is infinite, too, unless one shape is a ball about its origin. If rotation moves both surfaces, the estimate is
-    poor, and gaps that do not close would shorten steps.
+    It is also infinite if neither shape is a ball about its frame's origin. Rotation then moves both surfaces, and the
+    estimate is poor: it would shorten steps because of gaps that do not close.
     """
     contact = ws.contacts[c]
     if min(contact.support_radius_a, contact.support_radius_b) > 0.0:
@@ -238,7 +250,7 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
         evaluate_geometry(ws, c)
         evaluate_rates(ws, c)
         rate = contact.rate[0]
-        # gap that remains at the end of a step to the closing
+        # gap that remains at the end of the step: negligible against the tolerances of gap and time
         aim = NEGLIGIBLE * min(ws.tolerance.gap, ws.tolerance.time * abs(rate))
         left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
@@ -253,8 +265,8 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
 def first_of_flying(ws: Workspace, soonest: float) -> float:
     """Time after which the first gap between ballistic or driven bodies closes [s]; infinite if none is found.
 
-    Gaps are searched that are expected to close at about ``soonest`` [s].  Afterwards the bodies are evaluated at
-    another state than that at the start.
+    The search covers the gaps that are expected to close by about ``soonest`` [s]. It overwrites the evaluation of the
+    bodies at the start of the step.
     """
     first = math.inf
     for contact in ws.contacts:
@@ -266,9 +278,9 @@ def first_of_flying(ws: Workspace, soonest: float) -> float:
 
 @kernel("void(ws, f8)")
 def keep_falls(ws: Workspace, h: float) -> None:
-    """Store acceleration bounds at the start of a step of ``h`` [s], of the gaps that may close in it.
+    """Store the acceleration bound, at the start of a step of ``h`` [s], of each gap that may close within the step.
 
-    The bodies are evaluated at the start now. Later they would have to be evaluated there again.
+    This is done before the step, because the bodies are still evaluated at its start.
     """
     for contact in ws.contacts:
         if _will_be_doubtful(ws, contact, h):
@@ -281,8 +293,8 @@ def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> boo
     """True if a gap cannot close between two times, because its surfaces move by at most ``way`` [m] in between.
 
     ``g0`` and ``g1`` are the gaps at both times [m], ``past0`` and ``past1`` the distances past the ends of the
-    features [m].  Past an end, the gap is no true distance.  Then only the gap at the other time is used, or the
-    smaller one if both are past an end.
+    features [m].  Past an end, the gap is no true distance.  If this holds at one time, only the gap at the other time
+    is used.  If it holds at both times, only the smaller gap is used.
     """
     if past0 > 0.0:
         return (min(g0, g1) if past1 > 0.0 else g1) > way
@@ -293,9 +305,9 @@ def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> boo
 def find_doubtful(ws: Workspace, h: float) -> None:
     """List the open contacts whose gaps may close within the step of ``h`` [s], by the bounds of their speeds.
 
-    The bodies must be evaluated at the end of the step.  Contacts whose features do not face each other at one end of
-    the step are in a second list.  For the others, the acceleration bound at the end is stored, for this step and the
-    next.
+    The bodies must be evaluated at the end of the step.  A contact whose features face each other at both ends of the
+    step enters the list ``may_close``.  Its acceleration bound at the end is stored, for this step and the next.  A
+    contact whose features do not face each other at one end enters the list ``not_facing``.
     """
     ws.step.n_may_close = ws.step.n_not_facing = 0
     accelerations = ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q

@@ -53,7 +53,7 @@ def choose_integrated(ws: Workspace) -> None:
 
 @kernel("void(ws, i8)")
 def integrate(ws: Workspace, number: int) -> None:
-    """Add a body to the integrated ones, and its coordinates to the spans of the state."""
+    """Integrate body ``number`` numerically from now on: add its coordinates to the integrated ranges of the state."""
     body = ws.bodies[number]
     ws.island.integrated[ws.island.n_integrated] = number
     ws.island.n_integrated += 1
@@ -62,7 +62,7 @@ def integrate(ws: Workspace, number: int) -> None:
 
 @kernel()
 def integrate_velocities(ws: Workspace) -> None:
-    """Add to the spans of the state the velocities of all integrated bodies, the energy accounts and inner states."""
+    """Add to the integrated ranges of the state: velocities of integrated bodies, energy accounts, and inner states."""
     for i in range(ws.island.n_integrated):
         body = ws.bodies[ws.island.integrated[i]]
         _add_span(ws, ws.model.n_q + body.u, body.n_u)
@@ -71,7 +71,7 @@ def integrate_velocities(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def _power(ws: Workspace, velocities: int) -> float:
-    """Power of the forces on all ballistic bodies, without contact forces, at their last evaluation [W]; its size.
+    """Absolute value of the power of all forces on ballistic bodies except contact forces, at the last evaluation [W].
 
     ``velocities`` is the offset of all velocities at that evaluation.
     """
@@ -84,7 +84,10 @@ def _power(ws: Workspace, velocities: int) -> float:
 
 @kernel()
 def take_off(ws: Workspace) -> None:
-    """Store the power of the forces on ballistic bodies at the start of a step [W]. They must be evaluated there."""
+    """Store the power of the forces on ballistic bodies at the start of a step [W].
+
+    The bodies must be evaluated at the start of the step.
+    """
     ws.step.power_at_start = _power(ws, ws.island.y.start + ws.model.n_q)
 
 
@@ -101,9 +104,9 @@ def _write_dense(ws: Workspace, start: int, slopes: int, i: int, n: int, early: 
 
 @kernel("void(ws, f8, i8, i8)")
 def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
-    """Write the state of a body with an own step at time ``t`` [s] to the state at ``out``.
+    """Interpolate a body with an own step (multirate) at time ``t`` [s], and write it to the state at offset ``out``.
 
-    It is interpolated, and the quaternion is normalised, because rates need a unit quaternion.
+    The quaternion is normalised, because the rates of gaps and slips are computed for unit quaternions.
     """
     body = ws.bodies[number]
     h, theta = body.own_step, (t - body.own_step_time) / body.own_step
@@ -135,7 +138,8 @@ def fly(ws: Workspace, elapsed: float, number: int, out: int) -> None:
 def accelerate_in_flight(ws: Workspace, t: float, number: int) -> None:
     """Write the acceleration of a ballistic body at time ``t`` [s] to ``du``.
 
-    In an own step it is interpolated linearly, which is enough because it serves for bounds of gaps only.
+    If the body has an own step (multirate), its acceleration is interpolated linearly. This is accurate enough for
+    bounds of gaps, its only use.
     """
     body = ws.bodies[number]
     if not body.has_own_step:

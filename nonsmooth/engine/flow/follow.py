@@ -59,7 +59,7 @@ def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
     M^-1, must be evaluated.
     """
     n, m = articulation.n_u, articulation.n_rows
-    # the right-hand side of each row; the solution replaces it
+    # store the right-hand side of each row; solve_factorised overwrites it with the multiplier
     for line in range(m):
         row, bias = articulation.response + line * n, ws.floats[articulation.bias + line]
         ws.floats[articulation.forces + line] = -product(ws.floats, bias, row, forces + articulation.u, n)

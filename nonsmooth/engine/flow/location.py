@@ -2,9 +2,9 @@
 
 Open gaps are proved not to close (:mod:`nonsmooth.engine.flow.clearance`), or their closing is found. Forces, slips and
 guards of the user are sampled at the end of a step, guards of the user also in its middle. Forces and slips are sampled
-there if a force was smaller at a stage than at both ends, or violated its mode.  Features that do not face each other
-have gaps without rates.  They are sampled at least ``_SAMPLES`` times in a step, more often if they move far, and at
-the time at which their gap is expected to close.
+in the middle, too, if at a stage a force or slip violated its mode, or a force was smaller than at both ends.  Features
+that do not face each other have a gap without a rate.  Such a gap is sampled at least ``_SAMPLES`` times in a step,
+more often if the features move far.  Once they face each other, it is sampled when it is expected to close.
 """
 
 from __future__ import annotations
@@ -42,44 +42,71 @@ from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 _MIDDLE = 0.5
 """Fraction of the step at which forces and guards of the user are sampled between its ends."""
 _NEAR = 0.2
-"""Minimum of the parabola through three samples of a force, relative to its ends, below which it is evaluated there."""
+"""If a parabola through three samples of a force dips below this part of the end values, the dip is evaluated."""
 _FAINT = 1e-9
-"""Start value of a guard, relative to its end value, that does not show the sign right after the start."""
+"""Start value of a guard, relative to its end value, up to which it is round-off, so that its sign is not trusted.
+
+Also the fraction of a step at which its start is sampled.
+"""
 NEGLIGIBLE = 0.01
-"""Error of a step, relative to the tolerance, below which its interpolant is accurate enough for an event."""
+"""Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""
 _MOST_ROOTS = 30
-"""Number of roots, each before the one found last, after which the motion is not smooth: the step is shortened."""
+"""Number of roots in one step, each earlier than the previous one, at which the motion is taken as not smooth.
+
+The step is then shortened.
+"""
 _FEW_ROOTS = 4
-"""Number of such roots after which a guard that is negative from the start shortens the step, as it has no root."""
+"""Number of successively earlier roots above which a guard that is negative from the start shortens the step.
+
+A guard that is negative from the start has no root in the step.
+"""
 _SAMPLES = 16
-"""Least number of samples in a step of gaps whose features do not face each other."""
+"""Least number of samples per step for gaps of features that do not face each other at an end of the step.
+
+They may face each other, and touch, within the step.
+"""
 _FARTHEST = 0.25
-"""Largest displacement of features between two such samples, relative to the size of the smaller body."""
+"""Largest displacement of features that do not face each other between two samples, relative to the contact's size.
+
+The size of a contact is that of the smaller body.
+"""
 _SHORTEST = 1e-4
 """Least distance of two samples, in fractions of the step: the interpolant resolves no shorter time."""
 _JUMP = 1e-3
-"""Value of a guard right before its root, relative to its start value, above which the guard jumps there."""
+"""Value of a guard right before its sign change, relative to its start value, above which it has a jump and no root."""
 _NEARER = 0.5
 """Largest value of a guard, relative to its start value, at which Newton's estimate of its root is accepted."""
 _SLOW = 3
-"""Number of slow iterations, which leave more than half of the bracket of a root, before a bisection."""
+"""Excess of slow over fast iterations above which the bracket of a root is bisected.
+
+A slow iteration leaves more than half of the bracket.
+"""
 _FINE = 0.01
-"""Accuracy of roots, and first step past the jump of a guard, relative to the time tolerance; the step is doubled."""
+"""Accuracy of roots, relative to the time tolerance.
+
+Also the first step past the jump of a guard. This step doubles until the guard is negative.
+"""
 _LOOKS = 4
-"""Largest number of samples at expected closing times between two regular samples of gaps without rates."""
+"""Largest number of extra samples, at expected closing times, between two regular samples of gaps without rates."""
 _BEHIND = 1e-3
-"""Delay of such a sample after the expected closing time, relative to the time until then."""
+"""Delay of an extra sample after the expected closing of a gap, relative to the time until then: the gap has closed."""
 
 
 @kernel("b1(ws)")
 def _asks_forces(ws: Workspace) -> bool:
-    """True if contact forces can be evaluated within the step: implicit steps have them at the ends of stages only."""
+    """True if there are contact forces that can be evaluated at any time within the step.
+
+    In an implicit step, contact forces are known at the ends of stages only.
+    """
     return ws.island.n_grouped > 0 and ws.island.stage_time == 0.0
 
 
 @entry_point("void(ws, f8, f8, b1)")
 def guards_within(ws: Workspace, h: float, theta: float, needs_forces: bool) -> None:
-    """Evaluate the motion and write all guards at the fraction ``theta`` of the step of ``h`` [s], interpolated."""
+    """Interpolate the motion at the fraction ``theta`` of the step of ``h`` [s], and evaluate the guards there.
+
+    Guards of closed contacts keep their values unless ``needs_forces``.
+    """
     state_within(ws, h, theta, ws.step.y_stage.start)
     blend_chosen_forces(ws, theta)
     evaluate_guards(ws, ws.island.time + theta * h, ws.step.y_stage.start, theta * h, needs_forces)
@@ -87,7 +114,10 @@ def guards_within(ws: Workspace, h: float, theta: float, needs_forces: bool) -> 
 
 @kernel("f8(ws, f8, f8, i8, b1)")
 def _guard_at(ws: Workspace, h: float, theta: float, i: int, needs_forces: bool) -> float:
-    """Value of guard ``i`` at the fraction ``theta`` of the step. A gap or a slip needs its two bodies only."""
+    """Value of guard ``i`` at the fraction ``theta`` of the step of ``h`` [s].
+
+    For a gap or a slip velocity, only the two bodies of the contact are evaluated, for other guards the whole system.
+    """
     alone = sign_depends_on(ws, i)
     if alone == DependsOn.GAP:
         evaluate_gap_guard(ws, h, theta, i)
@@ -100,7 +130,10 @@ def _guard_at(ws: Workspace, h: float, theta: float, i: int, needs_forces: bool)
 
 @kernel("f8(ws, f8, i8)")
 def _lowest(ws: Workspace, h: float, i: int) -> float:
-    """Fraction of the step at which guard ``i`` is negative between its three samples, or 0, by parabolas."""
+    """Fraction of the step at which guard ``i`` is found to be negative, or 0 if it is found positive.
+
+    Parabolas through three samples, first those at start, middle and end of the step, lead to the minimum of the guard.
+    """
     low, middle, high = 0.0, _MIDDLE, 1.0
     g_low, g_middle, g_high = ws.guards[i].initial, ws.guards[i].middle, ws.guards[i].at_end
     for _iteration in range(8):
@@ -128,7 +161,7 @@ def _lowest(ws: Workspace, h: float, i: int) -> float:
 
 @kernel("f8(ws, f8)")
 def _force_dip(ws: Workspace, h: float) -> float:
-    """Fraction of the step at which a normal force or distance to a static bound is negative between samples, or 0."""
+    """Fraction of the step at which a contact pulls, or exceeds its static friction bound, between samples; else 0."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode != Mode.OPEN:
@@ -172,7 +205,9 @@ def _advance(ws: Workspace, h: float) -> float:
 
 @kernel("f8(ws, f8, f8)")
 def _sampled(ws: Workspace, h: float, high: float) -> float:
-    """First sampled fraction of the step, below ``high``, at which a gap has closed, or 0. Writes the guards there.
+    """First sampled fraction of the step, below ``high``, at which a gap has closed, or 0 if none has.
+
+    If a gap has closed, the guards are afterwards evaluated at this fraction.
 
     It samples gaps whose features do not face each other. They may face each other between two samples: then a further
     sample is taken at the time at which their gap is expected to close.
@@ -180,7 +215,7 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
     theta, looks = 0.0, 0
     while theta < high:
         ws.totals.n_gap_evaluations += 1
-        # at the start itself, deflated guards have no growth: sample right after it
+        # a deflated guard is divided by the elapsed time, so it is undefined at the start: sample right after the start
         guards_within(ws, h, max(theta, _FAINT), needs_forces=False)
         if theta > 0.0:
             if first_fired(ws, forces_are_known=False, located=NO_GUARD) >= 0:
@@ -195,9 +230,10 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
 
 @kernel("f8(ws, f8, f8, i8)")
 def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
-    """Fraction of the step, up to ``theta``, by which an open gap has closed, or 0. Writes the guards there.
+    """Fraction of the step, up to ``theta``, at which an open gap has closed, or 0 if none has.
 
-    If no gap has closed, the contact ``asked`` is evaluated at ``theta`` afterwards.
+    If a gap has closed, the guards are afterwards evaluated at this fraction. If no gap has closed, contact ``asked``
+    is afterwards evaluated at ``theta``.
     """
     if ws.step.n_not_facing > 0:
         found = _sampled(ws, h, theta)
@@ -213,9 +249,10 @@ def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
 
 @entry_point("f8(ws, f8)")
 def first_crossing(ws: Workspace, h: float) -> float:
-    """Fraction of the step of ``h`` [s] by which some guard has fired, or 0 if none fires. Writes the guards there.
+    """First fraction of the step of ``h`` [s] at which some guard is found to have fired, or 0 if none fires.
 
-    Bodies and forces must be evaluated at the end of the step.
+    Bodies and forces must be evaluated at the end of the step before the call. After the call, the guards are evaluated
+    at the returned fraction.
     """
     closed = _asks_forces(ws)
     write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
@@ -225,7 +262,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     find_doubtful(ws, h)
     deflate(ws, h)
     fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
-    # the middle is sampled only if a force or slip violated its mode at a stage, or a force was least at a stage
+    # sample the middle only if at a stage a force or slip violated its mode, or a force was smaller than at both ends
     suspect = ws.step.has_doubtful_force
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
@@ -247,7 +284,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
             theta = _force_dip(ws, h)
             if theta > 0.0:
                 return theta
-    # a guard that has fired at the end is located first; gaps that close before it are searched afterwards
+    # search for unseen closings only if no guard has fired; else `locate` finds its root first, then gaps before it
     if fired < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
         looks += ws.step.n_not_facing
         theta = _closed_before(ws, h, 1.0, -1)
@@ -265,16 +302,17 @@ def first_crossing(ws: Workspace, h: float) -> float:
         deflate(ws, h)
     elif fired >= 0 or ws.step.n_may_close == 0:
         return 1.0 if fired >= 0 else 0.0
-    # guards that were armed only within the step can fire, too
+    # check all guards again: some were armed only within the step
     return 1.0 if first_fired(ws, forces_are_known=True, located=NO_GUARD) >= 0 else 0.0
 
 
 @kernel("f8(ws, f8, f8, i8, b1)")
 def _event_fraction(ws: Workspace, h: float, high: float, i: int, needs_forces: bool) -> float:
-    """Fraction of the step at which guard ``i`` vanishes on the interpolant; it must be evaluated at ``high``.
+    """Fraction of the step at which guard ``i`` vanishes on the interpolant.
 
-    Afterwards all guards are evaluated there, and ``guard_slope`` is the slope of guard ``i`` per second. If the guard
-    jumps, the fraction is right behind the jump and the slope is minus infinity.
+    Guard ``i`` must be evaluated at the fraction ``high``. Afterwards all guards are evaluated at the root, and
+    ``guard_slope`` is the slope of guard ``i`` per second. If the guard jumps, the fraction is right behind the jump
+    and the slope is minus infinity.
     """
     theta = _vanishing(ws, h, high, i, needs_forces)
     if sign_depends_on(ws, i) != DependsOn.FORCE:
@@ -286,7 +324,7 @@ def _event_fraction(ws: Workspace, h: float, high: float, i: int, needs_forces: 
 def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool) -> float:
     """The root of :func:`_event_fraction`, by the rule of Anderson and Bjorck, or by Newton's method for a gap.
 
-    Afterwards guard ``i`` is evaluated there. If it needs forces, so are all other guards.
+    Afterwards guard ``i`` is evaluated at the root. If its sign depends on forces, all guards are evaluated there.
     """
     fine = _FINE * ws.tolerance.time
     low, g_low = 0.0, ws.guards[i].initial
@@ -300,7 +338,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
         if low < _SHORTEST * high:
             if g_low > 0.0 or rises:
                 return low
-            # the guard vanishes close to the start, at which it was still positive
+            # the guard was positive at the start and has its root right after it: the bracket is from the start to low
             high, g_high = low, g_low
             low, g_low = 0.0, ws.guards[i].initial
             break
@@ -320,7 +358,8 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
             ws.step.guard_slope = ws.contacts[contact_of(ws, i)].gap_rate
             if ws.guards[i].is_deflated:
                 ws.step.guard_slope = (ws.step.guard_slope - g) / (theta * h)
-        # a value as large as at the start is not near a root, whatever the slope, which may be that across a jump
+        # accept no root while the guard is as large as at the start: across a jump the slope is steep, so that
+        # Newton's estimate would be wrong
         near = abs(g) <= -fine * ws.step.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i))
         if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
@@ -351,7 +390,10 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
 
 @kernel("f8(ws, f8, i8)")
 def _behind_jump(ws: Workspace, step: float, i: int) -> float:
-    """Step to right behind a jump of guard ``i``, at ``step`` [s] on the interpolant. Length [s], -1 if it fails."""
+    """Make a step that ends right after the jump of guard ``i``, which the interpolant has at ``step`` [s].
+
+    Returns the length of the step [s], or -1 if the step is inaccurate or the guard does not jump close to its end.
+    """
     ws.step.h = step
     if not try_step(ws, step) <= TRUSTED:
         return -1.0
@@ -370,11 +412,14 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
 
 @kernel("f8(ws, f8, i8)")
 def _corrected(ws: Workspace, root: float, i: int) -> float:
-    """Step to the root of guard ``i``, at ``root`` [s] on the interpolant. Length of the step [s], -1 if it fails."""
+    """Make a step that ends at the root of guard ``i``, which the interpolant has at ``root`` [s].
+
+    Returns the length of the step [s], or -1 if the step is inaccurate or has no root.
+    """
     h, step = ws.step.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, math.inf
-    # two or three steps suffice unless the guard is not smooth
+    # Newton's method on the step length: two or three steps suffice, unless the guard is not smooth; then bisection
     for _halving in range(PARTS):
         ws.step.h = step
         blend_chosen_forces(ws, step / h)
@@ -412,12 +457,12 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
 
 @kernel("b1(ws, i8)")
 def _overtaken(ws: Workspace, i: int) -> bool:
-    """True if the corrected step is past the closing of a gap other than that of the contact of guard ``i``."""
+    """True if another contact than that of guard ``i`` has closed before the end of the corrected step."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == Mode.OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
             start = min(0.0, ws.guards[normal_guard(c)].base)
-            # gaps that close at the same instant differ by round-off
+            # gaps that close at the same instant differ by round-off: ignore a penetration below the tolerance
             if contact.gap < start - ADJACENT * ws.tolerance.gap and contact.gap_rate < 0.0:
                 return True
     return False
@@ -427,8 +472,8 @@ def _overtaken(ws: Workspace, i: int) -> bool:
 def _hides_another(ws: Workspace, step: float, i: int) -> bool:
     """True if the gap of guard ``i`` jumps to an overlap so deep that another gap must have closed before.
 
-    The features of that other gap faced each other between two samples only. If no gap can become so deep within the
-    step, the jump comes from the contact's own geometry instead.
+    That other gap closed between two samples, at which its features did not face each other. An overlap deeper than
+    the bodies can move within the step has another reason: the geometry of the contact itself makes the gap jump.
     """
     if i >= first_user_guard(ws) or is_friction_guard(ws, i):
         return False
@@ -442,17 +487,18 @@ def _hides_another(ws: Workspace, step: float, i: int) -> bool:
 
 @entry_point("f8(ws, f8, f8)")
 def locate(ws: Workspace, h: float, high: float) -> float:
-    """Step to the first event before the fraction ``high`` of the step of ``h`` [s]. Length of that step [s].
+    """Make a step that ends at the first event before the fraction ``high`` of the step of ``h`` [s].
 
-    ``ws.step.guard`` becomes the guard that fires. The result is negative if the error of the shorter step, or the
-    number of guards that fire, shows that the motion is not smooth.  Unless the error of the step is negligible, the
-    root on the interpolant is corrected by further steps, because the step has a higher order than its interpolant.
+    Returns the length of the new step [s]. It is negative if the error of the new step, or the number of guards that
+    fire, shows that the motion is not smooth. ``ws.step.guard`` becomes the guard that fires.  Unless the error of the
+    step is negligible, the root on the interpolant is corrected by further steps, because the step has a higher order
+    than its interpolant.
     """
     closed = _asks_forces(ws)
     first = first_fired(ws, forces_are_known=True, located=NO_GUARD)
     of_contact = 0 <= first < first_user_guard(ws)
     if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != Mode.OPEN:
-        # an explicit step, which is short enough then, locates the event
+        # refuse this implicit step: a shorter, explicit step locates an event of a closed contact
         return -1.0
     theta = high
     fired = max(0, first)
@@ -466,7 +512,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         later = theta
         theta = _event_fraction(ws, h, later, first, closed)
         if roots > 1 and ws.step.guard_slope == -math.inf and (later - theta) * h <= ws.tolerance.time:
-            # this guard jumps at the same time as the one found before
+            # both guards jump at the same time: keep the guard that was found before, and end the search
             first = -1
         else:
             fired = first

@@ -1,9 +1,11 @@
-"""The clock (variable of integration) of an impact: common to all contacts, or the impulse of the last loaded one.
+"""The clock of an impact, which is its variable of integration.
 
-On the clock of its impulse the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`), so the
-next event is known in closed form and a step can end there. The state is stored when the clock changes. If another
-contact is loaded before the lone one is done, the impact returns to that state, and continues with the common clock for
-good.
+It is common to all contacts, or, while only one contact is loaded, the normal impulse of this lone contact.
+
+As functions of this impulse, the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`). So
+the next event is known in closed form, and a step can end at it. The state is stored when the clock changes. If another
+contact is loaded before the lone contact has ended its phases, the impact returns to the stored state. It then
+continues with the common clock until its end.
 """
 
 from __future__ import annotations
@@ -37,10 +39,11 @@ class Aim(NamedTuple):
 
 @kernel("b1(ws)")
 def change_clock(ws: Workspace) -> bool:
-    """Make the impulse of the only contact that is not idle the clock, or undo this. True if the clock changes.
+    """Choose the clock, which is the variable of integration of the impact. True if the clock changes.
 
-    The clock is the variable of integration. If it is the normal impulse of one contact, its next event is known in
-    closed form. If another contact is loaded before it is done, the impact returns to the state before the change.
+    If only one contact is not idle, its normal impulse becomes the clock, because the next event is then known in
+    closed form. If another contact is loaded before the phases of this contact end, the clock becomes the common one
+    again, and the impact returns to the state before the first change.
     """
     # contacts that are not idle, other than the present lone one, and the last of them
     n_others, last = 0, NO_CONTACT

@@ -1,11 +1,11 @@
-"""How an impact ends: the energy accounts of its phases, and ends other than that of the last expansion.
+"""How an impact ends: energy accounts of its phases, and reasons to end it before its last expansion is complete.
 
 An impact is over when no contact is loaded. It may also end in these ways:
 
 trapped     Contacts are loaded, but their forces move nothing: the energy is never returned.
-faded       Ever smaller compressions go on, below the tolerance or too slow to bounce: the rest is cut short.
+faded       The compressions have become smaller than the tolerance, or too slow for a bounce: they are left out.
 
-An impact that was cut short may leave an approach of contacts, which :func:`how_over` classifies.
+After such an end, contacts may still approach. :func:`how_over` classifies this approach.
 """
 
 from __future__ import annotations
@@ -23,14 +23,17 @@ from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Pair, length
 
 _LOCKED = 0.1
-"""Resultant of the forces relative to the sum of their magnitudes, below which a wedge may hold them in balance.
+"""Largest resultant of the forces in a wedge, relative to the sum of their magnitudes: a wedge holds them in balance.
 
-Forces between bodies that separate are not balanced.
+The forces on bodies that separate are not balanced, so their resultant is larger.
 """
 _NEGLIGIBLE_APPROACH = 1e-3
 """Approach that is neglected after a truncated impact, relative to the fastest rate before the impact."""
 _LEAST_TOLERANCE = 1e-11
-"""Least relative tolerance by which remaining energies and approaches have faded; smaller ones are round-off."""
+"""Least relative tolerance for the energies and approaches that are neglected at the end of an impact.
+
+It replaces a smaller tolerance of the impact, because smaller energies and approaches are round-off.
+"""
 
 
 # --- accounts ---------------------------------------------------------------------------------------------------------

@@ -93,7 +93,8 @@ def energetic_impact(ws: Workspace, seed: float) -> ImpactOutcome:
     (:class:`ImpactOutcome`). ``seed`` [m/s] is the speed that scales an impact without collision, which has no speed
     of approach (Painleve's paradox). For other impacts it is zero.
     """
-    # the normal impulse of a lone contact is the variable of integration; a contact that is lone later may become so
+    # integrate a single contact over its normal impulse. If all other contacts become idle later, change_clock replaces
+    # the common variable of integration by the impulse of the last contact
     ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
     ws.event.truncation = Truncation.NONE
@@ -114,9 +115,13 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> I
     The active contacts are all contacts of the impact or, if ``is_windowed``, of a part of it. ``shortest`` is the
     pseudo-time of the shortest compression.
 
-    FINISHED: no contact is loaded. MOVED: a contact at the rim of the window, in its outermost layer, is not idle; the
-    next step, in another window, is ``impact.h``.  INVALID: a law gives no finite number.  ENDLESS: interrupted, or too
-    many steps.
+    Returns one of these outcomes:
+
+    FINISHED: no contact is loaded.
+    MOVED: a contact at the rim of the window, its outermost layer, is not idle. The impact must continue in another
+    window, with the first step ``impact.h``.
+    INVALID: a law returned a number that is not finite.
+    ENDLESS: the run was interrupted, or the impact took too many steps.
     """
     prepare_guards(ws)
     write_impact_slope(ws, ws.impact.slopes.start)

@@ -26,7 +26,10 @@ from nonsmooth.engine.numerics.runge_kutta import dense_state
 _NEAR = 1e-11
 """Value [1] at which a root on the interpolant is found. The step itself is corrected afterwards."""
 _SMALL = 1e-3
-"""Value of such a root relative to the largest value of the guard in the step, which may itself be very small."""
+"""Value at which a root is accepted, relative to the largest value of its guard in the step.
+
+It is needed for guards whose values are all below ``_NEAR``.
+"""
 _NARROW = 1e-14
 """Width of the bracket of a root, in fractions of the step, below which it is round-off, and the search ends."""
 _ITERATIONS = 60

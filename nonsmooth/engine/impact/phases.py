@@ -31,9 +31,10 @@ _SEED = 1e-3
 _NO_RETURN = 2.0**-52
 """Efficiency that counts as none [1]: the spacing of doubles at 1. All of the stored energy is then lost."""
 _FAINT = 0.5
-"""Gap rate below which a phase behind a wave ends, relative to the gap rate above which one begins.
+"""Gap rate below which a phase of a contact that a wave of compression has passed ends.
 
-It is well below 1, so that a phase that has ended does not begin again at once.
+It is relative to the gap rate above which such a phase begins. It is well below 1, so that a phase that has ended does
+not begin again at once.
 """
 
 

@@ -21,7 +21,7 @@ from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_sc
 REST = 1e-9
 """Slip that counts as rest, relative to the largest speed of the impact. Slips within the error count as rest, too."""
 CIRCLING = 30.0
-"""Slip that counts as rest, relative to the error of a step. A slip that circles round zero stays below it."""
+"""Slip that counts as rest, relative to the error of a step. A slip that oscillates about zero by errors is smaller."""
 _GROWTH = 2.0
 """Growth of an impulse scale [1] below which it stays as it is. A threshold need not change in every step."""
 _CLOSE = 1e-6

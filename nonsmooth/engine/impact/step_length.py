@@ -19,16 +19,16 @@ from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 _FIRST_POWER = 0.25
 """Exponent: the first step, relative to the duration of the shortest compression, is the tolerance to this power.
 
-If no force has built up yet, forces are compared after this step.
+Contacts without deformation have no force yet. So their forces are compared after a time of this length.
 """
 _FAR = 4.0
 """First step of a lone contact, relative to the impulse that stops it. It is past all events of the contact."""
 _LARGEST_LOSS = 0.7
 """Largest part of its deformation that a contact loses in one step of its expansion [1]."""
 _LAST = 2.0
-"""Factor on the tolerance to the power ``_LAST_POWER``: deformation down to which steps of an expansion shrink."""
+"""Factor c: steps of an expansion shrink down to the deformation c tolerance^p, relative to a full compression."""
 _LAST_POWER = 0.4
-"""Exponent of the tolerance in this deformation, which is relative to the deformation of a full compression."""
+"""Exponent p: steps of an expansion shrink down to the deformation c tolerance^p, relative to a full compression."""
 _SETTLING_POWER = -0.4
 """Inverse of the power 2.5 with which the error grows of an implicit step in which slips settle. Its stages are of
 second order there."""

@@ -43,7 +43,11 @@ A load writes ``FORCE`` [N] on the second body, the point where it acts at ``LOA
 from __future__ import annotations
 
 POSITION, ROTATION, VELOCITY, SPIN, ACCELERATION, SPIN_ACCELERATION, JACOBIAN = 0, 3, 12, 15, 18, 21, 24
-"""Offsets of position, rotation, velocities, accelerations and Jacobian in the block of a frame."""
+"""Offsets in the block of a frame.
+
+They are those of origin [m], rotation matrix [1], velocity of the origin [m/s], angular velocity [rad/s], acceleration
+of the origin [m/s^2], angular acceleration [rad/s^2], and Jacobian of both velocities.
+"""
 FRAME = JACOBIAN
 """Floats of frame motion at the head of a body's output block."""
 GAP, NORMAL, TANGENT, POINT_A, POINT_B, SIDE_A, SIDE_B, FEATURE, PAST_END = 0, 1, 4, 7, 10, 13, 21, 29, 30
@@ -52,7 +56,10 @@ GAP, NORMAL, TANGENT, POINT_A, POINT_B, SIDE_A, SIDE_B, FEATURE, PAST_END = 0, 1
 Then come the number of the pair of features in contact, and the distance past the ends of the features [m].
 """
 SLIDE_MATRIX, TURN_MATRIX = 0, 4
-"""Offsets of the two curvature matrices of a surface from ``SIDE_A`` or ``SIDE_B``; each 2 x 2, row by row."""
+"""Offsets of the matrices in ``slide @ u = turn @ nu`` of a surface, from ``SIDE_A`` or ``SIDE_B``.
+
+A contact point that slides at u over the surface turns the normal by nu. Each matrix is 2 x 2, stored row by row.
+"""
 PAIR = 31
 """Floats of a geometry block that a kinematics writes."""
 GUARD = 8
@@ -72,7 +79,7 @@ LOAD = 9
 TRACTION, TRACTION_MOMENT = 0, 2
 """Offsets of force [N] and moment [N m] in the block of a traction law."""
 FORCE_AND_MOMENT = 5
-"""Number of floats of force and moment in the block of a traction law; the rates of its states follow."""
+"""Number of floats of force (2) and moment (3) in the block of a traction law. The rates of its states follow."""
 DELASSUS = 9
 """Floats of a block of the Delassus matrix, row by row."""
 PART_PLACE, PART_AXES, PART_SEMI, PART_POWERS, PART_BALL, PART_RADIUS = 0, 3, 12, 15, 17, 18

@@ -16,8 +16,9 @@ IMPULSES, SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES = 0, 3, 5, 6, 
 """Offsets in the floats that an event stores for one contact, from which a run can resume.
 
 ``IMPULSES``: normal and two tangential impulses [N s]. ``SLIP_DIRECTION``: unit vector, 2 floats. ``CLOSED_WITH``: rate
-at which the contact last closed [m/s]. ``FACING``: side, 1 or -1, from which anisotropic friction is opposed.
-``AVERAGED``: its mode after the time-stepping fallback. ``FEATURES``: its pair of features, if a search chose it.
+at which the contact last closed [m/s]. ``FACING``: 1 or -1, the sense of slip, forward or backward along the axis of an
+anisotropic friction law, whose friction ratio applies. ``AVERAGED``: mode of the contact after the time-stepping
+fallback. ``FEATURES``: pair of features of the contact, if a search chose it.
 """
 LISTED = FEATURES + CANDIDATE
 """Number of floats that an event stores for one contact."""

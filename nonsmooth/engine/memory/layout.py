@@ -1,4 +1,7 @@
-"""Constants that size the workspace, such as numbers of stages and accounts, and constants that Python needs too."""
+"""Constants that size the workspace, such as numbers of stages and accounts.
+
+Compiled code and the Python code that allocates and reads the workspace share them.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +10,17 @@ from nonsmooth.engine.memory import tableau
 PARTS = 48
 """Largest number of halvings of a step in search of a root. More would give fractions that differ by round-off only."""
 PART_END = 7
-"""Floats that a search for a root stores for a time within a step.
+"""Number of floats that a search for the closing of a gap stores for a time within a step.
 
-They are the fraction of the step, the gap, its rate, the distance past the features, and the offset of the witness.
+They are the fraction of the step [1], the gap [m], its rate [m/s], the distance past the ends of the features [m], and
+the offset of the witness point from the frame's origin [m], shape [3].
 """
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
-"""Positions of the energies integrated with the state: driven work, friction loss, gross exchange, work of loads."""
+"""Positions of the energies integrated with the state [J].
+
+They are the work of driven bodies, the loss by friction, the energy exchanged (integral of the absolute values of all
+powers, to which round-off is relative), and the work of loads.
+"""
 N_ACCOUNTS = 4
 """Number of energies that are integrated with the state."""
 BOOKED = 4
@@ -24,11 +32,15 @@ MOST_ENTRIES = 2**26
 N_STAGES = len(tableau.NODES)
 """Number of stages of both Runge-Kutta pairs."""
 LAST_STAGE = N_STAGES - 1
-"""Number of the last stage of both Runge-Kutta pairs: its derivative of the state is that at the end of the step."""
+"""Number of the last stage of both Runge-Kutta pairs. This stage evaluates the derivative at the end of the step."""
 NORMAL_ROW, FIRST_ROW, SECOND_ROW = 0, 1, 2
 """Rows of a contact: along the normal and along the two tangents."""
 IMPULSE, DEFORMATION, WORK, DISSIPATED, ENERGY, LOST = 0, 3, 4, 5, 6, 7
-"""Offsets of the numbers of a contact in the state of an impact: impulses, deformation, energies."""
+"""Offsets of the numbers of a contact in the state of an impact.
+
+They are those of three impulses [N s], deformation [m], work of the normal force, energy dissipated by friction, stored
+energy, and the part of it that is lost when the contact opens [J].
+"""
 IMPACT_STATE = 8
 """Number of floats of a contact in the state of an impact."""
 IMPACT_GUARDS = 3
@@ -36,4 +48,4 @@ IMPACT_GUARDS = 3
 SINGULAR = 1e-10
 """Size of a pivot or of a remaining column, relative to the largest one, up to which it is treated as zero."""
 NO_PAIR = -1
-"""Number of the pair of a contact if the overlap of its shapes is not checked."""
+"""Index of the checked pair of shapes of a contact, if the overlap of its shapes is not checked."""

@@ -19,7 +19,7 @@ class Limit(IntEnum):
     SAMPLES = 4
     """The buffer of samples is full at the end of the step."""
     FIRST_STEP = 5
-    """The first step after an event is short, not to miss the end of a bounce or the start of a compliant force."""
+    """The first step after an event is short, to resolve the end of a bounce or the start of a compliant force."""
     CLOSING_GAP = 6
     """The step ends shortly before a gap is expected to close."""
     SINGULARITY = 7
@@ -27,15 +27,15 @@ class Limit(IntEnum):
     STOPPING_SLIP = 8
     """The step ends shortly before a slip is expected to stop."""
     EVENT = 9
-    """The step ends at an event, or where bodies in ballistic motion are expected to touch."""
+    """The step ends at an event, or at the time at which bodies in ballistic motion are expected to touch."""
     CROWDED_EVENTS = 10
-    """The step was shortened to a quarter: an event in it, such as one of very many, could not be located."""
+    """The step was shortened to a quarter, because its first event could not be located, for example among many."""
     END = 11
     """The step ends at the end time of the run."""
     AVERAGING = 12
-    """The step ends where the time-stepping fallback with averaged forces ends, or its gaps would deviate too far."""
+    """The step ends with the time-stepping fallback, or was shortened because gaps deviate too far in the fallback."""
     TURN = 13
-    """A body in ballistic motion may turn by at most half a radian in a step, for which bounds of gaps hold."""
+    """The step ends as a body in ballistic motion has turned by half a radian: bounds of gaps hold up to this angle."""
 
 
 LIMITS = (
@@ -133,9 +133,10 @@ CAUSES = (
 NO_CONTACT = -1
 """Value of the index of a contact if there is no contact."""
 NO_RELEASE = Cause.START
-"""Value of the field ``release`` of a contact that no jump of its contact point has released.
+"""Value of the field ``release`` of a contact that keeps its constraints at a jump of its contact point.
 
-The field holds a :class:`Cause`. ``START`` is never a cause of release, so that it can mean "none".
+The jump may end the contact (``LIFT_OFF``) or its sticking (``STICK_TO_SLIP``): the field then holds this cause.
+``START`` is never such a cause.
 """
 
 
@@ -171,11 +172,11 @@ class ImpactOutcome(IntEnum):
     ENDLESS = 2
     """The integration was stopped: too many steps, or an interrupt."""
     INVALID = 3
-    """A law gave a number that is not finite, or not positive."""
+    """A law gave a number that is not finite, or its force is not positive, so that it has no scale."""
     MOVED = 4
-    """The impact continues in another window.
+    """The impact continues in another window, because a contact at the border of this window has become active.
 
-    A window is the part of the contacts that is integrated at a time. A contact at its border is no longer idle.
+    A window is the part of the contacts that is integrated at a time.
     """
 
 

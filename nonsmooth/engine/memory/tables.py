@@ -1,12 +1,15 @@
-"""Where the numbers of the field table are: scalars in one record, all floats in one array, all integers in another.
+"""Layout of the workspace: all scalars in one record, all floats in one array, all integers in another.
 
-Each scalar of a :class:`~nonsmooth.engine.memory.declare.Singleton` is an entry of the record. So is the offset of
-each array among the floats or integers. Entries are named by owner and field: ``"island.time"``, ``"contacts.gap"``.
-The sizes are functions of the counts of a system: another number of bodies or contacts gives other offsets, and no new
-compilation. Scalars that a plug-in's engine adds come behind all others.
+The record has an entry for each scalar of a :class:`~nonsmooth.engine.memory.declare.Singleton`, and for the offset of
+each declared array among the floats or integers. Entries are named by owner and field: ``"island.time"``,
+``"contacts.gap"``. The entries of parts that an engine declares itself come last.
 
-Within the floats and within the integers, arrays that outlive a step come first, so that a checkpoint copies one
-contiguous range of each. "Late" arrays, which most runs never write, come last, so that they take no memory.
+The size of an array is a function of the counts of a system. Another number of bodies or contacts changes the offsets,
+and needs no new compilation. The order of the arrays is:
+
+1. arrays that outlive a step, so that a checkpoint copies one piece of the floats and one of the integers;
+2. arrays that each step writes anew;
+3. late arrays, which most runs leave unused, and which cost no memory before they are written.
 """
 
 from __future__ import annotations
@@ -64,7 +67,14 @@ takes no memory (``Declaration.is_late``).
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Total entries of the arrays of floats, or of integers: arrays that outlive a step, all but late arrays, all."""
+    """Three numbers of entries of the workspace, of floats if ``of_floats``, else of integers.
+
+    1. Entries of the arrays that outlive a step.
+    2. These, and the entries of the arrays that every step writes anew.
+    3. Entries of all arrays, including the late ones, which most runs never write.
+
+    ``counts`` are the numbers of bodies, contacts and so on, on which the sizes depend.
+    """
     # cached, because systems that differ in their parameters only have the same lengths, and often follow each other
     return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
 
@@ -97,7 +107,7 @@ def _entries(owners: Iterable[type]) -> list[tuple[str, str]]:
 
 
 OWNERS: tuple[type, ...] = (*PARTS.values(), *RECORDS.values())
-"""All classes that declare numbers of the engine."""
+"""All classes that declare fields of the workspace; an engine may add its own."""
 FLOAT_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=True)
 INTEGER_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=False)
 SCALARS = np.dtype(_entries(OWNERS), align=True)

@@ -106,10 +106,10 @@ def support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
 
 @typeof_impl.register(Shared)
 def _type_of_shared(value: Shared, context: Any) -> Any:
-    """Numba type of a `Shared`: the type of the version for compiled code, so that compiled code can call it.
+    """Numba type of a `Shared`, a function that exists in a version for Python and in a version for compiled code.
 
-    If this version is a Python function, its type is that of a dispatcher, which compiles it at the first call. If it
-    is an intrinsic, numba knows its type.
+    The type is that of the version for compiled code. If this version is a Python function, the type is that of a
+    dispatcher, which compiles it at the first call. If this version is an intrinsic, numba knows its type.
     """
     half = globals()[value.compiled] if value.compiled else value.function
     return types.Dispatcher(_dispatcher(half)) if isfunction(half) else typing_context.resolve_value_type(half)
@@ -117,5 +117,5 @@ def _type_of_shared(value: Shared, context: Any) -> Any:
 
 @functools.cache
 def _dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's object for a function that compiled functions of plug-ins share. There is one for each function."""
+    """Numba's dispatcher of a function that compiled functions of plug-ins call. It is made once for each function."""
     return law_dispatcher(function)

@@ -48,12 +48,12 @@ class MachineCode(NamedTuple):
 
 
 def read(name: str) -> MachineCode | None:
-    """Machine code from the first undamaged file of a name that nobody else can have written.
+    """Read machine code from the first file of this name that is undamaged and that no other user could write.
 
-    Equal names must mean equal functions. The folders are tried in their order. Without a valid file the result is
-    None, and the function is compiled. A notice gives the reason if a file that exists is not used.
+    Equal names must mean equal functions. Without a valid file the result is None, and the caller compiles the
+    function. A notice gives the reason if a file that exists is not used.
     """
-    # folders() returns a pair; first all folders that may be read
+    # the first entry of folders(): the folders to read from, in the order in which they are tried
     for folder in folders()[0]:
         path = folder / _file_name(name)
         try:
@@ -78,7 +78,7 @@ def read(name: str) -> MachineCode | None:
 
 def write(name: str, machine_code: MachineCode) -> None:
     """Write machine code to the file of a name, unless no folder can be written to. An older file is replaced."""
-    # folders() returns a pair; second the only folder that is written to
+    # the second entry of folders(): the only folder to write to
     folder = folders()[1]
     if folder is None:
         say("no folder of yours to keep the compiled engine in: name one in XDG_CACHE_HOME")

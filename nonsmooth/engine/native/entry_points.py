@@ -38,7 +38,7 @@ from nonsmooth.notices import say
 from nonsmooth.progress import Bar, ProgressMeter, Quiet
 
 _POLL = 0.1
-"""Time between two counts of the functions that other processes have compiled [s]."""
+"""Time between two updates of the progress bar while other processes compile entry points [s]."""
 _STUB = "def stub_{name}({names}): return call(ws.model.entry_points[{index}], {names})"
 
 
@@ -95,12 +95,11 @@ def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], A
 
 
 def add_step(function: Callable[..., Any], own: type[Singleton], signature: str, fingerprint: Fingerprint) -> str:
-    """Register the step function of a plug-in's engine; returns its name for ``call_entry``.
+    """Register the step function of a plug-in's engine, and return the name by which ``call_entry`` calls it.
 
-    The first call of ``call_entry`` compiles it.
-
-    ``own`` is the part of the workspace that the engine adds. The machine code is kept on disk if ``fingerprint`` gives
-    a digest of the function; if not, each process compiles it.
+    The first ``call_entry`` with this name compiles the function. ``own`` is the part of the workspace that the engine
+    adds. The machine code is kept on disk if ``fingerprint`` gives a digest of the function; if not, each process
+    compiles the function.
     """
     name, typed = own_name(function), signature_of(signature, workspace_with(own))
     add_entry(name, EntryPoint(signature, lambda: _step_address(function, typed, signature, fingerprint)))
@@ -168,7 +167,7 @@ def compile_apart(names: tuple[str, ...]) -> None:
     is_terminal = sys.stderr is not None and sys.stderr.isatty()
     if not is_terminal:
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
-    # without a folder to write files to, other processes cannot hand over their code: this process compiles
+    # other processes return their machine code through files. Without a folder to write to, only this process compiles
     if folders()[1] is None:
         return
     # at most one for each processor that this process may use

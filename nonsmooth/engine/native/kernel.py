@@ -75,19 +75,23 @@ call_support: Callable[[Floats, int, float, float, float], tuple[float, float, f
 ``floats[place]`` is the address of ``support(direction, parameters, point)``; its parameters follow.
 """
 watch_address: Callable[[Callable[[float], float]], int] = _calls.watch_address
-"""Address of a Python function for :func:`call_watch`, valid until :func:`forget_watch`."""
+"""``watch_address(function)``: address of a C function that calls the interrupt check, a Python function.
+
+The engine calls it by :func:`call_watch`. The address is valid until :func:`forget_watch`.
+"""
 forget_watch: Callable[[int], None] = _calls.forget_watch
-"""Release an address of :func:`watch_address`."""
+"""``forget_watch(address)``: free the C function that :func:`watch_address` made. The address is then invalid."""
 jit: Callable[[Callable[..., Any]], Any] = _calls.jit
 """``jit(function)``: a plug-in's function, compiled on demand."""
 shared: Callable[[Callable[..., Any]], Any] = _calls.shared
-"""Decorator of a function that functions of plug-ins may call, compiled or not."""
+"""Decorator of a function that plug-in functions may call, in compiled code and in Python."""
 unshared: Callable[[Any], Any] = _calls.unshared
 """``unshared(value)``: the Python function behind the result of :func:`shared`; other values are unchanged."""
 address_of: Callable[[Callable[[], Callable[..., Any]], str, str], int] = _calls.address_of
-"""``address_of(make_shim, form, key)``: address of a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`.
+"""``address_of(make_shim, form, key)``: address of a shim, which is a C function that calls a plug-in's function.
 
-It is found on disk under its key, or made and compiled. Without a key nothing is kept on disk.
+``form`` is the name of its arguments in :data:`nonsmooth.engine.native.forms.FORMS`. The shim is loaded from the file
+of its ``key``. Without such a file, ``make_shim`` makes it, and it is compiled. An empty ``key`` means no file.
 """
 
 kernel: _Decorator

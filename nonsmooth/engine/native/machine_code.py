@@ -21,7 +21,7 @@ from nonsmooth.engine.native.loader import load
 from nonsmooth.engine.native.shared import Shared, shared, unshared
 
 __all__ = ["shared", "unshared"]
-"""Names from another module that :mod:`nonsmooth.engine.native.kernel` reads from this one."""
+"""Names that are imported to be passed on: :mod:`nonsmooth.engine.native.kernel` takes them from this module."""
 
 
 class EntryPoint(NamedTuple):
@@ -40,7 +40,7 @@ class EntryPoint(NamedTuple):
 
 
 ENTRIES: dict[str, EntryPoint] = {}
-"""Steps of engines by name; entry points, too, as soon as :func:`entry_addresses` has been called."""
+"""Steps of engines by name and, after the first call of :func:`entry_addresses`, all entry points by name."""
 _callables: dict[str, Callable[..., Any]] = {}
 """C functions by name, of entry points and of steps of engines; each is stored at its first call from Python."""
 
@@ -73,9 +73,10 @@ def entry_addresses() -> tuple[int, ...]:
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
-    """Result of an entry point, or of the step of an engine, called on the memory of one trajectory, which it changes.
+    """Call an entry point, or the step of an engine, on the workspace of one trajectory, and return its result.
 
-    Other threads of Python run meanwhile, as C functions do not hold the interpreter's lock.
+    The call changes ``memory``, which is this workspace. Other threads of Python run meanwhile, because C functions do
+    not hold the interpreter's lock.
 
     Raises
     ------
@@ -86,9 +87,10 @@ def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
 
 
 def _callable(name: str) -> Callable[..., Any]:
-    """An entry point, or the step of an engine, as a function that Python can call. It is made at the first call.
+    """Python function that calls an entry point, or the step of an engine. It is made once for each name.
 
-    Its arguments are three addresses, of the scalars, the floats and the integers of a workspace, then any numbers.
+    Its first three arguments are the addresses of the scalars, the floats and the integers of a workspace. The numbers
+    that the entry point takes besides the workspace follow.
     """
     if name not in _callables:
         _callables[name] = prototype_of(name)(known(ENTRIES, name).address())
@@ -123,7 +125,8 @@ def address_of(make_shim: Callable[[], Callable[..., Any]], form: str, key: str)
 def jit(function: Callable[..., Any]) -> Any:
     """Numba's dispatcher for a plug-in's function.
 
-    The function is compiled together with a shim that calls it: a C function that the engine calls by its address.
+    The machine code of the function becomes part of a shim, a C function that the engine calls by its address. So the
+    function is compiled when its shim is compiled.
     """
     return importlib.import_module("nonsmooth.engine.native.compiler").law_dispatcher(function)
 
@@ -151,7 +154,7 @@ def forget_watch(address: int) -> None:
 
 
 def _moved(floats: Any, offset: int) -> Any:
-    """The floats from an offset on: the version of :func:`at` that Python calls."""
+    """The floats from an offset on. Python calls this version of :func:`at`, compiled code another version."""
     return floats[offset:]
 
 

@@ -95,7 +95,7 @@ try:
     from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 
     OF_PASSES = {
-        # optimisation of a module, its linking, and its machine code
+        # names by which the passes optimise a module, link it, and make its machine code
         JITCodeLibrary: (
             *("_optimize_functions", "_optimize_final_module", "_finalize_final_module", "_finalized"),
             *("add_ir_module", "codegen", "has_dynamic_globals", "_get_compiled_object"),

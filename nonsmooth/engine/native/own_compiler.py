@@ -41,7 +41,8 @@ def entry_address(function: Callable[..., Any], typed: Any, signature: str, key:
     ``typed`` is the numba signature of the function, and ``signature`` the same types as text.  The machine code is
     written to a file whose name has the ``key``.  With an empty key no file is written.
     """
-    # compile each kernel for its declared types first; otherwise numba would compile it for the types of a call
+    # compile each kernel for its declared types first; otherwise numba would compile it for the argument types of each
+    # call, and so perhaps several times
     for kernel in callees_of(function):
         kernel.compile()
     return _address(CFunction(function, typed, EntryPasses, **NO_ALLOCATION), signature, key)
@@ -56,7 +57,9 @@ def shim_address(function: Callable[..., Any], signature: str, key: str) -> int:
 
 
 def _address(function: CFunction, signature: str, key: str) -> int:
-    """Compile a C function, and write its machine code to the file of ``key``, if the key is not empty. Its address.
+    """Compile a C function, write its machine code to the file of ``key``, and return its address.
+
+    With an empty key no file is written.
 
     The address is valid until the process ends, because ``_alive`` refers to the function: numba would free the code of
     a function without references.

@@ -288,14 +288,16 @@ class CFunction(private.CFunc):
         return compiled
 
     def machine_code(self, signature: str) -> MachineCode | None:
-        """The compiled code as it is written to a file; ``signature`` holds the types of the function as text.
+        """The compiled code in the form in which it is kept in a file; None if no other process could use it.
 
-        None if the code has addresses of objects in this process, which are not valid in another process.
+        Another process cannot use code that contains addresses of objects in this process. ``signature`` holds the
+        types of the function as text.
         """
         if self.library.has_dynamic_globals:
             return None
         module = self.library._final_module
         declared = [one.name for one in (*module.functions, *module.global_variables) if one.is_declaration]
-        # LLVM replaces its own functions by instructions or by those of the C library, which each process has
+        # functions named llvm.* need no address: LLVM turns them into instructions, or into calls of the C library,
+        # which each process has
         externals = tuple(name for name in declared if not name.startswith("llvm."))
         return MachineCode(self.native_name, signature, externals, self.library._get_compiled_object())

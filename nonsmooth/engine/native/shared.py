@@ -43,7 +43,7 @@ def unshared(value: Any) -> Any:
     """
     if isinstance(value, Shared):
         return value.function
-    # a kernel is numba's object for the function. Without numba there are no kernels
+    # if numba is not imported, no kernel has been made, so the value is no kernel
     if "numba" not in sys.modules:
         return value
     names = importlib.import_module("nonsmooth.engine.native.numba_names")

@@ -3,7 +3,7 @@
 ``"f8(ws, ContactRecord)"`` takes the workspace and a contact, and returns a float. All names are listed in
 :mod:`nonsmooth.engine.native.kernel`. No name stands for an array: kernels reach arrays through the workspace.
 
-``_replace`` of a named tuple works as in Python. Numba lacks it.
+The module also adds ``_replace`` of named tuples to the compiled code of kernels, because numba does not support it.
 """
 
 from __future__ import annotations
@@ -60,7 +60,8 @@ def result(kind: Any) -> Any:
 def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
     """Numba signature of a kernel from a text as ``"f8(ws, ContactRecord)"``: result, then arguments in parentheses.
 
-    ``workspace`` is the type of ``ws``, which an engine with numbers of its own replaces (:func:`workspace_with`).
+    ``workspace`` is the numba type of ``ws``. An engine that adds a part to the workspace gives its own type, made by
+    :func:`workspace_with`.
     """
     returned, _, arguments = text.partition("(")
     # a kernel without arguments has an empty text between the parentheses

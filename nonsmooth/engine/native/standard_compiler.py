@@ -22,7 +22,7 @@ from nonsmooth.engine.native.signatures import signature_of
 from nonsmooth.notices import say
 
 KEEPS_FILES = False
-"""False: another process cannot compile entry points for this one, because numba has files of its own."""
+"""False: compiled entry points are kept in files of numba, not of the engine, so no other process compiles them."""
 _OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _alive: list[Any] = []
 """All C functions: their code must outlive the last call."""

@@ -9,8 +9,8 @@ from nonsmooth.engine.native.kernel import kernel
 def power(base: int, exponent: int) -> int:
     """Power of an integer; 1 for an exponent of 0 or less.
 
-    It replaces the operator ``**``, which may raise an error in code that numba compiles.  Machine code that may raise
-    an error needs functions of numba, so that numba would be imported whenever a program starts.
+    It replaces the operator ``**``, because numba's version of this operator contains code that raises an error.
+    Machine code that can raise an error needs functions of numba.  So every start of a program would import numba.
     """
     result = 1
     for _ in range(exponent):

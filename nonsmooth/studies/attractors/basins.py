@@ -65,7 +65,8 @@ def basin_fractions(attractor: xarray.DataArray, parameter: str, bins: int = 10)
     parameter : str
         A parameter that the study varies.
     bins : int
-        Number of equal intervals of the range, for values drawn at random.  In a grid, each value is a part.
+        Number of equal intervals of the parameter's range, into which values drawn at random are sorted.  In a grid,
+        the share is computed for each value.
 
     Returns
     -------
@@ -135,9 +136,10 @@ def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
     """Return the uncertainty exponent of the boundaries between all attractors of a grid of starts.
 
     A start is uncertain at a distance eps if a neighbour at this distance, along an axis of the grid, leads to another
-    attractor.  Distances are 1, 2, 4 ... steps of the grid, up to an eighth of its shortest side.  Only starts with all
-    neighbours, which all reached their end, are used.  The exponent is the slope of ln f over ln eps by least squares,
-    where f is the share of uncertain starts, for f up to a half.
+    attractor.  Distances are 1, 2, 4 ... steps of the grid, up to an eighth of its shortest side.  A start is used if
+    it has neighbours at all distances, and its run and the runs of these neighbours reached their end.  With f as the
+    share of uncertain starts, the exponent is the slope of ln f over ln eps by least squares.  The fit uses only
+    distances with f up to 1/2.
 
     Parameters
     ----------
@@ -192,10 +194,11 @@ def _check_even(attractor: xarray.DataArray) -> None:
 
 
 def _neighbours(labels: NDArray[np.int64], step: int, margin: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return two masks of the starts at least ``margin`` from the edges of the grid.
+    """Compare each start at least ``margin`` from the edges of a grid with its neighbours; return two masks.
 
-    The first mask is True if all neighbours ``step`` away lead to an attractor. The second mask is True if one of them
-    leads to another attractor.
+    The neighbours of a start are ``step`` grid steps away along each axis, in both directions.  The first mask is True
+    if the start and all its neighbours lead to known attractors.  The second mask is True if at least one neighbour
+    leads to another attractor than the start.
     """
     inner = tuple(slice(margin, n - margin) for n in labels.shape)
     known, other = labels[inner] >= 0, np.zeros(labels[inner].shape, bool)

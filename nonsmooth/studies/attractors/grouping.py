@@ -21,8 +21,10 @@ if TYPE_CHECKING:
     import xarray
 
 NEAR = 10.0
-"""Tolerance between points of two runs, relative to the tolerance between points of one run.  A run that still settles
-moves less in a period than its distance from the attractor, so the tolerance between runs is larger."""
+"""Tolerance between points of two runs on one attractor, relative to the tolerance between points of one run.
+
+A run that settles slowly repeats within the tolerance of one run, but is farther than this from its attractor.
+"""
 
 
 def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | None = None) -> xarray.Dataset:
@@ -145,9 +147,10 @@ def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Alon
     Raises
     ------
     InvalidInput
-        If `tolerances` is empty, or a tolerance or number of bins is not positive.
+        If `tolerances` is empty, or a tolerance, or ``along.bins``, is not positive.
     UnknownName
-        If the study has no record of that name with one value per run, or does not vary the parameter of `along`.
+        If a name in `tolerances` is not a record with one value per run, or the study does not vary the parameter of
+        `along`.
     """
     known = records_of(study)
     if not tolerances:

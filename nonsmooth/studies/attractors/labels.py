@@ -46,7 +46,7 @@ class Group:
 
 
 Grouping = Callable[[Integers], list[Group]]
-"""Function from the numbers of runs, shape [n_runs], to a group for each of their attractors."""
+"""Function that sorts runs by attractor: from the numbers of the runs, shape [n_runs], to one group per attractor."""
 
 
 @final
@@ -62,7 +62,8 @@ class Along:
         Largest Hausdorff distance between the points of an attractor at two successive values.  Coordinates count in
         units of their scales, features in units of their tolerances.
     bins : int
-        Number of equal intervals of the range, for values drawn at random.  In a grid, each value is a part.
+        Number of equal intervals of the parameter's range, into which values drawn at random are sorted.  In a grid,
+        attractors are matched from each value to the next.
     """
 
     parameter: str
@@ -83,7 +84,8 @@ def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> l
     Parameters
     ----------
     known, now : sequence of array
-        Points of each attractor found before, and of each found at this value, shape [n_points, n_coordinates].
+        Points of each attractor found at earlier values of the parameter, and of each attractor found at its present
+        value, shape [n_points, n_coordinates].
     tolerance : float
         Largest Hausdorff distance of a pair.
 
@@ -105,9 +107,10 @@ def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> l
 
 
 def joined(parts: Sequence[Sequence[Group]], tolerance: float) -> list[Group]:
-    """Return the attractors at all values of a parameter; matched attractors become one group.
+    """Return the attractors at all values of a parameter; attractors that match from value to value become one group.
 
-    An attractor that is absent at some values is matched by its points at the last value at which it was found.
+    An attractor may vanish and appear again.  So each new attractor is compared with the points of every known
+    attractor at the last value at which this attractor was found.
 
     Parameters
     ----------
@@ -218,7 +221,8 @@ class RunsByValue:
 def runs_by_value(runs: xarray.DataArray, parameter: str, bins: int) -> RunsByValue:
     """Split the runs by a parameter.
 
-    On a grid, each value is a part.  Values drawn at random are split into ``bins`` equal intervals of their range.
+    In a grid, the runs of each value are one part.  Values drawn at random are sorted into ``bins`` equal intervals of
+    their range; the runs of each interval are one part.
 
     Raises
     ------

@@ -56,7 +56,7 @@ def hausdorff(one: Array, other: Array) -> float:
 
 
 SPACING = 0.9
-"""The spacing of a set is this quantile of the distances of its points from their nearest neighbours."""
+"""The spacing of a set of points is this quantile of the distances of the points from their nearest neighbours."""
 SHARE = 0.5
 """Two sets overlap if at least this share of the points of each is within the spacing of the other; two samples of one
 attractor have a share of about 0.9."""
@@ -65,8 +65,9 @@ attractor have a share of about 0.9."""
 def overlapping(sets: Array) -> list[Integers]:
     """Return groups of sets that overlap, each as the numbers of its sets; a set that overlaps no other has no group.
 
-    Each set joins the first set that it overlaps.  Then a group joins a larger group if :data:`SHARE` of its points is
-    within the spacing of the larger group, because a sample may cover only a part of an attractor.
+    Each set joins the first earlier set that it overlaps (:data:`SHARE`).  Then a smaller group joins a larger group if
+    at least :data:`SHARE` of its points is within the spacing (:data:`SPACING`) of the first set of the larger group.
+    The reason is that a sample may cover only a part of an attractor.
 
     Parameters
     ----------
@@ -106,7 +107,10 @@ def _within(points: Array, others: Array, spacing: float) -> bool:
 
 
 def _spacing(points: Array) -> float:
-    """Return the spacing of a set of points: the quantile SPACING of the distances between nearest neighbours."""
+    """Return the quantile :data:`SPACING` of the distances, in the maximum norm, of points from their nearest points.
+
+    The distance is in the units of ``points``, which are scales of the coordinates.
+    """
     from scipy.spatial import cKDTree
 
     return float(np.quantile(cKDTree(points).query(points, k=2, p=np.inf)[0][:, 1], SPACING))

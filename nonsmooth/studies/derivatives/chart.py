@@ -1,4 +1,4 @@
-"""Chart: directions in which a state can be moved while quaternions stay unit and closed contacts stay closed."""
+"""Chart: directions in which a state can change while quaternions stay unit and closed contacts stay closed."""
 
 from __future__ import annotations
 
@@ -29,13 +29,19 @@ from nonsmooth.types import Array
 _PROBE = 1e-6
 """Step of the central differences of gaps and gap rates, in units of the scales of the bodies."""
 _DEPENDS = 1e-6
-"""Below this part of the largest derivative, a derivative of a closed contact is taken as zero.  Below this part of its
-length, the component of a direction that is independent of other directions is taken as zero."""
+"""Relative size of a number that counts as zero, because derivatives by differences have errors.
+
+A derivative of a gap or gap rate is zero if it is below this part of the largest derivative.  A direction depends on
+other directions if its component independent of them is below this part of its length.
+"""
 _EARLIER = 0.1
-"""The first direction whose derivative is at least this part of the largest derivative is eliminated.  Neighbouring
-states then eliminate the same directions."""
+"""Least derivative, relative to the largest, of a direction that a closed contact eliminates.
+
+The first direction with such a derivative is eliminated, not the one with the largest derivative.  So neighbouring
+states eliminate the same directions.
+"""
 _MOST = 20
-"""Largest number of steps of Newton's method."""
+"""Largest number of steps of Newton's method that make a state fulfil the constraints of its closed contacts."""
 
 
 @final
@@ -169,7 +175,11 @@ class Chart:
         return self.held_in(model, self._stepped(state, self.basis @ way))
 
     def held_in(self, model: Model, state: State) -> State:
-        """Return a state moved along the eliminated directions until its closed contacts are closed, by Newton."""
+        """Return a state corrected by Newton's method, so that its closed contacts fulfil their constraints.
+
+        Only the coordinates and velocities along the eliminated directions (``following``) change.  The gaps and gap
+        rates of closed contacts, and the slip velocities of sticking contacts, become zero up to round-off.
+        """
         if not self.following.size:
             return state
         left = self.contacts.residual(model, state)

@@ -24,13 +24,15 @@ FORWARD: Stencil = ((0, -25.0 / 12.0), (1, 4.0), (2, -3.0), (3, 4.0 / 3.0), (4, 
 BACKWARD: Stencil = tuple((-i, -weight) for i, weight in FORWARD)
 """Backward difference of fourth order: all changes are negative or zero."""
 SECOND: Stencil = ((-1, -0.5), (1, 0.5))
-"""Central difference of second order: two runs instead of four."""
+"""Central difference of second order.  It needs two runs, a central difference of fourth order needs four."""
 _LEAST = 2e-7
 """Smallest step, relative to the largest step.  From a largest step of 5e-3 it is 1e-9.  Rounding of 1e-14 then leaves
 five correct digits of a derivative of 1."""
 _REFUSED = 0.25
-"""Factor that reduces the step if the runs with this step have other events than the run without a change.  Ten such
-reductions span six decades."""
+"""Factor that reduces the step if a run with a changed argument has other events than the run without a change.
+
+Ten such reductions span six decades of steps.
+"""
 _WORSE = 2.0
 """Factor by which the error must grow to stop the search: a smaller growth may be scatter (Ridders)."""
 _SCATTER = 3.0
@@ -99,7 +101,8 @@ def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil =
         return found
 
     (first, _), *others = stencil
-    # weights add up to 0: subtracting the first value keeps coordinates that do not change free of round-off
+    # subtract the first value from all others: the weights add up to 0, so the sum stays the same, and the derivative
+    # of a coordinate that does not change is exactly 0
     origin = value(first)
     total = np.zeros_like(origin)
     for offset, weight in others:
@@ -144,7 +147,7 @@ def steady(found_with: Callable[[float], Array], steps: Sequence[float]) -> tupl
 
 
 def derivative(sampled: Sampled, first: float, expected: Signature, enough: float = 0.0) -> Derivative:
-    """Return the derivative of a map at 0 with its error, by the method of Ridders (1982).
+    """Return the derivative of a map at a change of 0, its error and its step, by the method of Ridders (1982).
 
     The error of a central difference is a series in the square of the step.  Neville's scheme extrapolates differences
     with halved steps to a step of 0.  Each extrapolation is compared with the two values from which it is computed.
@@ -154,9 +157,9 @@ def derivative(sampled: Sampled, first: float, expected: Signature, enough: floa
     Parameters
     ----------
     sampled : callable
-        The map.
+        ``sampled(change)`` returns the value of the map after a change of its argument, and the events of the run.
     first : float
-        The largest step, in the unit of the changes.
+        The largest change of the argument, in the unit of the argument.
     expected : Signature
         Events of the run without a change.
     enough : float
@@ -206,6 +209,10 @@ def _extrapolated(before: list[Array], difference: Array) -> list[Array]:
 
 
 def _apart(row: list[Array], before: list[Array], i: int) -> float:
-    """Return the largest difference of an extrapolation from the two values from which it is computed."""
+    """Return the estimated error of the extrapolated derivative ``row[i]``, in the unit of the derivative.
+
+    It is the largest difference of ``row[i]`` from the two values from which it is computed (Ridders).  ``row`` and
+    ``before`` are the rows of Neville's scheme for the present step and the previous step.
+    """
     parents = np.array([row[i - 1], before[i - 1]])
     return float(np.max(np.abs(row[i] - parents), initial=0.0))

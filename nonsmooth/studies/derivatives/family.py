@@ -50,8 +50,9 @@ class Family:
     def of(cls, what: Varied, engine: Engine = EXACT) -> Family:
         """Return the family of a scenario or a system; a family is returned unchanged.
 
-        The parameters of a scenario are those that have a number.  The parameters of a system are all numbers of the
-        file that :func:`save_system` would write, by dotted key: "bodies.ball.radius", "laws.coulomb.friction".
+        The family of a scenario varies the parameters whose values are finite numbers.  The family of a system varies
+        all numbers of the file that :func:`save_system` would write.  Their names are the dotted keys of this file:
+        "bodies.ball.radius", "laws.coulomb.friction".
 
         Raises
         ------

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Observe = Callable[[State], Any]
 _STEP = 1e-5
-"""Step of the differences of least squares, relative to the range of the parameter."""
+"""Step of the differences that give the derivatives of the residuals, relative to the range of the parameter."""
 _ROUND_OFF = 1e-7
 """A combination of parameters is taken as without effect if its effect on the observables is below this part of the
 largest effect: runs have errors of 1e-12, and differences divide them by a step of 1e-5."""

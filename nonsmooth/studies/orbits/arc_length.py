@@ -22,13 +22,14 @@ from nonsmooth.types import Array
 _CLOSE = 1e-11
 """Largest residual of an orbit on the branch, relative to the scales of the coordinates."""
 _CORRECTIONS = 12
-"""Largest number of steps of Newton's method."""
+"""Largest number of steps of Newton's method that correct a predicted orbit; then a smaller step of arc length is
+tried."""
 _FIRST = 1e-3
 """Step with which the search for derivatives of the period map by the parameter begins, relative to the largest
 absolute value in the range of the parameter."""
 _ENOUGH = 1e-4
-"""Relative error of these derivatives at which the search ends: the derivatives only direct the continuation's
-steps."""
+"""Relative error at which the search for derivatives of the period map by the parameter ends: these derivatives only
+direct the steps of the continuation."""
 
 
 class OutOfRange(Exception):
@@ -45,8 +46,8 @@ class ContinuationPoint:
     orbit : Orbit
         The orbit.
     by : array
-        Derivative of the state after a period by the parameter, with the parameter in units of its range, along the
-        directions of the orbit's chart (``orbit.map.chart``), shape [m].
+        Derivative of the state after one period with respect to the parameter divided by its range, shape [m].  Its
+        components belong to the directions of ``orbit.map.chart``.
     step : float
         Step of the finite difference that gives this derivative, in the unit of the parameter.
     tangent : array
@@ -89,9 +90,9 @@ class Path:
     ) -> ContinuationPoint:
         """Return the continuation point of a state at a value of the parameter.
 
-        The period map is linearised about the state.  The tangent has the direction of the tangent of ``before``.  With
-        ``is_quick``, derivatives use the step sizes of ``before`` and get no error estimates, which is enough for a
-        step of Newton's method.
+        ``along`` is the arc length of the branch up to the point [1].  ``before`` is a point of the branch nearby, None
+        at its first point: the new tangent has the sense of the tangent of ``before``.  With ``is_quick``, derivatives
+        use the step sizes of ``before`` and get no error estimates, which is enough for a step of Newton's method.
 
         Raises
         ------
@@ -119,9 +120,9 @@ class Path:
         return ContinuationPoint(Orbit(family, state, section, self.within, residual, found), by, step, tangent, along)
 
     def _by(self, changed: Sampled, expected: Signature, near: ContinuationPoint | None) -> tuple[Array, float]:
-        """Return the derivative of the period map by the parameter, and the step of its finite difference.
+        """Return the derivative of the period map with respect to the parameter divided by its range, and a step.
 
-        The derivative counts the parameter in units of its range.  The step is in the unit of the parameter.
+        The step is that of the finite difference, in the unit of the parameter.
         """
         if near is not None:
             with contextlib.suppress(OrderOfEvents, InvalidInput):
@@ -131,7 +132,9 @@ class Path:
         return self.range * found.value, found.step
 
     def corrected(self, point: ContinuationPoint, step: float) -> ContinuationPoint:
-        """Return the point on the branch whose projection on the tangent of ``point`` is ``step``, by Newton's method.
+        """Return the orbit of the branch at a ``step`` from ``point``, by Newton's method (corrector).
+
+        The step is the component, along the tangent of ``point``, of the way from ``point`` to the new orbit [1].
 
         Raises
         ------

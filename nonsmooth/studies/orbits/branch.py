@@ -21,21 +21,28 @@ from nonsmooth.studies.orbits.sections import Section
 from nonsmooth.types import Array
 
 _FIRST, _LARGEST, _SMALLEST = 1e-2, 5e-2, 1e-6
-"""First, largest and smallest step of the arc length; a step of 1 changes the parameter by its range, or a coordinate
-by its scale."""
+"""First, largest and smallest step of arc length, in units in which the range of the parameter and the scales of the
+coordinates are 1."""
 _MOST = 2000
 """Largest number of steps in each direction, by default."""
 _GROWS = 1.3
-"""Factor by which the step grows after a success."""
+"""Factor by which the step of arc length grows after each orbit that is found."""
 _SAME = 1e-6
-"""Largest difference of two motions that begin a period apart, relative to the scales of the coordinates: errors of
-runs are smaller."""
+"""Two motions from one state, which begin a period apart, are equal if they differ by at most this.
+
+It is relative to the scales of the coordinates, and larger than the errors of runs.
+"""
 _PARTS = tuple(0.5**i for i in range(11))
-"""Parts of the distance from the orbit's parameter to an end of the range.  The period is tested at the farthest of
-these values at which a motion can begin.  Ten halvings come within a thousandth of the distance to the orbit."""
+"""Parts of the distance from the orbit's parameter to an end of the range, at which the period is tested.
+
+The test begins with the farthest value, and ends at the first value at which a motion can begin.  The last value, after
+ten halvings, is a thousandth of the distance from the orbit.
+"""
 _KNOWN = 1e-9
-"""Relative error of the parameter predicted for a change of events.  Below it, the branch ends at the predicted value,
-and the step is not halved further."""
+"""Largest error, relative to the range, of a predicted parameter at which events change, to end the branch there.
+
+If the error is larger, the step of arc length is halved further.
+"""
 
 
 @final
@@ -151,10 +158,10 @@ _PERIOD = "continuation: period"
 
 
 def _check_period(path: Path, orbit: Orbit) -> None:
-    """Check, near both ends of the range, that the period of the orbit is still a period of the drive.
+    """Check, near both ends of the range of the parameter, that the period of the orbit is a period of the drive.
 
-    A motion that begins a period later must then be the same motion.  If no motion can begin at an end, because bodies
-    would overlap, values nearer to the parameter of the orbit are tested.
+    Two motions from one state, which begin one period apart, must then be equal.  If no motion can begin at an end of
+    the range, because bodies would overlap, values nearer to the parameter of the orbit are tested.
 
     Raises
     ------
@@ -175,9 +182,10 @@ def _check_period(path: Path, orbit: Orbit) -> None:
 
 
 def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
-    """Return the largest difference of two motions from one state that begin a period apart; None if one cannot run.
+    """Return the difference, after one period, of two motions from one state that begin one period apart.
 
-    The difference is relative to the scales of the coordinates.
+    It is zero if the period is a period of the drive.  It is the largest difference of a coordinate, relative to the
+    scale of the coordinate.  It is None if one of the motions cannot run.
     """
     model, section, start = path.family.model(**{path.name: value}), path.section(value), orbit.state
     try:

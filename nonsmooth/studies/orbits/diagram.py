@@ -1,6 +1,6 @@
-"""Bifurcation diagrams: a coordinate once a period, over a parameter, after the motion has settled.
+"""Bifurcation diagrams: a coordinate, sampled once per period after the motion has settled, over a parameter.
 
-In a hysteresis diagram the values rise, then fall, and each run continues the run before.
+In a hysteresis diagram the parameter rises, then falls, and each run continues the motion of the previous run.
 """
 
 from __future__ import annotations
@@ -301,8 +301,9 @@ def hysteresis(
     """Sample a motion once a period for rising, then falling values of a parameter.
 
     At the first value in each direction, and after a failed run, the system starts as it is placed.  At each other
-    value the motion continues from a state at the value before, with as few closed contacts as possible.  Closed
-    contacts stay closed.  Bodies that would overlap at the new value are placed in contact.
+    value the run continues the motion at the previous value.  It starts from the state, in the last period of this
+    motion, that has the fewest closed contacts.  These contacts are also closed at the new value.  Bodies that would
+    overlap at the new value are placed in contact.
 
     Parameters
     ----------
@@ -323,7 +324,7 @@ def hysteresis(
     family = Family.of(what, EventDriven())
     blank = sampling.diagram(family, name, row)
     last = dict[int, tuple[Model, State, float]]()
-    """Model, last state and period of the run before, by the index of its value."""
+    """Model, last state and period of the previous run, by the index of its parameter value in ``row``."""
 
     def points_of(model: Model, value: float) -> Array:
         i, lasts = int(np.searchsorted(row, value)), sampling.lasts(value)
@@ -343,7 +344,10 @@ def hysteresis(
 
 
 def _carried(model: Model, period: float, last: Model, state: State, last_period: float) -> State:
-    """Return the state from which a model continues a motion of the model ``last``, at the same phase of the drive."""
+    """Return the state from which ``model`` continues a motion of ``last``, the model of another parameter value.
+
+    The phase of the drive is the same.  The closed contacts fulfil the constraints of ``model``.
+    """
     there = clearest_state(last, state, last_period)
     there = replace(there, time=there.time % last_period * (period / last_period))
     # the new model may move bodies into each other, for example if a plate vibrates farther: close these open contacts

@@ -24,10 +24,11 @@ contact's gap."""
 _CLOSED, _COLLIDES = 1, 2
 """Bits of the mode code of a contact: closed, and colliding."""
 _POINTS = 4
-"""Largest number of orbits from which the zero of a distance is extrapolated."""
+"""Largest number of last orbits from which the parameter of grazing, at which a distance is zero, is extrapolated: they
+give a cubic polynomial."""
 _GROWS = 1.5
-"""Least ratio of a distance to grazing to the next smaller one that is used with it to extrapolate to zero: nearly
-equal distances would amplify their errors."""
+"""Least ratio of the distances to grazing of two orbits that are used together to extrapolate the parameter of grazing:
+nearly equal distances would amplify their errors."""
 _LITTLE = 1e-2
 """Largest distance to grazing, relative to its scale, from which the parameter of grazing is extrapolated: a few orbits
 predict it well only from nearby."""
@@ -57,7 +58,7 @@ class GrazingDistance:
 
 
 def grazing_distance(orbit: Orbit) -> GrazingDistance:
-    """Return the distances of an orbit to a change of its events, by one more run."""
+    """Simulate one period of an orbit, and return its distances to grazing and to simultaneous impacts."""
     model, end, state = orbit.family.model(), orbit.map.end.state.time, orbit.state
     approach, gap, impacts = [np.inf], [np.inf], list[tuple[float, int]]()
     fastest = widest = 0.0
@@ -119,8 +120,8 @@ def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistanc
         which = _graded(left)
         if left[-1] > _LITTLE * scale or len(which) < 2:
             continue
-        # interpolate the parameter over the distance: the distance may vanish like a square root of the parameter, so
-        # its slope over the parameter may be infinite
+        # interpolate the parameter as a function of the distance. The inverse function, the distance as a function of
+        # the parameter, may vanish like a square root, with an infinite slope
         there = np.column_stack([along, values])
         beyond, value = BarycentricInterpolator(left[which], there[which])(0.0).tolist()
         fewer = BarycentricInterpolator(left[which[:-1]], values[which[:-1]])(0.0) if len(which) > 2 else np.inf
@@ -132,10 +133,11 @@ def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistanc
 
 
 def _graded(left: Array) -> list[int]:
-    """Return the indices of the distances from which a zero is extrapolated, the last orbit first.
+    """Return the indices of the orbits from whose distances the parameter of grazing is extrapolated.
 
-    ``left`` are the distances to grazing of successive orbits.  Going back, they must increase, and each chosen
-    distance is at least :data:`_GROWS` times the one before it.  At most :data:`_POINTS` are chosen.
+    ``left`` are the distances to grazing of successive orbits, shape [n].  The choice begins with the last orbit and
+    goes backwards.  It ends when a distance does not increase, or after :data:`_POINTS` orbits.  Each chosen distance
+    is at least :data:`_GROWS` times the previously chosen distance.
     """
     if not np.isfinite(left[-1]):
         return []
@@ -151,7 +153,7 @@ def _graded(left: Array) -> list[int]:
 
 
 def _least_gaps(run: Solution, times: Array, motion: History) -> list[float]:
-    """Return the least gaps [m] of open contacts that approach and separate in a run without an impact."""
+    """Return the local minima in time of the gaps of open contacts [m]: bodies approach, then separate, no impact."""
     from scipy.optimize import brentq
 
     events = run.events

@@ -1,4 +1,7 @@
-"""Itinerary diagrams: events over the phase of a period, in a row for each value of a parameter or period of a run."""
+"""Itinerary diagrams: the phase of each event in its period.
+
+A diagram has one row for each value of a parameter, or, for a single run, one row for each of its periods.
+"""
 
 from __future__ import annotations
 
@@ -42,8 +45,8 @@ class Itinerary:
     Attributes
     ----------
     at : array
-        Times of the events, in periods since the beginning of the first period, shape [n].  A negative first time is
-        the time of the last event before the first period.
+        Times of the events, in periods since the start of the first of these periods, shape [n].  If ``at[0]`` is
+        negative, it is the time of the last event before this start.
     events : Signature
         Cause and contact of each event.
     """
@@ -182,9 +185,9 @@ def itinerary_of_run(model: Model, run: Solution, period: float) -> ItineraryDia
 
 
 def _row(run: Solution, period: float, first: int, keep: int) -> Itinerary:
-    """Return the events of ``keep`` periods of a run from period ``first`` on, after the last event before them.
+    """Return the events of ``keep`` periods of a run, from period ``first`` on, and the last event before them.
 
-    A diagram colours the beginning of its row by that earlier event.
+    This earlier event comes first.  It gives the colour at the start of the row in a diagram.
     """
     times, events = events_of(run)
     at = times / period - first

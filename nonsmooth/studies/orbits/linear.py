@@ -33,14 +33,14 @@ _STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
 """Steps of the one-sided derivatives at a non-differentiable point, relative to the scales of the coordinates.  The
 derivative that changes least from one step to the next is used."""
 _FIRST = 5e-3
-"""Largest step of derivatives, relative to the scales of the coordinates: the error series of a smooth motion converges
-within it."""
+"""Largest step of the finite differences, relative to the scales of the coordinates: for smooth motions, the error
+series of the differences converges up to this step."""
 
 
 @final
 @dataclass(frozen=True)
 class NonDifferentiablePoint:
-    """A direction in which a map has no derivative: events have another order if the state changes either way.
+    """A direction in which a map has no derivative: a small decrease and a small increase give other orders of events.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class NonDifferentiablePoint:
 @final
 @dataclass(frozen=True)
 class Linear:
-    """A map about a state, to first order.
+    """Linearisation of the map from section to section at a state: image of the state, and derivatives.
 
     Attributes
     ----------
@@ -103,8 +103,9 @@ def linear(
 ) -> Linear:
     """Linearise the map from a state to its next return to a section, along the coordinates of ``within``.
 
-    With a ``step`` that was good at a state nearby, the derivatives are quick differences of fourth order with unknown
-    errors.  They serve Newton's method.  Without a ``step``, steps are chosen at this state and errors are estimated.
+    ``step`` is a step of the differences that was accurate at a state nearby, relative to the scales of the
+    coordinates.  The derivatives are then single differences of fourth order, without error estimates, which is enough
+    for Newton's method.  Without ``step``, steps are chosen at this state and errors are estimated.
 
     Raises
     ------
@@ -141,10 +142,10 @@ def _chart_at(model: Model, state: State, section: Section, within: Sequence[str
 def _maps(
     model: Model, state: State, section: Section, within: Sequence[str] | None
 ) -> tuple[Chart, FlowSegment, list[Sampled]]:
-    """Return the chart of a state, the run to its image, and a function for each direction of the chart.
+    """Return the chart of a state, the run to its image, and the map along each direction of the chart.
 
-    The image is the state at the next return to the section.  Each function maps a change of the state along its
-    direction to the change of the image.
+    The image is the state at the next return to the section.  The map along a direction is a function.  It takes a
+    change of the state along this direction, and returns the change of the image and the events of the run.
     """
     chart, end = _chart_at(model, state, section, within), section.flow(model, state)
     there = _chart_at(model, end.state, section, within)
@@ -175,7 +176,7 @@ def _one_sided(name: str, sampled: Sampled) -> NonDifferentiablePoint:
         size = len(sampled(0.0)[0])
         _, signature = sampled(sign * _STEPS[-1])
         signatures.append(signature)
-        # the stencil leaves out the unchanged state: its events belong neither to a decrease nor to an increase
+        # shift the stencil by one step, off the unchanged state: the order of its events may differ from both sides
         inner = tuple((offset + int(sign), weight) for offset, weight in stencil)
         try:
             sides.append(steady(partial(slope, sampled, expected=signature, stencil=inner), _STEPS)[0])

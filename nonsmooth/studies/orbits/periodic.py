@@ -39,13 +39,13 @@ the period map's derivative, if above 1, because the map amplifies the residual 
 _MOST = 30
 """Largest number of steps of Newton's method."""
 _HELD = 1e-6
-"""Largest change over a period of the coordinates that closed contacts determine, relative to their scales: errors of
-runs are smaller.  A motion with a larger change is no orbit."""
+"""Largest change, over a period, of the coordinates that closed contacts determine; relative to their scales.  It is
+above the errors of runs."""
 _MODES = {Mode.OPEN: "open", Mode.STICK: "closed and sticks", Mode.SLIDE: "closed and slides"}
 _NAMED = 3
 """Largest number of contacts that a message names."""
 _NEARLY_ONE = 1e-3
-"""A multiplier nearer to 1 than this explains a failure of Newton's method, which divides by the difference."""
+"""Largest difference between a multiplier and 1 that explains a failure of Newton's method, which divides by it."""
 
 
 class NoOrbit(NonsmoothError):
@@ -55,7 +55,7 @@ class NoOrbit(NonsmoothError):
 @final
 @dataclass(frozen=True)
 class Orbit:
-    """A motion that repeats in the coordinates of ``within``.
+    """A motion whose coordinates and velocities ``within`` repeat after each period.
 
     Attributes
     ----------
@@ -103,12 +103,12 @@ class Orbit:
 
     @property
     def monodromy(self) -> Array:
-        """Derivatives of the period map along the directions of :attr:`smooth`, relative to their scales, [m, m]."""
+        """Derivatives of the period map along the directions of :attr:`smooth`, in units of scales, shape [m, m]."""
         return self._smooth_part(self.map.matrix)
 
     @property
     def multipliers(self) -> NDArray[np.complex128]:
-        """Floquet multipliers of perturbations along the directions of :attr:`smooth`, the largest first, [m]."""
+        """Floquet multipliers of perturbations along the directions of :attr:`smooth`, largest first, shape [m]."""
         return eigenvalues(self.monodromy, np.zeros_like(self.monodromy))[0]
 
     @property
@@ -142,7 +142,7 @@ class Orbit:
         )
 
     def value(self, coordinate: str, at: float) -> float:
-        """Return a coordinate or velocity at a time within each period [s].
+        """Return a coordinate or velocity of the orbit at the phase ``at`` [s], which is the time modulo the period.
 
         Raises
         ------
@@ -172,40 +172,49 @@ def orbit(
 ) -> Orbit:
     """Find the periodic orbit near a start, and its Floquet multipliers.
 
-    A driven system has a stroboscopic section: a time in the period, by default the one after ``settle`` at which the
-    least gap is largest.  If a contact is closed there, it determines some coordinates and velocities, and the search
-    varies only the remaining ones.  A system without a drive needs a Poincare section; its period is found, and the
-    multiplier 1 along the motion is left out.
+    A driven system is sampled once per period (stroboscopic section), by default far from all events.  If all contacts
+    are open at some time of the first period after ``settle``, this is the time at which the smallest gap is largest.
+    A contact that is closed at the section determines some coordinates and velocities; the search varies only the
+    remaining ones.
+
+    A system without a drive needs a Poincare section.  The search then also finds the period, and leaves out the
+    multiplier 1 along the motion.
 
     Parameters
     ----------
     what : Scenario, System or Family
         The system.
     period : float, optional
-        Period of the drive, or a multiple [s].
+        Period of the drive, or an integer multiple of it [s]; required for a driven system.
     section : PoincareSection, optional
-        Section at which a period ends, for a system without a drive.
+        Section at which a period ends; required for a system without a drive.
     at : float, optional
-        Time of the section in each period [s]; by default far from all events.
+        Time of the stroboscopic section after the start of each period [s]; by default far from all events, as above.
     settle : float
         Time of the transient before the search [s].
     start : State, optional
-        First state; by default as the system is placed.
+        Initial state; by default the initial state of the system.
     within : sequence of str, optional
         Names of coordinates and velocities that repeat ("z", or "ball.z" if bodies share a name); by default all.
         Leave out coordinates that drift.  For a plane motion, leave out all coordinates and velocities across the
         plane.
     symmetries : sequence of Symmetry, optional
-        Rotations of the motion that a period may add: :class:`Turn` of everything about the vertical, :class:`Spin` of
-        a symmetric body about its own axis.
+        Rotations up to which the motion repeats.  After a period, the state may be rotated by any angle: :class:`Turn`
+        rotates all bodies about the vertical, :class:`Spin` a symmetric body about its own axis.
     display : Display, optional
         Where the progress of ``settle`` is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows
         nothing.
 
+    Returns
+    -------
+    Orbit
+        The orbit, with its period, state, multipliers and events.
+
     Raises
     ------
     InvalidInput
-        If a number is not valid, the drive has a period other than ``period``, or the motion does not pass the section.
+        If a number is not valid, ``period`` and ``section`` are both given or both left out, ``period`` is not a
+        multiple of the period of the drive, or the motion does not pass the section.
     UnknownName
         If the system has no coordinate or velocity of a given name.
     NoOrbit
@@ -258,7 +267,8 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
-            # without value and remedy: they belong to a state that only Newton's method visited
+            # leave out value and remedy of the error: they concern a state of Newton's method, which the user did not
+            # choose
             why = f"{error.thing} {error.rule}" if isinstance(error, InvalidInput) else str(error)
             raise NoOrbit(
                 f"no orbit near the start: step {i} of Newton's method leads to a state from which no run comes back "
@@ -306,9 +316,9 @@ def _check_closed(model: Model, start: State, end: State) -> None:
 
 
 def _check_following(found: Linear, start: State) -> None:
-    """Check that the coordinates that closed contacts determine also repeat after a period.
+    """Check that the coordinates which are determined by closed contacts repeat after a period.
 
-    Newton's method only makes the remaining coordinates of ``within`` repeat.
+    Closed contacts determine some coordinates from the others.  Newton's method only makes the others repeat.
 
     Raises
     ------
@@ -338,7 +348,9 @@ def _advice(found: Linear) -> str:
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
-    """Check that the state also repeats after a second period; otherwise the drive has another period.
+    """Check that the state also repeats after a second period.
+
+    If it does not, the given period is not a multiple of the period of the drive.
 
     Raises
     ------

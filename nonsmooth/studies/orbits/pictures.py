@@ -59,7 +59,7 @@ def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes 
     ax = axes_of(ax)
     heights = np.array([shown(orbit) for orbit in found.orbits])
     stable = np.array([orbit.stable for orbit in found.orbits])
-    # a segment of the branch between a stable and an unstable orbit is dashed, because it contains unstable orbits
+    # draw a segment dashed if at least one of its ends is an unstable orbit: `wide` also marks the stable neighbours
     for which, style, word in ((stable, "-", "stable"), (~stable, "--", "unstable")):
         wide = which if style == "-" else which | np.roll(which, 1) | np.roll(which, -1)
         if np.any(which):

@@ -25,14 +25,21 @@ FREQUENCY_REMEDY = (
     "If the parameter changes the frequency, give period=lambda value: ... [s]; on the command line --period 1/NAME."
 )
 _SAME = 1e-6
-"""Largest difference of two motions that begin a period apart, relative to the scales of the coordinates: errors of
-runs are smaller."""
+"""Two motions from one state, which begin a period apart, are equal if they differ by at most this.
+
+It is relative to the scales of the coordinates, and larger than the errors of runs.
+"""
 _TRIES = 3
-"""Number of periods in which the motions may differ before the check fails.  One period in which they agree is enough,
-because in a single period rounding may decide the order of simultaneous impacts."""
+"""Number of periods with different motions at which the check of a period fails.
+
+In each period, two motions from one state are compared that begin one period apart.  The check passes if they agree in
+one period, because in a single period rounding may decide the order of simultaneous impacts.
+"""
 _MOST = 8
-"""Largest number of periods that are compared.  Periods without contact prove nothing, because the drive may act on a
-body through contacts only."""
+"""Largest number of periods in which the check of a period compares two motions.
+
+A period without contact does not count, because the drive may act on a body through contacts only.
+"""
 
 
 def scan(
@@ -102,11 +109,11 @@ def period_at(period: Period, value: float, thing: str) -> float:
 
 
 def check_period(model: Model, state: State, period: float, thing: str, remedy: str = FREQUENCY_REMEDY) -> None:
-    """Check that a motion from a state is the same if it begins a period later.
+    """Check that a system has a given period: a motion from a state must be the same if it begins a period later.
 
-    The check fails if the parameter changes the frequency of the drive, but the period is fixed.  The state is part of
-    a motion, so its closed contacts must also be closed a period later.  A motion that cannot continue for a period
-    passes the check.
+    The check fails if a parameter has changed the frequency of the drive, but not the period.  It also fails if no
+    motion can begin a period later, because a driven body has moved away or overlaps.  A motion that cannot continue
+    for a period passes the check.
 
     Parameters
     ----------

@@ -24,7 +24,8 @@ from nonsmooth.system.system import System
 from nonsmooth.types import Array, Floats
 
 _CANDIDATES = 200
-"""Number of times in a period among which the time of the section is chosen."""
+"""Number of equally spaced times in a period from which the time of a stroboscopic section is chosen: the time that is
+farthest from all events."""
 _CLOSED, _SLIDES = 1, 4
 """Bits of the mode code of a contact: closed, and sliding."""
 
@@ -53,11 +54,14 @@ class Section(ABC):
         return ()
 
     def ignored(self, model: Model, state: State) -> Array:
-        """Return directions along which states are taken as equal, shape [n_q + n_u, k]; by default there are none."""
+        """Return the directions of symmetry at a state, shape [n_q + n_u, k]; by default there are none.
+
+        States that differ only along these directions belong to the same orbit.
+        """
         return np.zeros((len(state.q) + len(state.u), 0))
 
     def check(self, model: Model, start: State) -> None:
-        """Raise InvalidInput if a period from a state contradicts an assumption of the section.
+        """Raise InvalidInput if the motion over one period from ``start`` violates an assumption of the section.
 
         By default nothing is checked.
         """
@@ -145,7 +149,10 @@ class PoincareSection(Section):
         return Family(make, family.values, family.engine, family.units)
 
     def first(self, model: Model, start: State) -> State:
-        """Return the state at the first passage of a motion; ``start`` belongs to the system before :meth:`guarded`."""
+        """Return the state at the first passage of a motion from ``start``.
+
+        ``model`` has the guard that :meth:`guarded` adds; ``start`` is a state of the system without this guard.
+        """
         return self._next(model, replace(start, guards_spent=np.append(start.guards_spent, 0))).state
 
     def flow(self, model: Model, start: State) -> FlowSegment:
@@ -246,5 +253,5 @@ def state_at(model: Model, begin: State, time: float) -> State:
 
 
 def state_at_phase(model: Model, begin: State, period: float, at: float) -> State:
-    """Run a motion from ``begin`` to the next time that is ``at`` after the start of a period [s]; return its state."""
+    """Return the state of a motion at the next time after ``begin`` that is equal to ``at`` modulo ``period`` [s]."""
     return state_at(model, begin, begin.time + (at - begin.time) % period)

@@ -24,16 +24,21 @@ from nonsmooth.system.system import System
 from nonsmooth.types import Array
 
 _PROBE = 1e-5
-"""Angle of the differences that give the direction of a symmetry [rad]."""
+"""Step of the central difference that gives the derivative of a state by the angle of a symmetry [rad]."""
 _IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 _AXES = "xyz"
 _TEST_ANGLE = 1.0
 """Angle by which a state is turned to test a symmetry [rad]."""
 _SAME = 1e-6
-"""Largest difference between the motion from a turned start and the turned motion, relative to the scales of the
-coordinates: errors of runs are smaller."""
+"""Largest difference between the motion from a turned start and the turned motion of a symmetric system.
+
+It is relative to the scales of the coordinates, and larger than the errors of runs.
+"""
 _GUESSES, _MOST = 5, 20
-"""Number of angles per turn that are tried first, and largest number of Newton's steps from the best of them."""
+"""Number of initial guesses per full turn, and largest number of Newton steps from the best of these guesses.
+
+The unknowns are the angles by which the symmetries turn an end state back, nearest to the start.
+"""
 _CLOSE = 1e-9
 """Step at which Newton's method ends [rad]: an error along a symmetry does not change the orbit."""
 
@@ -147,7 +152,9 @@ def _free(system: System) -> Iterator[tuple[str, int, int]]:
 @final
 @dataclass(frozen=True)
 class RelativeSection(Section):
-    """A section modulo symmetries: each end of a period is turned back as near to the start as possible.
+    """Section of an orbit that repeats up to rotations: after each period, symmetries turn the state back.
+
+    The state is turned back to be as near to the start as possible.
 
     Attributes
     ----------
@@ -161,7 +168,7 @@ class RelativeSection(Section):
     symmetries: tuple[Symmetry, ...]
 
     def flow(self, model: Model, start: State) -> FlowSegment:
-        """Run to the end of the period, and turn the end state back to where it is nearest to the start.
+        """Run for one period, then turn the end state by the symmetries such that it is nearest to the start.
 
         Raises
         ------
@@ -214,7 +221,10 @@ class RelativeSection(Section):
                 raise InvalidInput("orbit: symmetries", rule, str(one), "Leave it out.")
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
-        """Return the angle by which a state has turned after the next period [rad], by symmetry, within half a turn."""
+        """Return, by the name of each symmetry, the angle by which a state has turned after one period [rad].
+
+        Angles are between -pi and pi.
+        """
         angles = self._angles(model, start, self.section.flow(model, start).state)
         return dict(zip(map(str, self.symmetries), angles.tolist(), strict=True))
 

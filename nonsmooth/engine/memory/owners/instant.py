@@ -1,4 +1,4 @@
-"""Numbers of one instant: its event, its impact and its contact problem."""
+"""Workspace of one instant: of its event, its impact and its contact problem."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _EVENT = Life.EVENT
 
 @final
 class Event(Singleton, key="event"):
-    """Numbers of one event."""
+    """Numbers of the event that is being processed, such as its energies; they are recorded with the event."""
 
     n_recorded: int = whole(_EVENT, "Number of records of the instant so far.")
     n_phases: int = whole(_EVENT, "Number of phases of the impact.")
@@ -50,7 +50,12 @@ _IMPACT = Life.IMPACT
 
 @final
 class Impact(Singleton, key="impact"):
-    """Numbers of one impact, or of one window of a large impact."""
+    """Workspace of the impact that is being solved.
+
+    A large impact is solved in windows, each with a part of the contacts (:mod:`nonsmooth.engine.impact.window`). The
+    active contacts are then the contacts of the current window. ``n_colliding``, ``colliding``, ``chain`` and ``u``
+    belong to the whole impact.
+    """
 
     lone_contact: int = whole(_IMPACT, "Active contact whose impulse is the clock, or -1.")
     is_step_implicit: bool = question(_IMPACT, "The step of the impact is implicit, so that slips may reverse in it.")
@@ -85,7 +90,7 @@ _SOLUTION = Life.SOLUTION
 
 @final
 class Problem(Singleton, key="problem"):
-    """Numbers of the contact problem of one group of contacts."""
+    """Workspace of the contact problem of one group of contacts: the search for their forces."""
 
     n_active: int = whole(_SOLUTION, "Number of contacts of the problem.")
     first_grouped: int = whole(_SOLUTION, "Where they begin among the grouped contacts.")

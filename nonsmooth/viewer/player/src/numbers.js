@@ -10,11 +10,16 @@ export function decimals(largest, digits) {
   return Math.min(Math.max(digits - before, 0), 20);
 }
 
+/** The largest magnitude of some numbers. */
+export function largest(values) {
+  return values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+}
+
 /** The unit of energies, and what spells one [J] in it: all with the same decimals. */
 export function energyScale(energies) {
-  const largest = energies.reduce((most, energy) => Math.max(most, Math.abs(energy)), 0);
-  const power = Math.min(Math.max(3 * Math.floor(Math.log10(largest || 1) / 3), -9), 3);
-  const places = decimals(largest / 10 ** power, GOOD);
+  const most = largest(energies);
+  const power = Math.min(Math.max(3 * Math.floor(Math.log10(most || 1) / 3), -9), 3);
+  const places = decimals(most / 10 ** power, GOOD);
   // without the sign of a negative zero
   const spell = (energy) => (energy / 10 ** power).toFixed(places).replace(/^-(?=[0.]*$)/, "");
   return [PREFIXES[power], spell];

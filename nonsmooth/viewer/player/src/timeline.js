@@ -2,11 +2,13 @@
 
 import { COLOURS } from "./world.js";
 import { last } from "./decode.js";
+import { largest } from "./numbers.js";
 import { SLIDE } from "./run.js";
 
 const MOST_LANES = 6;
 const MARGIN = 128; // room for names [px]
 const TAIL = 8; // letters of a name that are kept where it is too long
+const LEAST_SPAN = 1e-4; // height of the plot, relative to the largest energy: round-off, 1e-7 of that energy, is a flat line
 const ENERGIES = [
   ["kinetic", "#1b9e77", []],
   ["potential", "#8f8ad0", [5, 3]],
@@ -42,8 +44,8 @@ export class Timeline {
     const lowest = Math.min(...rows.map(([, levels]) => levels[1]));
     // heights count from the lowest potential energy, as only differences mean something
     rows.forEach(([, levels]) => [1, 2].forEach((i) => (levels[i] -= lowest)));
-    this.top = rows.reduce((most, [, levels]) => Math.max(most, ...levels), 0) || 1;
-    this.lowest = rows.reduce((least, [, levels]) => Math.min(least, ...levels), 0);
+    const exchanged = rows.reduce((most, [, levels]) => Math.max(most, ...levels), 0);
+    this.top = Math.max(exchanged, LEAST_SPAN * largest(run.energy)) || 1;
   }
 
   _levels(energy) {
@@ -189,7 +191,7 @@ export class Timeline {
   }
 
   _plot(pen, x, top, bottom) {
-    const height = (level) => bottom - ((level - this.lowest) / (this.top - this.lowest || 1)) * (bottom - top);
+    const height = (level) => bottom - (level / this.top) * (bottom - top);
     const rows = this.energies;
     const first = Math.max(rows.findIndex(([time]) => time >= this.from) - 1, 0);
     const step = Math.max(1, Math.floor(rows.filter(([time]) => time >= this.from && time <= this.to).length / 3000));
