@@ -85,7 +85,7 @@ def test_an_unknown_command_gets_the_nearest(call: Call, words: tuple[str, ...],
     assert errors.count("\n") == 1
 
 
-@pytest.mark.fast_cases(8)
+@pytest.mark.fast_cases(9)
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -95,6 +95,7 @@ def test_an_unknown_command_gets_the_nearest(call: Call, words: tuple[str, ...],
         (("run", "tiny", "--set", "radius="), "must have the form name=value"),
         (("run", "tiny", "--set", "t_end=1", "--set", "t_end=2"), "must come once, but it is '1 and 2'"),
         (("run", "tiny", "--set", "radius=5mm"), "must be a number, but it is '5mm'. Give it in [m]"),
+        (("run", "dumbbell", "--set", "friction=felt"), "For a law of that name, write --law friction=felt."),
         (("run", "tiny", "--set", "radius=-1"), "Tiny.radius must be > 0 [m], but it is -1.0"),
         (("run", "tiny", "--set", "radius=nan"), "Tiny.radius must be a finite number"),
         (("run", "tiny", "--set", "mode=bouncy"), "Did you mean 'bounce'?"),
