@@ -295,6 +295,15 @@ class Component(metaclass=_Checked):
         return numbers
 
 
+_ROLES = ("normal", "friction", "impact")
+"""Roles of the laws of a contact."""
+
+
+def _as_law(role: str, word: str) -> str:
+    """Hint for a word that may be the name of a law, but was given as the value of a parameter."""
+    return f"For a law of that name, write --law {role}={word}."
+
+
 def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, Any]:
     """Turn ``name=value`` words of the command line into parameters of ``owner``.
 
@@ -310,7 +319,8 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
     values: dict[str, Any] = {}
     for name, word in words.items():
         if name not in known:
-            raise UnknownName(f"parameter of {kind}", name, known)
+            remedy = _as_law(name, word) if name in _ROLES else ""
+            raise UnknownName(f"parameter of {kind}", name, known, remedy=remedy)
         rule = known[name][1]
         try:
             if get_origin(hints[name]) is tuple:
@@ -322,7 +332,7 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
             if get_origin(hints[name]) is tuple:
                 what, example = "numbers apart by colons", f"For example {name}=1:0:0."
             if rule.law and word.isidentifier():
-                example = f"{example} For a law of that name, write --law {rule.law}={word}."
+                example = f"{example} {_as_law(rule.law, word)}"
             raise InvalidInput(f"{kind}.{name}", f"must be {what}", word, example) from None
     return values
 

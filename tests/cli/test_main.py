@@ -85,7 +85,7 @@ def test_an_unknown_command_gets_the_nearest(call: Call, words: tuple[str, ...],
     assert errors.count("\n") == 1
 
 
-@pytest.mark.fast_cases(9)
+@pytest.mark.fast_cases(10)
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -96,6 +96,7 @@ def test_an_unknown_command_gets_the_nearest(call: Call, words: tuple[str, ...],
         (("run", "tiny", "--set", "t_end=1", "--set", "t_end=2"), "must come once, but it is '1 and 2'"),
         (("run", "tiny", "--set", "radius=5mm"), "must be a number, but it is '5mm'. Give it in [m]"),
         (("run", "dumbbell", "--set", "friction=felt"), "For a law of that name, write --law friction=felt."),
+        (("run", "tiny", "--set", "friction=felt"), "Known: mode, radius, t_end. For a law of that name, write --law"),
         (("run", "tiny", "--set", "radius=-1"), "Tiny.radius must be > 0 [m], but it is -1.0"),
         (("run", "tiny", "--set", "radius=nan"), "Tiny.radius must be a finite number"),
         (("run", "tiny", "--set", "mode=bouncy"), "Did you mean 'bounce'?"),
