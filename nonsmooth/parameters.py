@@ -91,9 +91,17 @@ def rules(owner: type) -> Rules:
     """Declared parameters of a component class by name."""
     # the rules of a class are stored, because each new object of the class is checked by them
     if owner not in _known:
+        if not dataclasses.is_dataclass(owner):
+            raise _undecorated(owner)
         found = {f.name: (f, f.metadata["rule"]) for f in dataclasses.fields(owner) if "rule" in f.metadata}
         _known[owner] = MappingProxyType(found)
     return _known[owner]
+
+
+def _undecorated(owner: type) -> InvalidInput:
+    """Error for a class of components that is not a dataclass."""
+    remedy = f"Write @dataclass(frozen=True) above class {owner.__name__}."
+    return InvalidInput(f"class {owner.__name__}", "must be a dataclass", "an ordinary class", remedy)
 
 
 def not_offered(asking: str, name: str, offered: Iterable[str]) -> UnknownName:
@@ -174,6 +182,11 @@ class _Checked(Readable):
     """
 
     def __call__(cls, *given: Any, **named: Any) -> Any:  # noqa: N805 -- the object is a class
+        # the decorator replaces the fields by their default values, so a field that is left shows that it is missing
+        if "__dataclass_fields__" not in vars(cls) and any(
+            isinstance(one, dataclasses.Field) for one in vars(cls).values()
+        ):
+            raise _undecorated(cls)
         try:
             return super().__call__(*given, **named)
         except TypeError:
@@ -191,6 +204,24 @@ def _documented(owner: type) -> str | None:
         if "rule" in metadata and not re.search(rf"^(\w+, )*{name}(, \w+)* : ", text, re.MULTILINE)
     ]
     return "\n".join([text, "", "Parameters", "----------", *lines]) if lines else owner.__doc__
+
+
+def _check_static(owner: type) -> None:
+    """Raise InvalidInput if a class defines a function that the engine calls as a method: it would get the object."""
+    for name, value in vars(owner).items():
+        if inspect.isfunction(value) and any(_returns_function(vars(base).get(name)) for base in owner.__mro__[1:]):
+            signature = inspect.signature(value)
+            also = (
+                ", and remove `self`: parameters of the class are arguments" if "self" in signature.parameters else ""
+            )
+            remedy = f"Add @staticmethod above {name}{also}."
+            written = f"def {name}({', '.join(signature.parameters)})"
+            raise InvalidInput(f"{owner.__name__}.{name}", "must be a static method", written, remedy)
+
+
+def _returns_function(declared: Any) -> bool:
+    """True for a property of an interface whose value is a function, such as ``FrictionLaw.coefficient``."""
+    return isinstance(declared, property) and "Callable" in str(declared.fget.__annotations__.get("return"))
 
 
 def _with_unit(rule: Rule) -> str:
@@ -233,6 +264,7 @@ class Component(metaclass=_Checked):
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
+        _check_static(cls)
         cls.__doc__ = _documented(cls)
 
     def __post_init__(self) -> None:
@@ -275,6 +307,15 @@ class Component(metaclass=_Checked):
         return numbers
 
 
+_ROLES = ("normal", "friction", "impact")
+"""Roles of the laws of a contact."""
+
+
+def _as_law(role: str, word: str) -> str:
+    """Hint for a word that may be the name of a law, but was given as the value of a parameter."""
+    return f"For a law of that name, write --law {role}={word}."
+
+
 def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, Any]:
     """Turn ``name=value`` words of the command line into parameters of ``owner``.
 
@@ -290,7 +331,8 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
     values: dict[str, Any] = {}
     for name, word in words.items():
         if name not in known:
-            raise UnknownName(f"parameter of {kind}", name, known)
+            remedy = _as_law(name, word) if name in _ROLES else ""
+            raise UnknownName(f"parameter of {kind}", name, known, remedy=remedy)
         rule = known[name][1]
         try:
             if get_origin(hints[name]) is tuple:
@@ -301,6 +343,8 @@ def from_words(owner: type, words: Mapping[str, str], kind: str) -> dict[str, An
             what, example = "a number", f"Give it in [{rule.unit}], for example {name}=1.0."
             if get_origin(hints[name]) is tuple:
                 what, example = "numbers apart by colons", f"For example {name}=1:0:0."
+            if rule.law and word.isidentifier():
+                example = f"{example} {_as_law(rule.law, word)}"
             raise InvalidInput(f"{kind}.{name}", f"must be {what}", word, example) from None
     return values
 

@@ -78,7 +78,9 @@ def _execute(words: Sequence[str]) -> int:
     if named and named not in COMMANDS:
         complain(str(UnknownName("command", named, COMMANDS)))
         return WRONG_REQUEST
-    arguments = parser(words).parse_args(words)
+    arguments, unknown = parser(words).parse_known_args(words)
+    if unknown:
+        arguments.refuse(arguments, unknown[0])
     with warnings.catch_warnings():
         warnings.simplefilter("always", NonsmoothWarning)
         warnings.showwarning = warn_plainly(warnings.showwarning)

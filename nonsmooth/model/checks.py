@@ -18,7 +18,7 @@ from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.laying import articulations
-from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
+from nonsmooth.model.overlaps import at_default, check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
@@ -69,7 +69,7 @@ def _check_gaps(model: LaidOut, gaps: Vector) -> None:
                 f"start of the {contact}",
                 "must not overlap: its gap must be >= 0 [m]",
                 gap,
-                "Place the bodies apart or touching, by System.place.",
+                f"Place the bodies apart or touching, by System.place.{at_default(model, contact)}",
             )
 
 

@@ -63,8 +63,23 @@ def check_overlaps(model: LaidOut) -> None:
             "must not overlap: its gap must be >= 0 [m]",
             -found.depth,
             f"The solids of {kinds} overlap at least so far. Place the bodies apart or touching, or declare no contact "
-            "between them.",
+            f"between them.{at_default(model, found.contact)}",
         )
+
+
+def at_default(model: LaidOut, contact: Contact) -> str:
+    """Sentence that names the bodies of a contact that begin at their default position; "" if there are none.
+
+    Such a body was probably never placed.
+    """
+    system = model.system
+    q = system.starts()[0]
+    # a run may begin from another state than the system's start
+    if not np.array_equal(model.memory[owners.Island.y][: len(q)], q):
+        return ""
+    bodies = [body for body in (contact.first, contact.second) if body.n_q > 0]
+    names = [repr(system.name_of(one)) for one in bodies if np.array_equal(system.start(one)[0], one.state()[0])]
+    return f" At the default position: {' and '.join(names)}." if names else ""
 
 
 def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:

@@ -126,7 +126,9 @@ def _module(thing: str, path: Path) -> ModuleType:
         specification.loader.exec_module(module)
     except Exception as error:
         del sys.modules[key]
-        raise PluginError(f"{thing}: {path}{_line(error, path)} cannot be loaded: {_reason(error)}.") from error
+        raise PluginError(
+            f"{thing}: {path}{_line(error, path)} cannot be loaded: {_reason(error).rstrip('.')}."
+        ) from error
     return module
 
 

@@ -90,12 +90,12 @@ class Lines(Display):
     ----------
     stream : file
         The stream.
+    patience, interval : float
+        Wall time before the first line, and between two lines [s].
     """
 
-    patience, interval = 2.0, 10.0
-
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream
+    def __init__(self, stream: TextIO, patience: float = 2.0, interval: float = 10.0) -> None:
+        self._stream, self.patience, self.interval = stream, patience, interval
 
     def show(self, part: float, reached: str, details: str) -> None:
         """Write a line."""

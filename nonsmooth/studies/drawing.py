@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.plotting import DOTTED, HATCHED, class_colours, dotted, few_ticks, finish, with_unit
-from nonsmooth.studies.status import VALUED, ends, of_record, records_of
+from nonsmooth.studies.status import ALWAYS, VALUED, ends, of_record, scalars_of
 
 if TYPE_CHECKING:
     import xarray
@@ -26,7 +27,7 @@ _GREY = "0.5"
 
 
 def draw_study(study: xarray.Dataset) -> Figure:
-    """Draw the records of a study that are one number, or one word, per run.
+    """Draw the records of a study: numbers, words, and each component of a short vector.
 
     Over one parameter they are points, over two a map with failed runs hatched.  With more parameters, or without a
     grid, each record is drawn over each parameter.  Words come first; numbers equal in all runs are in the title.
@@ -39,15 +40,15 @@ def draw_study(study: xarray.Dataset) -> Figure:
     Raises
     ------
     InvalidInput
-        If the study has no record that is one number or word per run.
+        If the study has only trajectories and long vectors, or no record at all.
     """
     from matplotlib.figure import Figure
 
     parameters = json.loads(str(study.attrs["layout"]))["parameters"]
-    records, runs = records_of(study), study.status.dims
+    records, runs = scalars_of(study), study.status.dims
     if not records:
-        remedy = 'For example record=["impacts"].'
-        raise InvalidInput("draw", "needs a record that is one number or one word", list(study.data_vars), remedy)
+        remedy = 'Store another record as well, for example record=["impacts"] or --record impacts.'
+        raise InvalidInput("draw", "needs a record that is a number, a word or a short vector", _stored(study), remedy)
     valued = np.isin(study.status.values, VALUED)
     # records of words come before records of numbers; the sort is stable, so each kind keeps its order
     names = sorted(_varying(records, valued) or records, key=lambda name: not _words(records[name]))
@@ -65,11 +66,25 @@ def draw_study(study: xarray.Dataset) -> Figure:
             _points(one, records[name], study[over].broadcast_like(records[name]), valued)
     for one in axes[len(panels) :]:
         one.remove()
-    same = ", ".join(f"{name} {of_record(one, valued)}" for name, one in records.items() if name not in names)
-    figure.suptitle(f"{study.attrs['title']}{f', all with {same}' if same else ''}", fontsize=10, wrap=True)
+    figure.suptitle(_title(study, records, names, valued), fontsize=10, wrap=True)
     if not valued.all():
         figure.legend(handles=[_missing(is_map, ends(study.status.values[~valued]))], loc="outside lower center")
     return figure
+
+
+def _title(
+    study: xarray.Dataset, records: dict[str, xarray.DataArray], panels: list[str], valued: NDArray[np.bool_]
+) -> str:
+    """Return the title: the runs, the records that are equal in all runs, and the records that cannot be drawn."""
+    same = ", ".join(f"{name} {of_record(one, valued)}" for name, one in records.items() if name not in panels)
+    listed = {re.split(r"[ \[]", name)[0] for name in records}
+    others = ", ".join(name for name in _stored(study) if name not in listed)
+    return f"{study.attrs['title']}{f', all with {same}' if same else ''}{f'; not drawn: {others}' if others else ''}"
+
+
+def _stored(study: xarray.Dataset) -> list[str]:
+    """Return the names of the records that the user requested."""
+    return [str(name) for name in study.data_vars if name not in ALWAYS]
 
 
 def _varying(records: dict[str, xarray.DataArray], valued: NDArray[np.bool_]) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
@@ -40,6 +41,8 @@ class CaseStatus(StrEnum):
         return list(CaseStatus).index(self)
 
 
+MOST_COMPONENTS = 12
+"""Largest length of an array of each run whose components are listed and drawn: a figure has as many panels."""
 VALUED = (CaseStatus.DONE.code, CaseStatus.SUSPECT.code)
 """Codes of runs that have records."""
 WORKER_DIED, RAISED, UNKNOWN = -2, -1, 0
@@ -62,10 +65,10 @@ def reason_attributes() -> dict[str, object]:
 def summary(study: xarray.Dataset) -> str:
     """Return a text with the number of runs of each status, and the range or the counts of each record.
 
-    Only records with one value per run are listed.
+    Only the records of :func:`scalars_of` are listed.
     """
     valued = np.isin(study.status.values, VALUED)
-    lines = [f"  {name}: {of_record(one, valued)}" for name, one in records_of(study).items()]
+    lines = [f"  {name}: {of_record(one, valued)}" for name, one in scalars_of(study).items()]
     return "\n".join([f"{study.status.size} runs: {ends(study.status.values)}", *lines])
 
 
@@ -79,6 +82,31 @@ def records_of(study: xarray.Dataset) -> dict[str, xarray.DataArray]:
     """Return the records that are one number, or one word, per run."""
     runs = study.status.dims
     return {str(name): one for name, one in study.data_vars.items() if one.dims == runs and name not in ALWAYS}
+
+
+def scalars_of(study: xarray.Dataset) -> dict[str, xarray.DataArray]:
+    """Return the records that are one number or one word per run, then the components of short vectors by name.
+
+    The vector ``drift_velocity`` gives ``drift_velocity[0]`` and ``drift_velocity[1]``. The components of a state are
+    named by its coordinates, as in ``q_end ball x``.
+    """
+    runs = study.status.dims
+    rows = (
+        one for one in study.data_vars.values() if one.dims[:-1] == runs and one.sizes[one.dims[-1]] <= MOST_COMPONENTS
+    )
+    return records_of(study) | {str(one.name): one for row in rows for one in _components(row)}
+
+
+def _components(row: xarray.DataArray) -> Iterator[xarray.DataArray]:
+    """Yield the components of a record that is a vector per run, with names and units."""
+    axis = row.dims[-1]
+    for i, label in enumerate(row[axis].values):
+        one = row.isel({axis: i}, drop=True)
+        if row[axis].dtype.kind == "U":
+            text, _, unit = str(label).removesuffix("]").rpartition(" [")
+            yield one.rename(f"{row.name} {text}").assign_attrs(units=unit)
+        else:
+            yield one.rename(f"{row.name}[{label}]")
 
 
 def of_record(record: xarray.DataArray, valued: NDArray[np.bool_]) -> str:

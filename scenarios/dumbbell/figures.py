@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth import charts
+from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.interfaces import Run
+from nonsmooth.notices import warn
 from nonsmooth.solution.solution import Solution
 
 from . import portraits
@@ -44,16 +47,39 @@ _ANGLES = ("theta", "beta", "gamma")
 
 
 def of_paper(kind: type[DumbbellScenario], run: Run) -> dict[str, Figure]:
-    """Return Figs. 2 to 11 of the paper by file name."""
+    """Return Figs. 2 to 11 of the paper by file name.
+
+    With other parameters a phase portrait of an angle that is constant in all runs is left out, with a warning.
+    """
     scenarios = {name: kind(**parameters) for name, parameters in _RUNS.items()}
     runs = {name: (scenario, run(scenario)) for name, scenario in scenarios.items()}
     figures: dict[str, Figure] = {}
     for name in ("drift", "jump", "jump 1", "flutter"):
         figures |= _over_time(name, *runs[name])
     across = {mode: runs[f"{mode} 3D"] for mode in ("drift", "jump", "flutter")}
-    figures |= portraits.portraits({mode: Trace.of(*ran, _PERIODS[mode]) for mode, ran in across.items()}, _ANGLES)
-    title = "Paths from above: drift circles, jump goes straight, flutter zigzags"
-    return figures | {"fig11_paths": paths(across, _SPANS, title)}
+    # the results of the paper hold for its parameters only
+    ends = "" if _is_published(kind) else _ends(across)
+    title = (
+        f"Paths from above {ends}" if ends else "Paths from above: drift circles, jump goes straight, flutter zigzags"
+    )
+    traces = {mode: Trace.of(*ran, _PERIODS[mode]) for mode, ran in across.items()}
+    drawn = portraits.portraits(traces, _ANGLES, ends)
+    for stem in portraits.left_out(drawn, _ANGLES):
+        warn(f"The figure {stem} is left out: its angle is constant at the end of all runs.", NonsmoothWarning)
+    return figures | drawn | {"fig11_paths": paths(across, _SPANS, title)}
+
+
+def _is_published(kind: type[DumbbellScenario]) -> bool:
+    """Return True if the default parameters are those of the paper; ``nonsmooth figures --set`` changes them."""
+    from .scenario import DumbbellScenario
+
+    return asdict(kind()) == asdict(DumbbellScenario())
+
+
+def _ends(runs: Mapping[str, tuple[DumbbellScenario, Solution]]) -> str:
+    """Return a text with the attractor that each run has reached."""
+    found = {mode: scenario.summarise(solution)["attractor"] for mode, (scenario, solution) in runs.items()}
+    return f"(attractors: {', '.join(f'{end} from the start of {mode}' for mode, end in found.items())})"
 
 
 def of_run(scenario: DumbbellScenario, solution: Solution) -> dict[str, Figure]:

@@ -38,18 +38,27 @@ CONTACT: dict[str, Any] = {"color": "tab:blue", "linestyle": "--", "linewidth": 
 _JUMP: dict[str, Any] = {"color": "0.5", "linestyle": ":", "linewidth": 1.0}
 
 
-def portraits(traces: Mapping[str, Trace], angles: Sequence[str]) -> dict[str, Figure]:
-    """Draw rate over angle, a figure for each angle and a panel for each trace in which it changes."""
+def portraits(traces: Mapping[str, Trace], angles: Sequence[str], ends: str = "") -> dict[str, Figure]:
+    """Draw rate over angle, a figure for each angle and a panel for each trace in which it changes.
+
+    The title of figures with several traces states the results of the paper, or ``ends`` if it is given: the
+    attractors of runs with other parameters.
+    """
     figures = {}
     for angle in angles:
         column = NAMES.index(angle)
         turning = {mode: trace for mode, trace in traces.items() if _turns(trace, column)}
         title = f"Phase portrait of {angle} at the end of the run"
         if len(traces) > 1:
-            title = f"Phase portraits of {angle},\n{_STATEMENTS[angle]}"
+            title = f"Phase portraits of {angle}" + (f"\n{ends}" if ends else f",\n{_STATEMENTS[angle]}")
         if turning:
             figures[_STEMS[angle]] = _portrait(turning, column, _SYMBOLS[angle], title)
     return figures
+
+
+def left_out(drawn: Mapping[str, Figure], angles: Sequence[str]) -> list[str]:
+    """Return the file names of the portraits that :func:`portraits` has not drawn."""
+    return [_STEMS[angle] for angle in angles if _STEMS[angle] not in drawn]
 
 
 def _turns(trace: Trace, column: int) -> bool:
@@ -60,7 +69,9 @@ def _portrait(traces: Mapping[str, Trace], column: int, symbol: str, title: str)
     figure, axes = charts.panels(1, len(traces), title, (max(8.6, 3.7 * len(traces)), 5.2))
     for ax, (mode, trace) in zip(axes, traces.items(), strict=True):
         x, y = trace.motion.q[:, column], trace.motion.u[:, column]
-        _MODES.get(mode, _draw_drift)(ax, trace, x, y)
+        # without impacts the motion is not the one that the mode names
+        draw = _MODES[mode] if mode in _MODES and trace.struck.any() else _draw_drift
+        draw(ax, trace, x, y)
         _arrows(ax, x, y, trace)
         ax.set_title(mode, fontsize=10)
         ax.set_xlabel(f"{symbol} [rad]")

@@ -26,8 +26,6 @@ def test_version(call: Call) -> None:
         ("list", "planets"),
         ("show",),
         ("run",),
-        ("run", "tiny", "--sets", "t_end=1"),
-        ("run", "tiny", "--js"),
         ("figures", "tiny"),
     ],
 )
@@ -36,6 +34,29 @@ def test_a_request_that_cannot_be_read_is_wrong(call: Call, words: tuple[str, ..
     assert status == 2
     assert output == ""
     assert "usage: nonsmooth" in errors
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("view", "tiny", "--htm"), "nonsmooth view: error: Unknown option '--htm'. Did you mean '--html'?"),
+        (("run", "tiny", "--sets=t_end=1"), "nonsmooth run: error: Unknown option '--sets'. Did you mean '--set'?"),
+        (("export", "tiny", "--out", "tiny.gif"), "nonsmooth export: error: Unknown option '--out'."),
+        (
+            ("run", "tiny", "--set", "radius", "0.5"),
+            "nonsmooth run: error: Unexpected word '0.5'. Did you mean '--set radius=0.5'?",
+        ),
+        (("run", "tiny", "--set", "radius", "-0.5"), "Unexpected word '-0.5'. Did you mean '--set radius=-0.5'?"),
+        (("run", "tiny", "small"), "nonsmooth run: error: Unexpected word 'small'."),
+        (("study", "status", "tiny", "--js"), "nonsmooth study status: error: Unknown option '--js'."),
+        (("run", "tiny", "--js"), "nonsmooth run: error: Unknown option '--js'. Did you mean '--json'?"),
+    ],
+)
+def test_a_word_too_many_gets_the_usage_of_its_command(call: Call, words: tuple[str, ...], said: str) -> None:
+    status, output, errors = call(*words)
+    assert (status, output) == (2, "")
+    assert errors.startswith(f"usage: nonsmooth {words[0]} ")
+    assert errors.splitlines()[-1].endswith(said)
 
 
 @pytest.mark.parametrize("words", [("list",), ("--help",), ("run", "--help"), ("--version",)])
@@ -64,7 +85,7 @@ def test_an_unknown_command_gets_the_nearest(call: Call, words: tuple[str, ...],
     assert errors.count("\n") == 1
 
 
-@pytest.mark.fast_cases(8)
+@pytest.mark.fast_cases(10)
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -74,6 +95,8 @@ def test_an_unknown_command_gets_the_nearest(call: Call, words: tuple[str, ...],
         (("run", "tiny", "--set", "radius="), "must have the form name=value"),
         (("run", "tiny", "--set", "t_end=1", "--set", "t_end=2"), "must come once, but it is '1 and 2'"),
         (("run", "tiny", "--set", "radius=5mm"), "must be a number, but it is '5mm'. Give it in [m]"),
+        (("run", "dumbbell", "--set", "friction=felt"), "For a law of that name, write --law friction=felt."),
+        (("run", "tiny", "--set", "friction=felt"), "Known: mode, radius, t_end. For a law of that name, write --law"),
         (("run", "tiny", "--set", "radius=-1"), "Tiny.radius must be > 0 [m], but it is -1.0"),
         (("run", "tiny", "--set", "radius=nan"), "Tiny.radius must be a finite number"),
         (("run", "tiny", "--set", "mode=bouncy"), "Did you mean 'bounce'?"),

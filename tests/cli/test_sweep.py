@@ -37,6 +37,16 @@ def test_a_sweep_its_status_and_its_picture(tmp_path: Path, capsys: pytest.Captu
     assert main(["study", "draw", str(path)]) == 2
 
 
+def test_the_components_of_a_vector_are_printed_and_drawn(call: Call, tmp_path: Path) -> None:
+    path = tmp_path / "s.zarr"
+    words = ("--over", "friction=0.1,0.3", "--set", "t_end=0.4", "--record", "drift_velocity", "--executor", "serial")
+    status, output, _ = call("sweep", "dumbbell", *words, "--out", str(path))
+    assert status == 0
+    assert re.search(r"^  drift_velocity\[0\]: .* m/s\n  drift_velocity\[1\]: .* m/s$", output, re.MULTILINE)
+    assert call("study", "draw", str(path))[0] == 0
+    assert path.with_suffix(".png").stat().st_size > 1000
+
+
 @pytest.mark.slow
 def test_draws(tmp_path: Path) -> None:
     draw = "--over", "gamma=0.3:0.9", "--over", "restitution=0.5:0.9", "--sample", "sobol:4", "--seed", "1"

@@ -13,7 +13,8 @@ import nonsmooth as ns
 from bodies import Ball, ConstantVelocity, Hinge, LineBody, Wall
 from laws import Coulomb, EnergeticImpact
 from nonsmooth.errors import MissingArgument
-from nonsmooth.parameters import UnusualValue
+from nonsmooth.interfaces import FrictionLaw, ImpactProcess
+from nonsmooth.parameters import UnusualValue, parameter
 
 
 def test_a_letter_is_answered_with_the_name() -> None:
@@ -56,3 +57,62 @@ def test_a_warning_points_at_the_line_of_the_user(tmp_path: Path) -> None:
     with pytest.warns(UnusualValue) as caught:
         runpy.run_path(str(script))
     assert (caught[0].filename, caught[0].lineno) == (str(script), 3)
+
+
+class _Constant(FrictionLaw):
+    """Base of the laws below."""
+
+    def is_fulfilled(
+        self,
+        slip: tuple[float, float],
+        normal_force: float,
+        tangential_force: tuple[float, float],
+        tolerance: float,
+    ) -> bool:
+        return True
+
+
+def test_a_function_of_a_law_without_staticmethod_is_named() -> None:
+    told = (
+        r"^MyLaw\.coefficient must be a static method, but it is 'def coefficient\(self, speed, static\)'\. "
+        r"Add @staticmethod above coefficient, and remove `self`: parameters of the class are arguments\.$"
+    )
+    with pytest.raises(ns.InvalidInput, match=told):
+
+        class MyLaw(_Constant):
+            static: float = parameter(0.3, doc="coefficient")
+
+            def coefficient(self, speed: float, static: float) -> float:
+                return static
+
+    told = r"'def force\(time\)'\. Add @staticmethod above force\.$"
+    with pytest.raises(ns.InvalidInput, match=told):
+
+        class MyProcess(ImpactProcess):
+            def force(time: float) -> float:  # type: ignore[misc]  # noqa: N805
+                return time
+
+
+def test_a_class_without_the_decorator_of_dataclasses_is_named() -> None:
+    class Undecorated(_Constant):
+        static: float = parameter(0.3, doc="coefficient")
+
+        @staticmethod
+        def coefficient(speed: float, static: float) -> float:
+            return static
+
+    class Derived(Coulomb):  # type: ignore[misc]
+        factor: float = parameter(2.0, doc="a field that the constructor would not take")
+
+    class WithoutFields(_Constant):
+        @staticmethod
+        def coefficient(speed: float) -> float:
+            return 0.2
+
+    for owner in (Undecorated, Derived):
+        told = rf"^class {owner.__name__} must be a dataclass, .*\. Write @dataclass\(frozen=True\) above class"
+        for given in ({}, {"friction": 0.2}):
+            with pytest.raises(ns.InvalidInput, match=told):
+                owner(**given)
+    with pytest.raises(ns.InvalidInput, match=r"Write @dataclass\(frozen=True\) above class WithoutFields"):
+        WithoutFields().numbers()

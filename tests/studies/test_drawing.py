@@ -70,7 +70,32 @@ def test_numbers_along_an_axis_do_not_run_together(tmp_path: Path) -> None:
         assert all(one.x1 + CHARACTER < other.x0 for one, other in pairwise(boxes))
 
 
-def test_a_study_of_states_cannot_be_drawn(tmp_path: Path) -> None:
-    found = studies.Study(drop, studies.grid(height=[0.01]), ["q_end"], t_end=T_END).run(tmp_path / "s.zarr")
-    with pytest.raises(ns.InvalidInput, match="needs a record that is one number or one word"):
+def test_each_component_of_a_vector_gets_a_panel(tmp_path: Path) -> None:
+    friction = studies.grid(friction=[0.1, 0.3])
+    study = studies.Study(
+        DumbbellScenario(t_end=0.4), friction, ["drift_velocity", studies.Trajectory("q", (0.0, 0.2))]
+    )
+    found = study.run(tmp_path / "s.zarr", executor="serial")
+    figure = studies.draw_study(found)
+    assert [one.get_ylabel() for one in figure.axes] == ["drift_velocity[0] [m/s]", "drift_velocity[1] [m/s]"]
+    for part, axes in enumerate(figure.axes):
+        assert np.array_equal(axes.lines[0].get_ydata(), found.drift_velocity.values[:, part])
+    assert figure.get_suptitle() == "2 runs of DumbbellScenario; not drawn: q"
+
+
+def test_components_of_a_state_have_the_names_and_units_of_its_coordinates(tmp_path: Path) -> None:
+    study = studies.Study(drop, studies.grid(height=[0.01, 0.02]), ["q_end"], t_end=T_END)
+    found = study.run(tmp_path / "s.zarr", executor="serial")
+    figure = studies.draw_study(found)
+    (axes,) = figure.axes
+    assert axes.get_ylabel() == "q_end ball z [m]"
+    assert np.array_equal(axes.lines[0].get_ydata(), found.q_end.values[:, 2])
+    assert "q_end ball x 0 m" in figure.get_suptitle()
+
+
+def test_a_study_of_trajectories_cannot_be_drawn(tmp_path: Path) -> None:
+    record = [studies.Trajectory("q", (0.0, 0.1))]
+    found = studies.Study(drop, studies.grid(height=[0.01]), record, t_end=T_END).run(tmp_path / "s.zarr")
+    told = r"short vector, but it is \['q'\]. Store another record as well, .* or --record impacts"
+    with pytest.raises(ns.InvalidInput, match=told):
         studies.draw_study(found)

@@ -16,6 +16,7 @@ from bodies import (
     CylinderBody,
     DiscBody,
     EllipsoidBody,
+    Plate,
 )
 from laws import HuntCrossley
 from nonsmooth.engines.event_driven import EventDriven
@@ -72,6 +73,18 @@ def test_bodies_in_one_another_are_refused(build: Any, name: str) -> None:
         assemble(system, EventDriven())
     for word in ("start of the contact", *system.names.bodies, "overlap", "but it is -0.0", "apart"):
         assert word in str(caught.value)
+
+
+def test_a_body_that_was_not_placed_is_named(build: Any) -> None:
+    floor, ball, other = Plate(), Ball(0.01), Ball(0.01)
+    system = ns.System([floor, ball, other])
+    system.contact_all(ns.ContactLaws(**build.laws()))
+    system.place(other, position=(0.1, 0.0, 0.01))
+    with pytest.raises(ns.InvalidInput, match=r"by System\.place\. At the default position: 'ball 1'\.$"):
+        ns.simulate(system, 0.1)
+    system.place(ball, position=(0.0, 0.0, 0.005))
+    with pytest.raises(ns.InvalidInput, match=r"by System\.place\.$"):
+        ns.simulate(system, 0.1)
 
 
 @pytest.mark.parametrize("name", ["crossed bars", "rod through a box", "ellipsoid in a mesh"])

@@ -7,8 +7,9 @@ import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from types import NoneType
-from typing import Any, final
+from typing import Any, NoReturn, final
 
 from nonsmooth.cli.docstrings import described_parameters
 
@@ -150,7 +151,30 @@ class Command:
         """Add the options of the command, and the function that executes it, to a parser."""
         for option in self.options:
             option.add_to(parser)
-        parser.set_defaults(execute=self.execute)
+        parser.set_defaults(execute=self.execute, refuse=partial(self._refuse, parser))
+
+    def _refuse(self, parser: argparse.ArgumentParser, arguments: argparse.Namespace, word: str) -> NoReturn:
+        """Exit with the usage of the command, because it does not understand a word of the request."""
+        name = word.partition("=")[0]
+        if name.startswith("-") and name.lstrip("-")[:1].isalpha():
+            near = self._nearest(name)
+            parser.error(f"Unknown option {name!r}." + (f" Did you mean {near!r}?" if near else ""))
+        pairs = (option for option in self.options if "=" in option.metavar and option.repeats)
+        halves = (
+            f"{pair.name} {one}={word}" for pair in pairs for one in getattr(arguments, pair.place) if "=" not in one
+        )
+        meant = next((f" Did you mean '{half}'?" for half in halves), "")
+        parser.error(f"Unexpected word {word!r}.{meant}")
+
+    def _nearest(self, name: str) -> str:
+        """Option that begins with ``name``, or is almost the same; "" if there is none."""
+        # imported for a message only: most requests never need it
+        from difflib import get_close_matches
+
+        known = [option.name for option in self.options if option.name.startswith("--")]
+        begun = [one for one in known if one.startswith(name)]
+        # 0.85 finds one wrong letter of five; less finds '--count' for '--out'
+        return next(iter(begun or get_close_matches(name, known, n=1, cutoff=0.85)), "")
 
 
 @final

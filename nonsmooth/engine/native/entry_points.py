@@ -35,8 +35,10 @@ from nonsmooth.engine.native.loader import load
 from nonsmooth.engine.native.machine_code import EntryPoint, add_entry
 from nonsmooth.engine.native.signatures import signature_of, workspace_with
 from nonsmooth.notices import say
-from nonsmooth.progress import Bar, ProgressMeter, Quiet
+from nonsmooth.progress import Bar, Display, Lines, ProgressMeter, Quiet
 
+_LINES = 15.0
+"""Wall time between two lines on a stream that is not a terminal, such as a log file [s]."""
 _POLL = 0.1
 """Time between two updates of the progress bar while other processes compile entry points [s]."""
 _STUB = "def stub_{name}({names}): return call(ws.model.entry_points[{index}], {names})"
@@ -164,9 +166,9 @@ def compile_apart(names: tuple[str, ...]) -> None:
     # without files of the engine, other processes cannot help: this process compiles later, or loads numba's own files
     if not KEEPS_FILES:
         return
-    is_terminal = sys.stderr is not None and sys.stderr.isatty()
-    if not is_terminal:
-        say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
+    display = _display()
+    if not isinstance(display, Bar):
+        say("compiling the engine once for this machine (20 s to 3 minutes) ...")
     # other processes return their machine code through files. Without a folder to write to, only this process compiles
     if folders()[1] is None:
         return
@@ -174,7 +176,7 @@ def compile_apart(names: tuple[str, ...]) -> None:
     n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
     # the end of the block waits for both processes
     with contextlib.ExitStack() as stack:
-        meter = stack.enter_context(ProgressMeter(Bar(sys.stderr) if is_terminal else Quiet()))
+        meter = stack.enter_context(ProgressMeter(display))
         helpers = [helper for ordered in (names, names[::-1])[:n] if (helper := _helper(ordered)) is not None]
         for helper in helpers:
             stack.enter_context(helper)
@@ -183,6 +185,13 @@ def compile_apart(names: tuple[str, ...]) -> None:
             words = f"compiling the engine once: {n_written} of {len(names)} functions"
             meter.show(n_written / len(names), lambda _, words=words: (words, ""))  # type: ignore[misc]
             time.sleep(_POLL)
+
+
+def _display() -> Display:
+    """Return the display of the compilation on standard error, which is None if it was closed before the start."""
+    if sys.stderr is None:
+        return Quiet()
+    return Bar(sys.stderr) if sys.stderr.isatty() else Lines(sys.stderr, _LINES, _LINES)
 
 
 def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:

@@ -12,6 +12,8 @@ from matplotlib.quiver import Quiver
 from matplotlib.text import Text
 
 import nonsmooth as ns
+from nonsmooth.errors import NonsmoothWarning
+from nonsmooth.parameters import with_defaults
 from scenarios.dumbbell import DumbbellScenario
 from scenarios.dumbbell.trace import Trace
 
@@ -87,6 +89,27 @@ def test_titles_do_not_promise_what_did_not_happen(dumbbell: Runner) -> None:
     run = dumbbell(gamma=0.3)
     figure = run.scenario.figures(run.solution)["fig02_drift_motion"]
     assert "rest" in figure.get_suptitle()
+
+
+@pytest.mark.slow
+def test_figures_with_other_parameters_state_no_result_of_the_paper() -> None:
+    resting = with_defaults(DumbbellScenario, {"restitution": 0.5})
+    with pytest.warns(NonsmoothWarning) as caught:
+        figures = resting.gallery(ns.run_scenario)
+    told = {str(one.message) for one in caught}
+    constant = "is left out: its angle is constant at the end of all runs."
+    assert {f"The figure {stem} {constant}" for stem in ("fig08_theta", "fig09_beta")} <= told
+    assert {int(stem[3:5]) for stem in figures} == EXPECTED - {8, 9}
+    for stem in ("fig10_gamma", "fig11_paths"):
+        title = figures[stem].get_suptitle()
+        assert "(attractors: rest from the start of drift, " in title
+        assert not re.search("circles|straight|zigzags|open|rolls", title)
+        assert all(axes.lines for axes in figures[stem].axes)
+
+
+def test_titles_of_the_gallery_state_the_results_of_the_paper(gallery: dict[str, Any]) -> None:
+    assert "drift circles, jump goes straight, flutter zigzags" in gallery["fig11_paths"].get_suptitle()
+    assert "open in all three modes" in gallery["fig10_gamma"].get_suptitle()
 
 
 @pytest.mark.slow
