@@ -1,7 +1,7 @@
 """Writes contacts and their laws into the memory.
 
-Contacts with the same geometry and laws form a kind. Functions are compiled and parameters read once for each kind, and
-each contact of the kind gets a copy of the same block.
+Contacts with the same geometry and laws form a kind. Functions are compiled and parameters read once for each kind. Each
+contact gets a copy of the block of its laws; contacts with the same kinematics share its parameters.
 """
 
 from __future__ import annotations
@@ -38,16 +38,14 @@ Kinds: TypeAlias = Sequence[NDArray[np.int64]]
 
 
 @dataclass
-class Kind:
-    """Fields and block of a contact, the same for all contacts with the same geometry and laws.
+class Block:
+    """Numbers of a contact behind the arrays of the memory, the same for all contacts of a kind at the start.
 
     Attributes
     ----------
-    fields : dict
-        Fields of the declared contact, by their declarations.
     offsets : dict
         Offsets in the block, by the declarations of the fields that hold them.
-    block : list of float
+    numbers : list of float
         The block.
     written : list of tuple
         (offset in the block, length) of numbers that the engine or a law writes.
@@ -55,16 +53,15 @@ class Kind:
         (offset of a reference in the block, offset from which the reference counts, table that it refers to).
     """
 
-    fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: Mode.OPEN})
     offsets: dict[Any, int] = field(default_factory=dict)
-    block: list[float] = field(default_factory=list)
+    numbers: list[float] = field(default_factory=list)
     written: list[tuple[int, int]] = field(default_factory=list)
     tables: list[tuple[int, int, SharedNumbers]] = field(default_factory=list)
 
     def store(self, declared: Any, values: Sequence[float]) -> int:
         """Append values to the block; return their offset, which becomes the field ``declared``."""
-        start = self.offsets[declared] = len(self.block)
-        self.block += values
+        start = self.offsets[declared] = len(self.numbers)
+        self.numbers += values
         return start
 
     def output(self, declared: Any, size: int) -> None:
@@ -83,28 +80,50 @@ class Kind:
         self.written.append((place, size))
 
 
+@dataclass
+class Kind:
+    """Fields and blocks of a contact, the same for all contacts with the same geometry and laws.
+
+    Attributes
+    ----------
+    fields : dict
+        Fields of the declared contact, by their declarations.
+    geometry : Block
+        Parameters of the kinematics. Nothing writes them, except those of a search for features.
+    laws : Block
+        Parameters and outputs of the laws.
+    """
+
+    fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: Mode.OPEN})
+    geometry: Block = field(default_factory=Block)
+    laws: Block = field(default_factory=Block)
+
+
 def lay_contacts(
     memory: Memory, blocks: Heap, contacts: Contacts, table: ContactTable, kinds: Kinds, bodies: BodyLayouts
 ) -> None:
     """Write the declared contacts, and reserve Jacobians for as many as the neighbour list can hold.
 
-    Contacts of a kind have the same geometry and laws, so they get the same fields and each a copy of the same block.
+    Contacts of a kind have the same geometry and laws, so they get the same fields and equal blocks. Contacts with the
+    same kinematics share its parameters if nothing writes them: these are most of the numbers of a contact.
     """
     # functions with large tables that were tried out, which takes long
     tried = set[tuple[Any, ...]]()
+    # where the parameters of a kinematics are, by its identity
+    known: dict[int, int] = {}
     for numbers in kinds:
-        kind = kind_of(memory, contacts[numbers[0]], tried)
-        # the copies of the block follow each other
-        starts = blocks.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
-        for place, size in kind.written:
-            blocks.write(starts + place, size)
+        contact = contacts[numbers[0]]
+        kind = kind_of(memory, contact, tried)
         for declared, value in kind.fields.items():
             memory.declared(declared)[numbers] = value
-        for declared, offset in kind.offsets.items():
-            memory.declared(declared)[numbers] = offset + starts
-        for place, start, shared in kind.tables:
-            for begin in starts.tolist():
-                blocks.refer(begin + place, begin + start, shared)
+        _lay_block(memory, blocks, kind.laws, numbers)
+        if kind.geometry.written:
+            _lay_block(memory, blocks, kind.geometry, numbers)
+        elif (start := known.get(id(contact.kinematics))) is not None:
+            for declared, offset in kind.geometry.offsets.items():
+                memory.declared(declared)[numbers] = start + offset
+        else:
+            known[id(contact.kinematics)] = _lay_block(memory, blocks, kind.geometry, numbers, is_shared=True)
     lay_states(memory, contacts, kinds)
     # three rows of a Jacobian over the velocities of the largest articulation (a group of bodies tied by joints)
     size = 3 * _lay_sides(memory, table, bodies)
@@ -117,6 +136,22 @@ def lay_contacts(
     # each place of the neighbour list has Jacobians of its own
     for place in (_CONTACT.jacobian_a, _CONTACT.jacobian_b, _CONTACT.response_a, _CONTACT.response_b):
         memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
+
+
+def _lay_block(memory: Memory, blocks: Heap, block: Block, numbers: NDArray[np.int64], is_shared: bool = False) -> int:
+    """Write a block for each of the contacts ``numbers``, or one for all of them; return the offset of the first."""
+    times = 1 if is_shared else len(numbers)
+    # the copies of the block follow each other
+    first = blocks.repeat(block.numbers, times)
+    starts = first + len(block.numbers) * np.arange(times)
+    for place, size in block.written:
+        blocks.write(starts + place, size)
+    for declared, offset in block.offsets.items():
+        memory.declared(declared)[numbers] = offset + starts
+    for place, start, shared in block.tables:
+        for begin in starts.tolist():
+            blocks.refer(begin + place, begin + start, shared)
+    return first
 
 
 def by_kind(contacts: Contacts) -> Kinds:
@@ -203,7 +238,6 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     written into the memory, because all contacts share it.
     """
     made, law, impact, kinematics = Kind(), contact.friction, contact.impact, contact.kinematics
-    # the parameters of the geometry are the first in the block: `with_laws_of` keeps them
     geometry = LawFunction(
         _CONTACT.geometry_function, _CONTACT.geometry_parameters, kinematics, kinematics.evaluator, "pair"
     )
@@ -213,16 +247,18 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     # a law with inner states writes their rates; a traction law also force and moment
     if start or isinstance(law, TractionLaw):
         made.fields[_CONTACT.n_inner_states] = len(start)
-        made.store(_CONTACT.inner_states_at_start, start)
-        made.output(_CONTACT.traction_out, FORCE_AND_MOMENT + len(start))
-        made.output(_CONTACT.rates_out, len(start))
+        made.laws.store(_CONTACT.inner_states_at_start, start)
+        made.laws.output(_CONTACT.traction_out, FORCE_AND_MOMENT + len(start))
+        made.laws.output(_CONTACT.rates_out, len(start))
     if isinstance(law, AnisotropicFrictionLaw):
         # the block has the body that carries the axis (0 or 1), the unit axis, and the ratios forward, backward, across
         on_second = float(law.body == "second")
         made.fields[_CONTACT.is_anisotropic] = True
-        made.store(_CONTACT.anisotropy, (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios))
+        made.laws.store(
+            _CONTACT.anisotropy, (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios)
+        )
     if isinstance(impact, ImpactMap):
-        made.store(_CONTACT.map_parameters, _map_values(memory, impact))
+        made.laws.store(_CONTACT.map_parameters, _map_values(memory, impact))
     return made
 
 
@@ -251,15 +287,17 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
             _try_function(contact, part, bind(function, form, available, owner)[1])
     else:
         _try_function(contact, part, values)
+    is_geometry = part.address is _CONTACT.geometry_function
+    block = made.geometry if is_geometry else made.laws
     made.fields[part.address] = address
-    start = made.store(part.parameters, values)
-    made.tables += [(start + parameter_place(function, form, n), start, table) for n, table in tables.items()]
-    if part.address is _CONTACT.geometry_function and contact.kinematics.candidates is not None:
+    start = block.store(part.parameters, values)
+    block.tables += [(start + parameter_place(function, form, n), start, table) for n, table in tables.items()]
+    if is_geometry and contact.kinematics.candidates is not None:
         # what a search finds: kind and numbers of two features, and the distance up to which they are valid
-        made.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
+        block.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
     if with_state is not None:
         place = start + _place_of_state(with_state, values)
-        made.mark_written(_CONTACT.inner_states_copy, place, len(with_state.initial_state))
+        block.mark_written(_CONTACT.inner_states_copy, place, len(with_state.initial_state))
 
 
 def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) -> None:
@@ -330,10 +368,6 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
     return values[1:]
 
 
-_OF_GEOMETRY = (owners.ContactRecord.geometry_parameters, owners.ContactRecord.features)
-"""Fields of a contact that hold offsets of the geometry's numbers; :func:`lay_laws` leaves these numbers unchanged."""
-
-
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
     """Lay out ``system``, which differs from ``model.system`` in its laws only, in the memory of ``model``.
 
@@ -356,18 +390,14 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
         for number, one in zip(examples, before, strict=True):
             # the new parameters must fit in the places of the old ones, within blocks of the same length
-            if (one.offsets, len(one.block)) != (after.offsets, len(after.block)):
+            if (one.laws.offsets, len(one.laws.numbers)) != (after.laws.offsets, len(after.laws.numbers)):
                 _refuse(contacts[number], former[number])
         for declared, value in after.fields.items():
             memory.declared(declared)[numbers] = value
-        # overwrite only the parameters of the laws. The parameters of the geometry come first in the block and do not
-        # change; they may hold references to tables, which must not be overwritten
-        of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
-        first = min(of_laws, default=len(after.block))
-        # start of the block of each contact: the offset of the first parameter of the geometry
-        starts = memory.declared(owners.ContactRecord.geometry_parameters)[numbers]
-        places = starts[:, None] + np.arange(first, len(after.block))
-        memory.floats[places] = after.block[first:]
+        # any field with an offset in the block of the laws shows where this block begins for each contact
+        for declared, offset in [*after.laws.offsets.items()][:1]:
+            starts = memory.declared(declared)[numbers] - offset
+            memory.floats[starts[:, None] + np.arange(len(after.laws.numbers))] = after.laws.numbers
     lay_states(memory, contacts, kinds)
     lay_law_floats(memory, contacts, kinds)
     return replace(model, system=system)
