@@ -1,7 +1,7 @@
 """Writes contacts and their laws into the memory.
 
-Contacts with the same geometry and laws form a kind. Functions are compiled and parameters read once for each kind. Each
-contact gets a copy of the block of its laws; contacts with the same kinematics share its parameters.
+Contacts with the same geometry and laws form a kind. Functions are compiled and parameters read once for each kind.
+Each contact gets a copy of the block of its laws; contacts with the same kinematics share its parameters.
 """
 
 from __future__ import annotations
