@@ -6,10 +6,9 @@ assigns them to the contacts of the two shapes.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from nonsmooth.binding import interpreted
 from nonsmooth.binding.bounds import try_out
@@ -61,14 +60,23 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
     InvalidInput
         If a shape is unbounded. Its displacement has no bound, so no time for the next search is known.
     """
-    found = []
+    found: list[FeatureSearch] = []
+    # rows share their kinematics, most of which have no search
+    needs_search = {
+        id(kinematics): any(one.candidates is not None for one in kinematics)
+        for kinematics in {id(row.kinematics): row.kinematics for row in contacts.rows}.values()
+    }
     for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
-        candidates = [kinematics.candidates for kinematics in row.kinematics]
-        for search, group in itertools.groupby(range(len(row)), candidates.__getitem__):
+        if not needs_search[id(row.kinematics)]:
+            continue
+        for index, kinematics in enumerate(row.kinematics):
+            search, number = kinematics.candidates, start + index
             if search is None:
                 continue
-            first, *others = group
-            contact = row.contact(first)
+            if found and found[-1].candidates is search and found[-1].contacts.stop == number:
+                found[-1] = replace(found[-1], contacts=range(found[-1].contacts.start, number + 1))
+                continue
+            contact = row.contact(index)
             for shape, extent in zip(row.shapes, row.extents, strict=True):
                 if not math.isfinite(extent):
                     raise InvalidInput(
@@ -77,8 +85,8 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
                         extent,
                         "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                     )
-            owner = f"{type(contact.kinematics).__name__} ({contact})"
-            found.append(FeatureSearch(search, range(start + first, start + first + 1 + len(others)), owner))
+            owner = f"{type(kinematics).__name__} ({contact})"
+            found.append(FeatureSearch(search, range(number, number + 1), owner))
     return found
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.materials import ContactLaws
+from nonsmooth.system.names import numbered
 
 
 @final
@@ -62,7 +63,7 @@ class ContactRow:
 
     def name(self, index: int) -> str:
         """Name of the contact with an index in the row."""
-        return f"{self.label} ({self.first_number + index})" if self.first_number else self.label
+        return numbered(self.label, self.first_number, index)
 
     def contact(self, index: int) -> Contact:
         """The contact with an index in the row."""
@@ -143,11 +144,6 @@ class Contacts(Sequence[Contact]):
         """Number of contacts, and the first three."""
         more = ", ..." if len(self) > 3 else ""
         return f"Contacts({len(self)}: {', '.join(map(repr, self[:3]))}{more})"
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of all contacts."""
-        return tuple(row.name(index) for row in self.rows for index in range(len(row)))
 
     def repeated(self, values: Sequence[Any] | NDArray[Any]) -> NDArray[Any]:
         """Values of the rows, shape [n_rows, ...], repeated for each contact, shape [n_contacts, ...]."""

@@ -18,7 +18,6 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
 
 if TYPE_CHECKING:
-    from nonsmooth.system.contacts import Contacts
     from nonsmooth.system.system import System
 
 _BETWEEN = " - "
@@ -36,20 +35,21 @@ class Names:
     ----------
     bodies, joints, loads, guards : tuple of str
         The names.
-    declared : Contacts
-        The contacts, whose names are made when they are used.
+    labels : tuple of tuple
+        Names of the contacts, in rows: name without number, number of the first contact of the row or 0, and number of
+        contacts.
     """
 
     bodies: tuple[str, ...]
-    declared: Contacts
+    labels: tuple[tuple[str, int, int], ...]
     joints: tuple[str, ...]
     loads: tuple[str, ...]
     guards: tuple[str, ...]
 
     @functools.cached_property
     def contacts(self) -> tuple[str, ...]:
-        """Names of the contacts."""
-        return self.declared.names
+        """Names of the contacts. They are made when they are used, because there may be hundreds of thousands."""
+        return tuple(numbered(label, first, i) for label, first, count in self.labels for i in range(count))
 
 
 def kind_word(component: object) -> str:
@@ -75,6 +75,11 @@ def body_names(bodies: Sequence[object], chosen: Sequence[str]) -> tuple[str, ..
 
 def _numbered(kind: str) -> Iterator[str]:
     return (f"{kind} {number}" for number in itertools.count(1))
+
+
+def numbered(label: str, first: int, index: int) -> str:
+    """Name of a part: its label, and behind it the number ``first`` + ``index``; only the label if ``first`` is 0."""
+    return f"{label} ({first + index})" if first else label
 
 
 def between(first: str, second: str, what: str = "") -> str:
@@ -169,7 +174,7 @@ class Naming:
     def give_one(self, kind: str, chosen: str, made: str) -> str:
         """Name of a single new part of a kind; arguments and errors as for :meth:`give`."""
         ((name, number),) = self.give(kind, chosen, [(made, 1)])
-        return f"{name} ({number})" if number else name
+        return numbered(name, number, 0)
 
     def forget(self, kind: str) -> None:
         """Take back the names of all parts of a kind."""

@@ -91,7 +91,8 @@ class System(metaclass=Readable):
     def names(self) -> Names:
         """The names of all bodies, contacts, joints, loads and guards, in the order declared."""
         others = (tuple(one.name for one in parts) for parts in (self._joints, self._loads, self._watched))
-        return Names(self._members.naming.bodies, self.contacts, *others)
+        labels = tuple((row.label, row.first_number, len(row)) for row in self.contacts.rows)
+        return Names(self._members.naming.bodies, labels, *others)
 
     def name_of(self, body: Body) -> str:
         """Name of a body; InvalidInput if it is not of this system."""

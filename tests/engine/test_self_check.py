@@ -142,7 +142,7 @@ def _over(
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
     (made,) = ns.System([plate, ball]).contact(plate, ball, **laws)
-    system.add_contact(dataclasses.replace(made, kinematics=gap))
+    system.add_contact(dataclasses.replace(made, kinematics=gap, name=""))
     system.place(ball, position=(0.0, 0.0, z), velocity=(1.0, 0.0, 0.0))
     return system
 
