@@ -149,7 +149,7 @@ def evaluator(equations: Equations) -> Callable[..., None]:
 def probe(equations: Equations) -> Callable[..., None]:
     """Return ``probe(t, q, u, out, ...)``, which writes the output of each user function separately, for checks.
 
-    The output of each function begins at its index in ``out`` from :func:`places`.
+    The output of a function begins in ``out`` at the index that :func:`places` returns for this function.
     """
     lines = []
     for part, start in places(equations):

@@ -51,9 +51,10 @@ class SmoothShape(ConvexShape):
 
 
 _STEP, _LAST_NODE = 0.125, 4.75
-"""Spacing and largest value of the nodes of the double exponential quadrature, for an integral over an angle.
+"""Spacing and largest node of the double exponential quadrature over each angle (:func:`integrals_with_radius`).
 
-The nodes are values of the transformed variable, which has no unit.
+Both are values of the transformed variable, which has no unit.  With them, the relative error of the integrals is
+below 1e-6 if the semi-axes differ by a factor of at most 2.5, and below 1e-4 up to a factor of 10.
 """
 
 
@@ -118,7 +119,8 @@ def _corner(core: tuple[float, ...]) -> float:
     """Return the distance of the farthest point of a core from its centre, without the radius [m]."""
 
     def norm(one: float, two: float, power: float) -> float:
-        # p of the gauge is p / (p - 1), of the squares' gauge half of it, of its dual p / (2 - p)
+        # the gauge has the power p / (p - 1); in the squares of the coordinates it is half of that, and the support
+        # function of the body in these squares has the power p / (2 - p)
         larger, smaller = max(one, two), min(one, two)
         if power >= 2.0:
             return larger
@@ -132,8 +134,9 @@ def _corner(core: tuple[float, ...]) -> float:
 def drawn(core: tuple[float, ...], fineness: int) -> tuple[Vector, Vector]:
     """Return vertices [m], shape [n, 3], and triangles, shape [m, 3], of a closed mesh.
 
-    The vertices are those of meridians and parallels with powers of sines and cosines, sin^(2/q) in a normal over
-    the semi-axes and sin^(2 - 2/q) in its point, which are a superellipsoid's usual angles.
+    The vertices lie on meridians and parallels, which are given by the two usual angles of a superellipsoid.  The
+    normal, before its scaling to length 1, is the product of such powers as sin^(2/q), divided by the semi-axis.  The
+    point on the core is the product of such powers as sin^(2 - 2/q), times the semi-axis.
     """
     sphere, triangles = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     axes, semi, (p, q) = np.array(core[9:18]).reshape(3, 3), np.array(core[:3]), core[3:5]
@@ -151,7 +154,7 @@ def drawn(core: tuple[float, ...], fineness: int) -> tuple[Vector, Vector]:
 
 
 def moments_in_body(core: tuple[float, ...], second: tuple[float, float, float]) -> Vector:
-    """Return the inertia tensor in body axes, shape [3, 3], of integrals of x^2, y^2, z^2 in the core's own axes."""
+    """Return the inertia tensor in body axes, shape [3, 3], from the integrals of x^2, y^2, z^2 in axes of the core."""
     axes = np.array(core[9:18]).reshape(3, 3)
     return np.asarray(axes @ np.diag(sum(second) - np.array(second)) @ axes.T)
 
@@ -160,9 +163,10 @@ def moments_in_body(core: tuple[float, ...], second: tuple[float, float, float])
 def integrals_with_radius(core: tuple[float, ...]) -> tuple[float, float, float, float]:
     """Return the integrals of 1, x^2, y^2 and z^2 over a core with its radius, in its own axes [m^3], [m^5].
 
-    The cones from the centre to the elements dA of the surface at P have the volume P . dA / 3 and the integral
-    x^2 P . dA / 5.  The two angles are a superellipsoid's usual ones, as in :func:`drawn`; powers of their sines and
-    cosines, singular at the ends of an eighth of the surface, ask for the rule of Takahasi and Mori.
+    The body consists of cones from its centre to the elements dA of its surface at the points P.  Such a cone has the
+    volume P . dA / 3, and the integral of x^2 over it is x^2 P . dA / 5.  The surface is parametrised by the two angles
+    of :func:`drawn`, over an eighth of it.  Powers of their sines and cosines are singular at the ends of this range.
+    Therefore the quadrature is the double exponential rule of Takahasi and Mori.
     """
     t = np.arange(-_LAST_NODE, _LAST_NODE + 0.5 * _STEP, _STEP)
     far = 1.0 / (1.0 + np.exp(math.pi * np.sinh(t)))

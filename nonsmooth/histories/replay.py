@@ -265,7 +265,7 @@ class StateReplay:
         averaged[numbers] = kept[:, _AVERAGED]
         memory.declared(contact.direction)[numbers] = kept[:, _DIRECTION:_RATE]
         memory.declared(contact.closing_rate)[numbers] = kept[:, _RATE]
-        # open contacts search for their features again; closed contacts get the features after the event
+        # zeros make a contact search for its features again; closed contacts get back their features at the event
         places = memory.declared(contact.features)
         memory.floats[places[places > 0]] = 0.0
         for number, features in zip(numbers.tolist(), kept[:, _FEATURES:], strict=True):

@@ -234,8 +234,8 @@ class Model:
         Raises
         ------
         InvalidInput
-            If a number is not valid, the state is of another model, the model runs already, or the folder holds a run
-            that was cut off.
+            If an argument is not valid; if the state is of another model; if the model runs already; or if the folder
+            holds a run that is under way or was cut off.
         FileError
             If the folder cannot be written to as the run begins.
         RunFailed

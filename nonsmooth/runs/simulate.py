@@ -94,12 +94,13 @@ def simulate(
     Raises
     ------
     InvalidInput
-        If the engine cannot run the system, the start or a number is not valid, or the folder holds a run that was cut
-        off.  Nothing has run then.
+        If the engine cannot run this system; if the start of the system or an argument is not valid; or if the folder
+        holds a run that is under way or was cut off.  The run has not started then.
     FileError
         If the folder cannot be written to as the run begins.
     RunFailed
-        If the run cannot continue, or cannot be written any more; its ``solution`` holds the results until then.
+        If the run cannot continue, or its results cannot be written any more.  ``solution`` of the error holds the
+        results until then.
     """
     check_times("simulate", t_end, sample_interval)
     if output is not None:

@@ -1,4 +1,4 @@
-"""Records: numbers, words and arrays that a study keeps of each run, by name or by a function of the user."""
+"""Records: numbers, words and arrays that a study stores of each run, chosen by name or by a user's function."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class RunResult:
 @final
 @dataclass(frozen=True)
 class StudyRecord:
-    """A number, word or array that a study keeps of each run.
+    """A number, word or array that a study stores of each run.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ class Recorder(ABC):
 Function: TypeAlias = Callable[[Any, Solution], float]
 """``f(scenario, solution) -> number``; the scenario is None if a function built the system."""
 Requested: TypeAlias = str | Recorder | Function
-"""One quantity that a study records of each run: its name, a recorder, or a function of the user."""
+"""Request for one quantity of each run: its name, a recorder, or a function of the user."""
 _LINE = re.compile(r"(?P<words>.*?)(\s*\[(?P<unit>[^]]+)\])?\.?")
 """First line of a docstring: description, and unit in brackets at its end."""
 
@@ -169,7 +169,10 @@ def _of_function(function: Function) -> StudyRecord:
 
 
 def _named(name: str, first: RunResult) -> StudyRecord:
-    """Return the record of a name: a number or state that every run has, or an entry of the scenario's summary."""
+    """Return the record with a name: that of a built-in number, of a state, or of an entry of the scenario's summary.
+
+    ``first`` is the first run of the study.  It gives the labels of the states, and the entries of the summary.
+    """
     if name in _NUMBERS:
         find, dtype, unit, text = _NUMBERS[name]
         return StudyRecord(name, find, described(text, unit), dtype=dtype)

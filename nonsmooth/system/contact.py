@@ -121,16 +121,16 @@ class ContactDeclaration:
 
 @dataclass(frozen=True)
 class Watched:
-    """A guard of a system.
+    """A guard that a user declared, with its name in the system.
 
     Attributes
     ----------
     name : str
         Name of the guard, unique among the guards of the system.
     chosen : bool
-        Whether the user chose the name; otherwise it was made from the kind of the guard.
+        True if the user chose the name; otherwise it was made from the kind of the guard.
     guard : Guard
-        The guard.
+        The guard: an event occurs when its value falls to zero.
     """
 
     name: str
@@ -151,7 +151,7 @@ class Tie:
     name : str
         Name of the joint or load, unique among the joints or loads of the system.
     chosen : bool
-        Whether the user chose the name.
+        True if the user chose the name.
     kind : str
         "joint" or "load".
     first, second : Body

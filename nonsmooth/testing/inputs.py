@@ -147,10 +147,10 @@ def _case(numbers: Sequence[DrawnNumber], steps: Sequence[int]) -> Case:
 
 @functools.cache
 def _drawn(sizes: tuple[int, ...], count: int) -> list[tuple[int, ...]]:
-    """Return ``count`` inputs, each as a tuple of integers; there is one integer for each number of an input.
+    """Return at most ``count`` inputs, each a tuple with one integer for each number of the input.
 
-    :meth:`DrawnNumber.at` computes the value of a number from its integer. ``sizes`` are the largest integers. Calls
-    with equal ``sizes`` and ``count`` return the same tuples, so these are drawn only once.
+    An integer is from 0 to its entry of ``sizes``. :meth:`DrawnNumber.at` computes the number from the integer. The
+    result is cached, because equal arguments always give the same tuples.
     """
     if not sizes:
         return [()]

@@ -1,4 +1,4 @@
-"""Which of the paper's motions a dumbbell settled into, found from the motion alone."""
+"""Finds which motion of the paper a dumbbell settled into, from the gaps, tilts and impacts of its run."""
 
 from __future__ import annotations
 
@@ -40,7 +40,10 @@ In a level motion both balls move alike.
 _SYMMETRIC = 0.1
 """Largest sum of the least and the largest tilt of a symmetric motion, relative to their difference."""
 _STANDING = 0.2
-"""Part of the time in contact with the plate: a ball with at least this part stays on the plate, else it bounces."""
+"""Least fraction of the time in contact with the plate for a ball that stays on the plate.
+
+A ball with a smaller fraction bounces.
+"""
 
 
 @dataclass(frozen=True)

@@ -31,11 +31,12 @@ def _evaluate(t: float, a: Floats, b: Floats, out: Floats, viscosity: float, rad
 @final
 @dataclass(frozen=True)
 class AirFilm(Load):
-    """The moment -c omega on a disc, with c = (pi / 4) viscosity (radius / sin alpha)^3 [N m s] and its tilt alpha.
+    """Moment -c omega of the air layer between a rolling disc and the table [N m].
 
-    omega is the angular velocity of the disc relative to the table.  In steady rolling with small alpha the moment
-    dissipates the power that Moffatt found for the air layer, pi viscosity g a^2 / alpha^2, with the radius a.  It does
-    not describe other motions, and it is singular for a disc that lies flat.
+    The coefficient is c = (pi / 4) viscosity (radius / sin alpha)^3 [N m s].  alpha is the angle between disc and
+    table, omega the angular velocity of the disc relative to the table.  In steady rolling with small alpha, the moment
+    dissipates the power of Moffatt's theory, pi viscosity g radius^2 / alpha^2.  The formula is valid for this motion
+    only.  c is infinite for a disc that lies flat.
 
     References
     ----------

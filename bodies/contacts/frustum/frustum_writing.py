@@ -107,9 +107,12 @@ def write_two(
     """Write the geometry block of two frustums, except the curvature matrices.
 
     ``distance`` is the distance of the cores [m] along ``normal``, from the point p on the core of ``one`` to the core
-    of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  ``overlap`` is the result of
-    :func:`overlap_of` [m].  If it is negative while the contact is past the boundary of its features (``past``
-    positive), it is written as the gap: no valid contact reports this overlap.
+    of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  ``past`` is the distance past the boundary
+    of the features [m], ``overlap`` the result of :func:`overlap_of` [m].
+
+    A contact with a positive ``past`` is not valid, so it gets a positive gap.  But if ``overlap`` is negative, no
+    valid contact of the pair may report this overlap.  Then the gap is negative; its magnitude is the depth of this
+    overlap, or the distance of the contact points if that is smaller.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = one[SWEEP]
@@ -162,7 +165,7 @@ def size_of_both(first: Frustum, second: SweptPolytope) -> float:
 def edge_in_frustum(
     b: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Return the start of an edge from the frustum's centre [m], and its unit vector, in the axes of the frustum."""
+    """Return the start of an edge [m] and its unit vector, from the centre and in the axes of the frustum."""
     x, y, z = point_in_world(b, edge[START], edge[START + 1], edge[START + 2])
     x, y, z = back(axes, x - cx, y - cy, z - cz)
     dx, dy, dz = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
@@ -250,8 +253,8 @@ def write_crossing(
 
     ``distance`` is the distance of the cores [m], ``past`` the distance past the boundary of edge and rim or side [m].
     p is the point on the core of the frustum in the world.  ``sine`` is the sine of the angle between both features.
-    If it is small, the point of crossing moves faster than the bodies, by the factor 1 / sine.  Past the boundary, the
-    gap is therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.
+    If it is small, the point of crossing moves 1 / sine times as fast as the bodies.  Past the boundary, the gap is
+    therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = frustum[SWEEP]

@@ -242,7 +242,7 @@ def _evaluate(
             other, _, _, _ = nearest_part(first, along, far)
             outside = min(outside, other)
         if REACH * size < outside < size and outside + 0.9 * gap <= REACH * size:
-            # if both points are outside, sharp bodies can overlap next to the crossing only
+            # both points are outside: sharp bodies can only overlap at points of the rims next to the crossing
             reach = min(0.5, _BESIDE * -gap / (crossing * min(radius, wide)))
             outside = size
             if second[SIDE] > 0.0:
@@ -258,7 +258,8 @@ def _evaluate(
             and _linked(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
         ):
             outside = gap
-        # bodies overlap next to the crossing only if the contact normal is a normal of both rims
+        # the contact is not valid (past > 0) if no point of the rims next to the crossing is inside of the other body,
+        # or if the contact normal is outside of the fan of normals of a rim
         past = max(past, outside - REACH * size, size * (astray - _LEAN))
     # if the overlap is deep compared with the rims, other features are in contact
     past = max(past, -gap - 0.25 * min(radius, wide))

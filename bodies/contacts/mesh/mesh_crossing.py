@@ -23,14 +23,21 @@ from ..surface.surface_search import THROUGH, depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
 _ASTRAY = 1e-6
-"""Sine of the largest angle between a contact normal and the edge's fan of normals; beyond it, a face is nearer."""
+"""Sine of the largest angle between a contact normal and the edge's fan of normals.  If it is larger, a face is nearer.
+"""
 
 
 @compiled
 def _pierced(
     b: Floats, frustum: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float, size: float
 ) -> float:
-    """Return the depth of an edge that goes through a frustum, at its deepest point between the caps [m]; else 0."""
+    """Return the depth of an edge inside of a frustum [m]; 0 if the edge does not go through the frustum.
+
+    It is the depth of the point of the edge that is farthest inside of the frustum's side, between its two caps.  For a
+    disc, which has no side, it is the distance of the crossing from the rim, or of an end of the edge from the disc's
+    plane, if this is smaller.  ``axes`` and (cx, cy, cz) are the axes and the centre of the frustum in the world, b is
+    the block of the edge's body.  A depth of less than ``THROUGH`` times ``size`` [m] counts as 0.
+    """
     x, y, z, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
     least, low, high = THROUGH * size, 0.0, edge[LENGTH]
     if frustum[SIDE] > 0.0:
@@ -64,11 +71,11 @@ def judge_crossing(
 ) -> None:
     """Correct the geometry block of a frustum and a crossing edge of a mesh by three rules.
 
-    First: if the contact normal is outside of the edge's fan of normals, a face is nearer, which has a contact of its
-    own.  This contact is then opened, except at a deep overlap.
+    First: if the contact normal is outside of the edge's fan of normals, a face is nearer, and has its own contact with
+    the frustum.  The contact of the edge is then opened, except at a deep overlap.
 
-    Second: if the gap is positive but the edge goes through the frustum, no contact reports this overlap.  Minus its
-    depth is then written as the gap.
+    Second: if the gap is positive but the edge goes through the frustum, no contact reports this overlap.  The gap is
+    then set to minus the depth of the edge.
 
     Third: if the gap shows a deep overlap but neither contact point is inside of the other body, the bodies do not
     overlap there.  This contact is then opened.

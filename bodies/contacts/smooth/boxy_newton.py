@@ -25,9 +25,9 @@ _ROUND_OFF = 2e-16
 _SEEN = 1e-14
 """Difference of two distances of the contact points that is round-off, relative to the size of the bodies."""
 _CLOSE = 1e-12
-"""Residual, relative to the size of the bodies, below which the iteration ends if a step does not halve the residual.
+"""Residual below which the iteration ends as soon as a step does not halve it, relative to the size of the bodies.
 
-The residual is then limited by round-off.
+A step that does not halve such a small residual is limited by round-off.
 """
 _RIGHT = 1e-13
 """Largest residual of Newton's method that is accepted for a result, relative to the size of the bodies."""

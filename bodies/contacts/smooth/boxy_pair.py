@@ -20,14 +20,20 @@ _STEPS = 100
 _HALVINGS = 30
 _ROUND_OFF = 2e-16
 _CLOSE = 1e-12
-"""Residual, relative to the size of the bodies, below which Newton's method ends once a step no longer halves it.
+"""Residual below which Newton's method ends as soon as a step does not halve it, relative to the size of the bodies.
 
-Below this bound, round-off limits the residual.
+A step that does not halve such a small residual is limited by round-off.
 """
 _RIGHT = 1e-13
-"""Residual, relative to the size of the bodies, above which a result of Newton's method is rejected."""
+"""Largest residual of an accepted result of Newton's method, relative to the size of the bodies.
+
+An iteration that ends between this bound and ``_CLOSE`` has no result: the gap is nan.
+"""
 _LONGEST = 0.3
-"""Longest Newton step of a contact point, relative to the largest semi-axis of its body: surfaces are linearised."""
+"""Longest Newton step of a contact point, relative to the largest semi-axis of its body.
+
+Newton's method linearises the surfaces, which is wrong for longer steps.
+"""
 
 
 @compiled

@@ -49,15 +49,17 @@ def no_shorter_way(
 
 @compiled
 def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
-    """Return the radius of a ball inside the core that touches its surface at the point (x, y, z) [m].
+    """Return the radius [m] of a ball that lies inside the core and touches the core's surface at (x, y, z).
 
-    The outward normal at the point is n.  The radius is at most ``most`` [m]; it is 0 if no ball was found.
+    The point is in the axes of the core, from its centre [m].  (nx, ny, nz) is the outward unit normal there.  The
+    radius is a lower bound of the largest possible radius, and at most ``most`` [m].  It is 0 if no ball was found.
     """
     a, b, c = core[0], core[1], core[2]
     height = nx * x + ny * y + nz * z
     if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
         return 0.0
-    # below is r^j + |z / c|^j with r^k = |x / a|^k + |y / b|^k; first the least and the greatest part of each in r^k
+    # the function is r^j + |z / c|^j, with r^k = |x / a|^k + |y / b|^k.  First: bounds of |x / a|^k, |y / b|^k and
+    # |z / c| in a cube that contains the ball of radius `most`, and bounds of the parts s and t of x and y in r^k
     j, k = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
     x, y, z = abs(x - most * nx), abs(y - most * ny), abs(z - most * nz)
     low_x, low_y, low_z = (max(x - most, 0.0) / a) ** k, (max(y - most, 0.0) / b) ** k, max(z - most, 0.0) / c
@@ -69,7 +71,7 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
         r, w = low_x + low_y, low_z
     s, t = (high_s, high_t) if k >= 2.0 else (low_s, low_t)
     if min(min(r, w), min(s, t)) == 0.0:
-        # near a sharp place of the surface the second derivative has no bound: the radius is 0
+        # the second derivative has no bound in this cube: the radius is 0
         return 0.0
     bend = 1.0 - 2.0 / k
     along = (j - 1.0) * (high_s ** (bend + 1.0) / (a * a) + high_t ** (bend + 1.0) / (b * b))

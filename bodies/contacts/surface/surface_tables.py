@@ -1,4 +1,7 @@
-"""Tables of a surface, convex or not, as one array for compiled functions: features, and a tree of bounding boxes."""
+"""Packs a surface, convex or not, into one array for compiled functions.
+
+The array holds the faces, triangles, convex edges and corners of the surface, and a tree of their bounding boxes.
+"""
 
 from __future__ import annotations
 

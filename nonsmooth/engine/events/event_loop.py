@@ -131,9 +131,11 @@ def _take_over(ws: Workspace, h: float) -> int:
 
 @kernel("Status(ws, Status)")
 def _up_to_end(ws: Workspace, status: Status) -> Status:
-    """Prepare one repetition of a failed step, which ends at the end time: a law need not have a value after that time.
+    """Limit the next step to the end time, to repeat a failed step once.
 
-    Returns ``RUNNING`` if the step is to be repeated, else the ``status`` of its failure.
+    The failed step may have evaluated a law after the end time, and a law need not be defined there. Returns
+    ``RUNNING`` if the step is to be repeated. If steps were limited to the end time already, returns the ``status`` of
+    the failure.
     """
     if ws.island.resumed_step <= ws.request.t_end - ws.island.time:
         return status
@@ -151,10 +153,10 @@ def _arrived(ws: Workspace) -> Status:
 
 @kernel("Status(ws)")
 def _end_within(ws: Workspace) -> Status:
-    """End the run within the step that leads past its end time, before any event of it; return the status.
+    """Advance to the end time, which lies within the current step and before its first event; return the status.
 
-    The step was taken, and its event looked for, as if the run went on: where it ends then changes nothing of what
-    it does before.
+    The current step was chosen, and its event located, as if the run continued. So the end time has no effect on the
+    results before it.
     """
     h = ws.request.t_end - ws.island.time
     record_samples(ws, h)
@@ -219,7 +221,10 @@ def _step(ws: Workspace) -> Status:
 
 @kernel()
 def _evaluate_start(ws: Workspace) -> None:
-    """Write slope and guards where the step begins; behind a step without an event they are at hand."""
+    """Write slope and guards at the start of the step.
+
+    After a step without an event, they are copied from the end of that step.
+    """
     ws.step.uses_last_slope = ws.island.follows_a_step
     ws.step.has_replaced_slope = False
     if ws.island.follows_a_step:
@@ -242,19 +247,19 @@ def _evaluate_start(ws: Workspace) -> None:
 
 @kernel("i8(ws)")
 def _due_at_start(ws: Workspace) -> int:
-    """Return a contact of which an event is due before any step, or -1."""
+    """Return the number of a contact that has an event at the start of the step, or -1."""
     for contact in ws.contacts:
         c = contact.index
         # a gap that closes exactly where the last step ended is an event of that step
         arrived = normal_of(ws, contact).at_end <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
         if contact.mode == Mode.OPEN and arrived:
             return c
-        # what put the contacts on their constraints may have put one past its end
+        # the projection on the constraints may have moved a contact point past the end of its feature
         if contact.mode != Mode.OPEN and end_of(ws, contact).at_end < 0.0:
             return c
         if has_own_step(ws, c):
             continue
-        # and may have turned a slip so that its force is another one
+        # the projection may have turned a slip direction, so that the contact force violates a bound
         unique = contact.mode != Mode.OPEN and not contact.is_compliant and not contact.has_redundant_force
         if not ws.island.follows_a_step and unique and is_violated(ws, c):
             return c
@@ -263,7 +268,12 @@ def _due_at_start(ws: Workspace) -> int:
 
 @kernel("Status(ws, Status)")
 def _without_step(ws: Workspace, status: Status) -> Status:
-    """Say what follows where no step was accepted, for the reason ``status``; return the status."""
+    """Handle a step that was not accepted, for the reason ``status``; return the new status.
+
+    A step that is too small may end at a jump of a contact point, at the end of a feature, in a jam of a sliding
+    contact, or in averaged forces (time-stepping fallback). These are tried in this order. Otherwise the step is
+    repeated once up to the end time.
+    """
     ws.step.limit = Limit.NO_STEP
     if status == Status.STEP_TOO_SMALL and jump_contact_points(ws, ws.tolerance.time):
         return _after_leap(ws)
@@ -287,7 +297,10 @@ def _without_step(ws: Workspace, status: Status) -> Status:
 
 @kernel("Status(ws)")
 def _after_leap(ws: Workspace) -> Status:
-    """Take over the instant in which contact points ran along bodies, and what it let go; return the status."""
+    """Accept the short step in which contact points jumped; return the status.
+
+    If the jump released a contact, its event is carried out.
+    """
     ws.step.h, ws.island.follows_a_step = ws.tolerance.time, False
     _take_over(ws, ws.step.h)
     cause, which = NO_RELEASE, -1
@@ -303,7 +316,10 @@ def _after_leap(ws: Workspace) -> Status:
 
 @kernel("Status(ws)")
 def _whole_step(ws: Workspace) -> Status:
-    """Take over a step without an event, unless a slip has come to rest in it; return the status."""
+    """Accept a step in which no guard fired; return the status.
+
+    A slip that has come to rest in the step, or a contact point that has jumped, is then an event at its end.
+    """
     if ws.step.h > ws.request.t_end - ws.island.time:
         ws.step.limit = Limit.END
         return _end_within(ws)
@@ -321,7 +337,7 @@ def _whole_step(ws: Workspace) -> Status:
     ws.island.follows_a_step = ended == 0
     continues = ws.run.failure == Status.RUNNING and ws.request.t_end - ws.island.time > ws.tolerance.time
     if ws.step.limit == Limit.EVENT and ws.island.follows_a_step and continues:
-        # it was made to end where a gap is about to close
+        # the step was chosen to end at the expected closing of a gap
         which = _due_at_start(ws)
         if which >= 0:
             return _carry_out(ws, cause_at_start(ws, which), which)
@@ -345,9 +361,9 @@ def _step_to_event(ws: Workspace, high: float) -> Status:
 
 @kernel("Status(ws)")
 def _in_part(ws: Workspace) -> Status:
-    """Ask for a quarter of the step, which leads past what it should end at; return the status."""
+    """Reject the step, and propose a quarter of its length for the next attempt; return the status."""
     ws.island.follows_a_step, ws.step.limit = False, Limit.CROWDED_EVENTS
-    # crowded guards, an error that grows, or a flat place
+    # causes: many guards fire in the step, its error grows, or a contact point has jumped
     if ws.step.h < NEGLIGIBLE * ws.tolerance.time:
         return _without_step(ws, Status.STEP_TOO_SMALL)
     if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:
@@ -361,7 +377,7 @@ def _in_part(ws: Workspace) -> Status:
 
 @kernel("Status(ws, f8, i8)")
 def _event(ws: Workspace, h: float, guard: int) -> Status:
-    """Take over the step of ``h`` at whose end a guard fires, and carry out its event; return the status."""
+    """Accept the step of ``h`` [s], at whose end a guard fires, and carry out its event; return the status."""
     if guard >= first_end_guard(ws):
         which = guard - first_end_guard(ws)
         changed = has_other_features(ws, ws.contacts[which])
@@ -381,7 +397,7 @@ def _event(ws: Workspace, h: float, guard: int) -> Status:
 
 @kernel("Status(ws, i8, b1)")
 def _pass_on(ws: Workspace, which: int, has_changed: bool) -> Status:
-    """Carry out that the features of contact ``which`` have ended, or changed; return the status."""
+    """Carry out the event in which the features of contact ``which`` have ended or changed; return the status."""
     if has_changed:
         ws.island.last_feature_change = ws.island.time
     return _carry_out(ws, Cause.FEATURE_CHANGE if has_changed else Cause.FEATURE_END, which)
@@ -389,7 +405,7 @@ def _pass_on(ws: Workspace, which: int, has_changed: bool) -> Status:
 
 @kernel("Status(ws, i8)")
 def _own_event(ws: Workspace, number: int) -> Status:
-    """Record the event of a guard of the scenario's own; return the status."""
+    """Record the event of a guard that the user declared; return the status."""
     begin_event(ws)
     record_event(ws, Cause.GUARD, number, NO_PHASES)
     guard = ws.own_guards[number]
@@ -399,7 +415,10 @@ def _own_event(ws: Workspace, number: int) -> Status:
 
 @kernel("void(ws, i8)")
 def _break_direction(ws: Workspace, which: int) -> None:
-    """Let a contact that breaks away slip against the friction that held it, that of least norm if it is not unique."""
+    """Set the slip direction of a contact that breaks away: against the friction that acted while it stuck.
+
+    If this friction is not unique, the friction of least norm is used.
+    """
     contact = ws.contacts[which]
     t1 = contact.force[1] - contact.null_space_force[1] * contact.has_redundant_force
     t2 = contact.force[2] - contact.null_space_force[2] * contact.has_redundant_force
@@ -408,13 +427,13 @@ def _break_direction(ws: Workspace, which: int) -> None:
         turn_facing(ws, which, t1)
         contact.direction = -t1 / norm, -t2 / norm
     elif speed > 0.0:
-        # nothing held it: it slips as it does
+        # no friction acted: keep the direction of the present slip
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
 @kernel()
 def _derive(ws: Workspace) -> None:
-    """Evaluate what follows from the state and is no part of a checkpoint (:attr:`Life.DERIVED`)."""
+    """Evaluate the numbers that a checkpoint omits, because they follow from the state (:attr:`Life.DERIVED`)."""
     ws.island.velocities = ws.island.y.start + ws.model.n_q
     group_closed(ws)
     choose_integrated(ws)
@@ -439,7 +458,7 @@ def advance(ws: Workspace, most_steps: int, pauses_before_end: bool) -> Status:
         ws.request.is_resumed = False
         _derive(ws)
     if ws.island.resumed_end != ws.request.t_end:
-        # what had no value behind another end time may have one now
+        # a law that failed after the previous end time may be defined up to the new one: remove the limit
         ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, math.inf
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance

@@ -1,6 +1,7 @@
 """Chooses the length of the next step between events.
 
-The tolerance, expected events, and the time for which the neighbour list and bounds of gaps are valid limit the length.
+The length is limited by the error tolerance, by expected events, and by the time until the neighbour list or a bound of
+a gap expires.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 
 _FIRST_WAY = 1e-3
-"""Displacement of surfaces in the first step of a compliant contact, relative to the size of the smaller body."""
+"""Largest displacement of surfaces in a compliant contact's first step, relative to the size of the smaller body."""
 _SHORTEST = 0.01
 """Least length of a first step that an expected closing of a gap shortens, relative to its length without the closing.
 

@@ -71,9 +71,10 @@ def integrate_velocities(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def _power(ws: Workspace, velocities: int) -> float:
-    """Absolute value of the power of all forces on ballistic bodies except contact forces, at the last evaluation [W].
+    """Absolute value of the power of the forces on all ballistic bodies, without contact forces [W].
 
-    ``velocities`` is the offset of all velocities at that evaluation.
+    The forces are those of the last evaluation of the bodies. ``velocities`` is the offset in ``ws.floats`` of the
+    velocities of all bodies at that evaluation.
     """
     total = 0.0
     for i in range(ws.island.n_ballistic):

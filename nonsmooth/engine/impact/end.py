@@ -23,9 +23,10 @@ from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Pair, length
 
 _LOCKED = 0.1
-"""Largest resultant of the forces in a wedge, relative to the sum of their magnitudes: a wedge holds them in balance.
+"""Largest unbalanced part of the contact forces in a trapped impact, relative to the size of these forces.
 
-The forces on bodies that separate are not balanced, so their resultant is larger.
+Both are defined in :func:`_balance`. The contact forces on a wedged body nearly cancel. If the unbalanced part is
+larger, the bodies will separate.
 """
 _NEGLIGIBLE_APPROACH = 1e-3
 """Approach that is neglected after a truncated impact, relative to the fastest rate before the impact."""
@@ -109,7 +110,7 @@ def is_finished(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def end_trapped(ws: Workspace) -> bool:
-    """End the phases of trapped contacts, as their forces move nothing for ever. True if there were any.
+    """End the phases of trapped contacts, whose forces can no longer move a body. True if there were any.
 
     Their energy is lost to restitution. Then no contact is loaded any more, so the impact is over.
     """
@@ -168,10 +169,10 @@ def _moves(ws: Workspace) -> bool:
 
 @kernel("v2(ws)")
 def _balance(ws: Workspace) -> Pair:
-    """How far the present forces f of the active contacts balance each other [m/s per pseudo-time]: two numbers.
+    """Return the unbalanced part and the size of the present contact forces f, two numbers [m/s per pseudo-time].
 
-    Balanced forces move nothing, however long they act. The first number is the largest component of G f, by which the
-    forces accelerate the contacts. The second is the largest sum of the magnitudes of the terms of a component.
+    The unbalanced part is the largest component of G f, the acceleration of the contacts in pseudo-time. If it is 0,
+    the forces move nothing. The size is the largest sum of the magnitudes of the terms of a component.
     """
     left = size = 0.0
     for active in ws.actives:

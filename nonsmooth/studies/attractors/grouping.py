@@ -23,21 +23,23 @@ if TYPE_CHECKING:
 NEAR = 10.0
 """Tolerance between points of two runs on one attractor, relative to the tolerance between points of one run.
 
-A run that settles slowly repeats within the tolerance of one run, but is farther than this from its attractor.
+It is larger, because a slow run may repeat within the tolerance before it is so close to its attractor.
 """
 
 
 def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | None = None) -> xarray.Dataset:
     """Find the attractor of each run by recurrences, and the period of its motion.
 
-    A run repeats after n periods if all of its sections that are n, 2 n, 3 n ... periods apart agree within the
-    tolerance.  Two runs of the same n are on one attractor if all of their points agree within ten times the tolerance,
-    because both may still settle.  Agreement through a chain of further runs is enough (single linkage).
+    A point is a recorded state of a run; the stroboscope records one in each period.  A run repeats after n periods if
+    all points that are n, 2 n, 3 n ... periods apart agree within the tolerance.  Two runs with the same n are on one
+    attractor if their points agree within ten times the tolerance.  This tolerance is larger, because both runs may
+    still be settling.  Points may also agree through a chain of points of other runs (single linkage).
 
     Runs that do not repeat are on one attractor if their points overlap.  The spacing of a run is the distance within
     which nine tenths of its points have a neighbour in the same run.  Two runs overlap if at least half of the points
-    of each are within the spacing of the other.  A smaller set within a larger set belongs to the larger.  A run that
-    overlaps no other run is "unsettled".
+    of each run are within the spacing of the other run.  Runs that overlap form a group.  If at least half of the
+    points of a group are within the spacing of a larger group, both are on one attractor.  A run that overlaps no other
+    run is "unsettled".
 
     Parameters
     ----------
@@ -59,7 +61,7 @@ def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | N
     Raises
     ------
     InvalidInput
-        If the study has no record of a :class:`Stroboscope`, or a tolerance or number of bins is not positive.
+        If the study has no record of a :class:`Stroboscope`, or ``tolerance`` or ``along.bins`` is not positive.
     UnknownName
         If the study does not vary the parameter of `along`.
 
@@ -89,7 +91,7 @@ class _Recurrences:
     Attributes
     ----------
     points : array
-        Coordinates at the sections in units of their scales, shape [n_runs, n_sections, n_coordinates].
+        Points of each run, in units of the scales of the coordinates, shape [n_runs, n_points, n_coordinates].
     after : array
         Number of periods after which each run repeats, 0 if it does not, shape [n_runs].
     tolerance : float
@@ -124,9 +126,9 @@ class _Recurrences:
 def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Along | None = None) -> xarray.Dataset:
     """Find the attractor of each run by recorded numbers.
 
-    Two runs are on one attractor if they agree in every feature within its tolerance, or through further runs that
-    do (single linkage).  A missing number agrees with a missing number only: a run that never comes to rest has no time
-    of rest.
+    Two runs are on one attractor if all features agree within their tolerances, or if a chain of other runs that agree
+    connects them (single linkage).  A missing number agrees with a missing number only.  For example, a run that never
+    comes to rest has no time of rest.
 
     Parameters
     ----------

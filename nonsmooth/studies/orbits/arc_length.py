@@ -25,11 +25,11 @@ _CORRECTIONS = 12
 """Largest number of steps of Newton's method that correct a predicted orbit; then a smaller step of arc length is
 tried."""
 _FIRST = 1e-3
-"""Step with which the search for derivatives of the period map by the parameter begins, relative to the largest
-absolute value in the range of the parameter."""
+"""Largest step of the finite differences of the period map with respect to the parameter, relative to the largest
+absolute value in the parameter's range.  Smaller steps follow until the error is below ``_ENOUGH``."""
 _ENOUGH = 1e-4
-"""Relative error at which the search for derivatives of the period map by the parameter ends: these derivatives only
-direct the steps of the continuation."""
+"""Relative error of the derivative of the period map with respect to the parameter at which no smaller step is tried.
+This derivative only directs the steps of the continuation."""
 
 
 class OutOfRange(Exception):
@@ -122,7 +122,7 @@ class Path:
     def _by(self, changed: Sampled, expected: Signature, near: ContinuationPoint | None) -> tuple[Array, float]:
         """Return the derivative of the period map with respect to the parameter divided by its range, and a step.
 
-        The step is that of the finite difference, in the unit of the parameter.
+        The step is the step of the finite difference, in the unit of the parameter.
         """
         if near is not None:
             with contextlib.suppress(OrderOfEvents, InvalidInput):
@@ -134,7 +134,7 @@ class Path:
     def corrected(self, point: ContinuationPoint, step: float) -> ContinuationPoint:
         """Return the orbit of the branch at a ``step`` from ``point``, by Newton's method (corrector).
 
-        The step is the component, along the tangent of ``point``, of the way from ``point`` to the new orbit [1].
+        The step is the displacement from ``point`` to the new orbit, along the tangent of ``point`` [1].
 
         Raises
         ------

@@ -40,17 +40,20 @@ series of the differences converges up to this step."""
 @final
 @dataclass(frozen=True)
 class NonDifferentiablePoint:
-    """A direction in which a map has no derivative: a small decrease and a small increase give other orders of events.
+    """A state at which a map has no derivative along one direction.
+
+    A slightly smaller and a slightly larger coordinate in this direction give different orders of events.
 
     Attributes
     ----------
     direction : str
         The coordinate, velocity or rotation of a body that changes, such as "ball.rx".
     before, after : array
-        One-sided derivatives for decreasing and increasing coordinates, shape [m].  They are nan if the order of events
-        still changes among the small changes on that side.
+        One-sided derivatives of the map along the direction, from smaller and from larger coordinates, shape [m].  m is
+        the number of coordinates of the map.  They are nan if no finite difference was found whose runs have the same
+        order of events.
     signatures : tuple of Signature
-        The events after a small decrease, and after a small increase.
+        Order of events for a slightly smaller coordinate, and for a slightly larger one.
     """
 
     direction: str
