@@ -196,7 +196,11 @@ search turns its direction [rad].  ``_CLOSER``: ratio of this angle to the angle
 """
 _ROUND = [(math.cos(0.25 * math.pi * i), math.sin(0.25 * math.pi * i)) for i in range(8)]
 _COARSEST, _TIMES = 24, 4
-"""Number of edges round the coarsest mesh, and number of meshes, each twice as fine as the mesh before."""
+"""Meshes of the surface from which :func:`integrals_over` computes volume, centroid and inertia of a shape.
+
+``_COARSEST``: number of meridians of the coarsest mesh.  ``_TIMES``: number of meshes.  Each mesh has twice as many
+meridians as the one before.
+"""
 
 
 def spiral(count: int) -> tuple[Vector, float]:

@@ -70,12 +70,13 @@ class Trajectory(Recorder):
 @final
 @dataclass(frozen=True)
 class Stroboscope(Recorder):
-    """Coordinates and velocities once a period of the drive, in the last periods of the run.
+    """Coordinates and velocities at one time in each period of the drive, for the last periods of the run.
 
     Parameters
     ----------
     period : float
-        Period of the drive, or a multiple [s].  A run fails if the period of its drive differs from it.
+        Time between two recorded states [s]: the period of the drive, or a multiple of it.  A run fails if its drive
+        does not repeat after this time.
     within : tuple of str
         Names of the coordinates and velocities that determine the motion, "z" or "ball.vz"; no coordinate that drifts.
     keep : int
@@ -84,7 +85,8 @@ class Stroboscope(Recorder):
         Time of the recorded state in each period [s], at which no velocity jumps.
     phase : str, optional
         Parameter of the scenario that is the phase of the drive at t = 0 [rad], if the study varies it.  Then ``at``
-        counts from the time at which the phase of the drive is 0; by default it counts from t = 0.
+        counts from the time at which the phase of the drive is 0; by default it counts from t = 0.  With ``phase``,
+        ``period`` must not be a multiple.
 
     Raises
     ------
@@ -138,7 +140,7 @@ class Stroboscope(Recorder):
         Raises
         ------
         InvalidInput
-            If the run is too short, or the period of its drive differs from ``period``.
+            If the run is too short, or its drive does not repeat after ``period``.
         """
         solution = result.solution
         check_period(result.model, solution.state, self.period, "Stroboscope: period", _REMEDY)

@@ -19,7 +19,10 @@ from nonsmooth.system.pairing import ContactGeometries, Side, select
 
 _Facing: TypeAlias = tuple[Side, Side, Sequence[ContactKinematics]]
 _WITHOUT_SHAPE = -1
-"""Number in ``paired`` of a shape of ``System.add_contact``: the body need not carry it, so it has no number there."""
+"""Stands in ``ContactDeclarations.paired`` for the number of a shape that was given to ``System.add_contact``.
+
+The shapes of these contacts need not belong to their bodies, so they have no numbers.
+"""
 
 
 @final
@@ -38,7 +41,8 @@ class ContactDeclarations:
     given : list of Contact
         The contacts of ``System.add_contact``.
     paired : set
-        Pairs of shapes that have contacts. A shape is given by the number of its body and its own number.
+        Pairs of shapes that have contacts. A shape is given by the number of its body, and its own number among the
+        shapes of this body or ``_WITHOUT_SHAPE``.
     excluded, left_out : list of pairs of Body
         Pairs of ``System.exclude``, and of ``exclude`` in ``System.contact_all``.
     """

@@ -91,11 +91,11 @@ def rim_under(
     up: float,
     pose: RimPose,
 ) -> tuple[int, float, float]:
-    """Return face of a patch paired with a rim, gap, and distance past the face's border [m].
+    """Return the face of a patch that a rim faces, the gap, and the distance past the border of the face [m].
 
-    The face is chosen as for a vertex (:func:`bodies.contacts.surface.surface_vertex.touched_face`), but each face
-    takes the point of the rim that is lowest over it.  Past the border, the gap is negative if the body goes through
-    the surface.
+    For each face, the gap is measured at the point of the rim that is lowest over this face.  From these gaps, the face
+    is chosen as for a vertex (:func:`bodies.contacts.surface.surface_vertex.touched_face`).  If the point lies past the
+    border of the face, the gap is positive; but it is minus the depth if the body goes through the surface there.
 
     Parameters
     ----------

@@ -51,9 +51,10 @@ _NEARBY, _NEXT_TO = 0.05, 1e-6
 ``_NEARBY``: first restart.  ``_NEXT_TO``: further restarts, for mixed cores only.
 """
 _FEW_PARTS, _PARTS = 4, 24
-"""Numbers of steps in which the powers of mixed cores are changed from 2 (ellipsoids) to their own values.
+"""Numbers of steps in which the powers of two cores are changed from 2 (ellipsoids) to their own values.
 
-They are used if the direct search fails: first the few steps, which cost less, then the many.
+If a core is mixed (one power below 2, the other above) and the direct search fails, the gap is followed through these
+steps: first through the few, which cost less, then through the many.
 """
 _ON_AXIS, _SUNK = 1e-5, 0.2
 """A maximum of the gap on the axis of a circle is rejected: it belongs to the middle of the disc, not to its rim.
