@@ -70,9 +70,10 @@ class Camera:
 
 
 def _bounds(film: Film, flat: Floats, pieces: Sequence[DrawnMesh]) -> tuple[Floats, Floats]:
-    """Lower and upper corners of the rectangle around pieces at each time [m], shape [n, 2] each.
+    """Lower and upper corners of the rectangle around pieces in the plane of the picture [m], shape [n, 2] each.
 
-    Sheets are included at the first time only.
+    There is a rectangle for each time.  ``flat`` has the two axes of that plane as columns, shape [3, 2].  A sheet,
+    which shows an infinite plane, counts at the first time only: it need not stay in the picture.
     """
     low, high = np.full((len(film.times), 2), np.inf), np.full((len(film.times), 2), -np.inf)
     for i in range(len(film.times)):

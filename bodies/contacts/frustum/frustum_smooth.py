@@ -305,9 +305,11 @@ def _beside_apex(bodies: Bodies) -> Answer:
 
 @compiled
 def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
-    """Return the largest local maximum of the gap over rims and apex, found by ascent, and the part it belongs to.
+    """Return the largest local maximum that the gap has, as a function of the normal, over each rim; and this rim.
 
-    The gap is nan if no maximum was found, or if a negative gap has no common point of both bodies as a proof.
+    The gap of two convex bodies is the largest separation over all normals.  The searches ascend from several normals.
+    A rim of radius 0 is an apex.  The gap is nan if no maximum was found, or if the gap is negative and no common point
+    of both bodies proves the overlap.
     """
     frustum, low, high, point, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
