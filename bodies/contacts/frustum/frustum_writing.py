@@ -228,8 +228,8 @@ def overlap_at(
     outside -= radius + frustum[SWEEP]
     if n_faces > 0.0:
         outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
-    # in contacts with faces a rim is shifted inwards by a small height (`FEET`), so that faces touch three points of the
-    # cap first. Here the rim is not shifted, so a depth of up to twice this height is no overlap
+    # in contacts with faces a rim is shifted inwards by a small height (`FEET`), so that faces touch three points of
+    # the cap first. Here the rim is not shifted, so a depth of up to twice this height is no overlap
     return float(min(outside + 2.0 * frustum[FEET], 0.0))
 
 

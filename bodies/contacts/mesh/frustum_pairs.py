@@ -113,8 +113,8 @@ def _member_near(
 
     ``member`` counts triangles first, then edges, then corners.  A feature may touch if it is within ``reach`` [m] of
     the core, the frustum without its rounding, and if its normals agree with those of the frustum after a rotation by
-    up to ``turn`` [rad], the largest until the next search.  ``out`` holds ``n`` candidates.  Return the new number of candidates; a number above
-    ``most`` means that there are too many.
+    up to ``turn`` [rad], the largest until the next search.  ``out`` holds ``n`` candidates.  Return the new number of
+    candidates; a number above ``most`` means that there are too many.
     """
     n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
     if member < n_triangles:
