@@ -150,9 +150,11 @@ def without_feet(numbers: tuple[float, ...]) -> tuple[float, ...]:
 def rims_over_faces(
     radii: Sequence[float], heights: Sequence[float], center: Point, axis: Point, foot_height: float
 ) -> tuple[tuple[float, Point], ...]:
-    """Return radius and centre of either rim [m], set back along the side by the height of the feet.
+    """Return radius and centre of either rim [m] for contacts with faces.
 
-    A body on its side therefore lies as without feet.  The apex of a cone, a rim of radius 0, is not set back.
+    Each rim is moved along the side towards the other one.  The way along the axis is the height of the feet, so that a
+    face touches the feet on the cap before the rim.  The moved rims lie on the side: a body that lies on its side has
+    the same gap as without feet.  The apex of a cone, a rim of radius 0, is not moved.
     """
     (low, high), (below, above) = radii, heights
     part = foot_height / (above - below)

@@ -458,7 +458,8 @@ def advance(ws: Workspace, most_steps: int, pauses_before_end: bool) -> Status:
         ws.request.is_resumed = False
         _derive(ws)
     if ws.island.resumed_end != ws.request.t_end:
-        # a law that failed after the previous end time may be defined up to the new one: remove the limit
+        # steps may have been limited to the previous end time, because a law was not defined after it; see _up_to_end.
+        # With another end time this limit of the step is removed
         ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, math.inf
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
