@@ -22,7 +22,9 @@ _SYSTEM = "Make it by nonsmooth.System([...])."
 
 
 def touching(system: System, body: Body, *, direction: Sequence[float] | None = None, **start: Any) -> None:
-    """Place a body as ``start`` says, then move it, without turning it, until its smallest gap is zero.
+    """Move a body from its start, without turning it, until its smallest gap is zero.
+
+    It keeps its orientation and its velocities.
 
     Parameters
     ----------
@@ -34,7 +36,9 @@ def touching(system: System, body: Body, *, direction: Sequence[float] | None = 
         Vector along which to move it, shape [3], of any length; by default along gravity.  A body that overlaps moves
         the opposite way.
     **start : object
-        Keyword arguments of the body's ``state``, such as ``position``.
+        Another start from which to move it: keyword arguments of :meth:`System.place`, such as ``position`` and
+        ``velocity``.  Those that are left out then have their defaults.  Without any, the body keeps the start that it
+        has.
 
     Raises
     ------
@@ -47,7 +51,9 @@ def touching(system: System, body: Body, *, direction: Sequence[float] | None = 
 def at_height(
     system: System, body: Body, height: float, *, direction: Sequence[float] | None = None, **start: Any
 ) -> None:
-    """Place a body as :func:`touching` does, with ``height`` [m] for its smallest gap.
+    """Move a body as :func:`touching` does, until its smallest gap is ``height`` [m].
+
+    For example ``at_height(system, coin, 0.1)`` after ``system.place(coin, angular_velocity=(0, 0, 30))``.
 
     Raises
     ------
@@ -62,22 +68,22 @@ def at_height(
 
 
 def resting(system: System, body: Body, *, direction: Sequence[float] | None = None, **start: Any) -> None:
-    """Place a body as :func:`touching` does, at rest relative to the body that it touches at t = 0.
+    """Move a body as :func:`touching` does, and set it at rest relative to the body that it touches at t = 0.
 
     It gets the velocity and angular velocity of a point fixed to that body, so that no contact between them slips.
 
     Raises
     ------
     InvalidInput
-        As :func:`touching`, or if ``start`` has velocities, or the body cannot follow the one that it touches.
+        As :func:`touching`, or if the start has velocities, or the body cannot follow the one that it touches.
     """
     check_kind("resting: system", system, System, _SYSTEM)
-    system.start(body)
-    if np.any(body.state(**start)[1] != 0.0):
+    u = body.state(**start)[1] if start else system.start(body)[1]
+    if np.any(u != 0.0):
         raise InvalidInput(
             f"resting {system.name_of(body)!r}",
             "must not be given velocities",
-            start,
+            start or u.tolist(),
             "Use touching(...) to give some.",
         )
     _move(system, body, 0.0, direction, start)
@@ -109,7 +115,8 @@ def _move(system: System, body: Body, height: float, direction: Sequence[float] 
     way = _unit(system, direction)
     before = system.start(body)
     name = f"placing {system.name_of(body)!r}"
-    system.place(body, **start)
+    if start:
+        system.place(body, **start)
     try:
         if body.n_u == 0:
             raise InvalidInput(name, "needs a body that can be placed", "driven", "Place the other body.")

@@ -189,7 +189,8 @@ def called(word: str, groups: Iterable[str]) -> list[tuple[str, str]]:
     found = [(group, name) for group, name in known if name == word]
     found = found or [(group, name) for group, name in known if _points(group)[name].attr.lower() == bare]
     if not found:
-        raise UnknownName("component", word, {name for _, name in known})
+        remedy = "A new component of a package of yours is known once the package is installed again."
+        raise UnknownName("component", word, {name for _, name in known}, remedy=remedy)
     return found
 
 

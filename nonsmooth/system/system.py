@@ -234,6 +234,8 @@ class System(metaclass=Readable):
     ) -> None:
         """Set position and velocities of a body at t = 0.
 
+        A keyword that is left out has its default: zero, or no rotation.  A second call replaces the first.
+
         Parameters
         ----------
         body : Body

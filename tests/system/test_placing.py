@@ -53,6 +53,33 @@ def test_touching_in_any_orientation(build: Any, body: Body, turn: Any, slope: f
     np.testing.assert_array_equal(u[:3], [1.0, 2.0, 3.0])
 
 
+@pytest.mark.parametrize("move", [ns.touching, lambda system, body: ns.at_height(system, body, 0.01)])
+def test_a_body_that_was_placed_before_keeps_its_start(build: Any, move: Any) -> None:
+    """Orientation, velocities and the place across the direction; with a start of its own that replaces them."""
+    body = BoxBody(0.01, 0.02, 0.03)
+    system = build.over(body, Rest(0.0))
+    start = {"orientation": ns.turned_about((1.0, 0.0, 0.0), 0.3), "velocity": (1.0, 2.0, 3.0)}
+    system.place(body, position=(0.1, 0.2, 0.5), **start, angular_velocity=(0.0, 0.0, 30.0))
+    before = system.start(body)
+    move(system, body)
+    q, u = system.start(body)
+    np.testing.assert_allclose(q[:2], before[0][:2], rtol=0, atol=1e-15)
+    assert q[2] < before[0][2]
+    np.testing.assert_array_equal(q[3:], before[0][3:])
+    np.testing.assert_array_equal(u, before[1])
+    ns.touching(system, body, velocity=(1.0, 0.0, 0.0))
+    np.testing.assert_array_equal(system.start(body)[1], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+
+
+def test_a_body_with_a_velocity_does_not_rest(build: Any) -> None:
+    """The velocity that it was given before is not dropped in silence."""
+    body = Ball(0.01)
+    system = build.over(body, Rest(0.0))
+    system.place(body, position=(0.0, 0.0, 0.1), velocity=(1.0, 0.0, 0.0))
+    with pytest.raises(ns.InvalidInput, match="must not be given velocities"):
+        ns.resting(system, body)
+
+
 def test_a_ball_touches_where_geometry_says(build: Any) -> None:
     """Beside the middle of another ball, along gravity and along a direction given; from below upwards."""
     ball, other = Ball(0.01), Ball(0.02)

@@ -22,6 +22,7 @@ from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_
 from nonsmooth.engine.events.stopping import stopped_contact
 from nonsmooth.engine.flow.arming import arm_guards, store_end, store_start
 from nonsmooth.engine.flow.clearance import bound_speeds
+from nonsmooth.engine.flow.crossing import first_crossing
 from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
@@ -37,7 +38,7 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
-from nonsmooth.engine.flow.location import first_crossing, locate
+from nonsmooth.engine.flow.location import locate
 from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_drifted
 from nonsmooth.engine.flow.point_jump import contact_past_flat_place, evaluate_force_round_off, jump_contact_points
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints

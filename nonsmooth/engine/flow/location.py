@@ -1,37 +1,25 @@
-"""Finds the events within a step, and steps exactly to the first of them.
+"""Locates the first event of a step, and steps exactly to it.
 
-Open gaps are proved not to close (:mod:`nonsmooth.engine.flow.clearance`), or their closing is found. Forces, slips and
-guards of the user are sampled at the end of a step, guards of the user also in its middle. Forces and slips are sampled
-in the middle, too, if at a stage a force or slip violated its mode, or a force was smaller than at both ends.  Features
-that do not face each other have a gap without a rate.  Such a gap is sampled at least ``_SAMPLES`` times in a step,
-more often if the features move far.  Once they face each other, it is sampled when it is expected to close.
+The root of a guard is found on the interpolant of the step.  If the tolerance limits the step, the root is corrected on
+shorter steps, whose order is higher.  If another guard fires before, the search starts again with that guard.
 """
 
 from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.flow.arming import arm_further, store_end
-from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
-from nonsmooth.engine.flow.deflation import deflate
+from nonsmooth.engine.flow.crossing import FAINT, SHORTEST, asks_forces, closed_before, guard_at, guards_within
 from nonsmooth.engine.flow.flight import state_within
-from nonsmooth.engine.flow.gap_search import (
-    LARGEST_DISPLACEMENT,
-    evaluate_gap_guard,
-    evaluate_slip_guard,
-    first_closing,
-)
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_user_guard,
-    friction_guard,
     is_friction_guard,
     normal_guard,
     number_of_guards,
 )
-from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
+from nonsmooth.engine.flow.guard_values import evaluate_guards, write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
-from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces, choose_at_end
+from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces
 from nonsmooth.engine.flow.self_check import ADJACENT, ALLOWED, allowed_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
@@ -39,15 +27,6 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 
-_MIDDLE = 0.5
-"""Fraction of the step at which forces and guards of the user are sampled between its ends."""
-_NEAR = 0.2
-"""If a parabola through three samples of a force dips below this part of the end values, the dip is evaluated."""
-_FAINT = 1e-9
-"""Start value of a guard, relative to its end value, up to which it is round-off, so that its sign is not trusted.
-
-Also the fraction of a step at which its start is sampled.
-"""
 NEGLIGIBLE = 0.01
 """Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""
 _MOST_ROOTS = 30
@@ -60,18 +39,6 @@ _FEW_ROOTS = 4
 
 A guard that is negative from the start has no root in the step.
 """
-_SAMPLES = 16
-"""Least number of samples per step for gaps of features that do not face each other at an end of the step.
-
-They may face each other, and touch, within the step.
-"""
-_FARTHEST = 0.25
-"""Largest displacement of features that do not face each other between two samples, relative to the contact's size.
-
-The size of a contact is that of the smaller body.
-"""
-_SHORTEST = 1e-4
-"""Least distance of two samples, in fractions of the step: the interpolant resolves no shorter time."""
 _JUMP = 1e-3
 """Value of a guard right before its sign change, relative to its start value, above which it has a jump and no root."""
 _NEARER = 0.5
@@ -86,224 +53,6 @@ _FINE = 0.01
 
 Also the first step past the jump of a guard. This step doubles until the guard is negative.
 """
-_LOOKS = 4
-"""Largest number of extra samples, at expected closing times, between two regular samples of gaps without rates."""
-_BEHIND = 1e-3
-"""Delay of an extra sample after the expected closing of a gap, relative to the time until then: the gap has closed."""
-
-
-@kernel("b1(ws)")
-def _asks_forces(ws: Workspace) -> bool:
-    """True if there are contact forces that can be evaluated at any time within the step.
-
-    In an implicit step, contact forces are known at the ends of stages only.
-    """
-    return ws.island.n_grouped > 0 and ws.island.stage_time == 0.0
-
-
-@entry_point("void(ws, f8, f8, b1)")
-def guards_within(ws: Workspace, h: float, theta: float, needs_forces: bool) -> None:
-    """Interpolate the motion at the fraction ``theta`` of the step of ``h`` [s], and evaluate the guards there.
-
-    Guards of closed contacts keep their values unless ``needs_forces``.
-    """
-    state_within(ws, h, theta, ws.step.y_stage.start)
-    blend_chosen_forces(ws, theta)
-    evaluate_guards(ws, ws.island.time + theta * h, ws.step.y_stage.start, theta * h, needs_forces)
-
-
-@kernel("f8(ws, f8, f8, i8, b1)")
-def _guard_at(ws: Workspace, h: float, theta: float, i: int, needs_forces: bool) -> float:
-    """Value of guard ``i`` at the fraction ``theta`` of the step of ``h`` [s].
-
-    For a gap or a slip velocity, only the two bodies of the contact are evaluated, for other guards the whole system.
-    """
-    alone = sign_depends_on(ws, i)
-    if alone == DependsOn.GAP:
-        evaluate_gap_guard(ws, h, theta, i)
-    elif alone == DependsOn.SLIP:
-        evaluate_slip_guard(ws, h, theta, contact_of(ws, i))
-    else:
-        guards_within(ws, h, theta, needs_forces)
-    return float(ws.guards[i].value)
-
-
-@kernel("f8(ws, f8, i8)")
-def _lowest(ws: Workspace, h: float, i: int) -> float:
-    """Fraction of the step at which guard ``i`` is found to be negative, or 0 if it is found positive.
-
-    Parabolas through three samples, first those at start, middle and end of the step, lead to the minimum of the guard.
-    """
-    low, middle, high = 0.0, _MIDDLE, 1.0
-    g_low, g_middle, g_high = ws.guards[i].initial, ws.guards[i].middle, ws.guards[i].at_end
-    for _iteration in range(8):
-        left, right = (g_middle - g_low) / (middle - low), (g_high - g_middle) / (high - middle)
-        bend = (right - left) / (high - low)
-        if bend <= 0.0:
-            return 0.0
-        vertex = 0.5 * (low + middle) - 0.5 * left / bend
-        value = g_middle + (vertex - middle) * (left + bend * (vertex - low))
-        if not low < vertex < high or value > _NEAR * max(g_low, g_high):
-            return 0.0
-        if abs(vertex - middle) < SHORT:
-            return 0.0
-        g = _guard_at(ws, h, vertex, i, needs_forces=True)
-        if g < 0.0:
-            return float(vertex)
-        if vertex > middle:
-            low, g_low, middle, g_middle = middle, g_middle, vertex, g
-        else:
-            high, g_high, middle, g_middle = middle, g_middle, vertex, g
-        if g_middle > min(g_low, g_high):
-            return 0.0
-    return 0.0
-
-
-@kernel("f8(ws, f8)")
-def _force_dip(ws: Workspace, h: float) -> float:
-    """Fraction of the step at which a contact pulls, or exceeds its static friction bound, between samples; else 0."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        if contact.mode != Mode.OPEN:
-            for i in (normal_guard(c), friction_guard(ws, c)):
-                if ws.guards[i].is_armed and (i == normal_guard(c) or contact.mode == Mode.STICK):
-                    theta = _lowest(ws, h, i)
-                    if theta > 0.0:
-                        return theta
-    return 0.0
-
-
-@kernel("f8(ws)")
-def _soonest(ws: Workspace) -> float:
-    """Time after which the first open gap closes at its present rate [s]; infinite if none closes."""
-    soonest = math.inf
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        gap, rate = contact.gap, contact.gap_rate
-        if contact.mode == Mode.OPEN and contact.past_feature <= 0.0 and gap > 0.0 and rate < 0.0:
-            soonest = min(soonest, -gap / rate)
-    return soonest
-
-
-@kernel("f8(ws, f8)")
-def _advance(ws: Workspace, h: float) -> float:
-    """Time until the next sample of the gaps whose features do not face each other [s].
-
-    Such a gap is no true distance, but it shrinks at most with the speed bound of its surfaces.
-    """
-    longest = h / _SAMPLES
-    least = longest
-    for i in range(ws.step.n_not_facing):
-        c = ws.step.not_facing[i]
-        contact = ws.contacts[c]
-        speed = contact.speed_at_start + contact.speed_at_end
-        way = min(_FARTHEST * contact.size, max(contact.gap, LARGEST_DISPLACEMENT * contact.size))
-        if way < least * speed:
-            least = way / speed
-    return float(max(least, _SHORTEST * h))
-
-
-@kernel("f8(ws, f8, f8)")
-def _sampled(ws: Workspace, h: float, high: float) -> float:
-    """First sampled fraction of the step, below ``high``, at which a gap has closed, or 0 if none has.
-
-    If a gap has closed, the guards are afterwards evaluated at this fraction.
-
-    It samples gaps whose features do not face each other. They may face each other between two samples: then a further
-    sample is taken at the time at which their gap is expected to close.
-    """
-    theta, looks = 0.0, 0
-    while theta < high:
-        ws.totals.n_gap_evaluations += 1
-        # a deflated guard is divided by the elapsed time, so it is undefined at the start: sample right after the start
-        guards_within(ws, h, max(theta, _FAINT), needs_forces=False)
-        if theta > 0.0:
-            if first_fired(ws, forces_are_known=False, located=NO_GUARD) >= 0:
-                guards_within(ws, h, theta, _asks_forces(ws))
-                return theta
-            arm_further(ws, forces_are_known=False)
-        way, soonest = _advance(ws, h), (1.0 + _BEHIND) * _soonest(ws)
-        looks = looks + 1 if soonest < way and looks < _LOOKS else 0
-        theta += (soonest if looks > 0 else way) / h
-    return 0.0
-
-
-@kernel("f8(ws, f8, f8, i8)")
-def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
-    """Fraction of the step, up to ``theta``, at which an open gap has closed, or 0 if none has.
-
-    If a gap has closed, the guards are afterwards evaluated at this fraction. If no gap has closed, contact ``asked``
-    is afterwards evaluated at ``theta``.
-    """
-    if ws.step.n_not_facing > 0:
-        found = _sampled(ws, h, theta)
-        if found > 0.0:
-            return found
-    if ws.step.n_may_close > 0:
-        found = first_closing(ws, h, theta, asked)
-        if found > 0.0:
-            guards_within(ws, h, found, _asks_forces(ws))
-            return found
-    return 0.0
-
-
-@entry_point("f8(ws, f8)")
-def first_crossing(ws: Workspace, h: float) -> float:
-    """First fraction of the step of ``h`` [s] at which some guard is found to have fired, or 0 if none fires.
-
-    Bodies and forces must be evaluated at the end of the step before the call. After the call, the guards are evaluated
-    at the returned fraction.
-    """
-    closed = _asks_forces(ws)
-    write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
-    choose_at_end(ws, h)
-    store_end(ws)
-    bound_speeds(ws)
-    find_doubtful(ws, h)
-    deflate(ws, h)
-    fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
-    # sample the middle only if at a stage a force or slip violated its mode, or a force was smaller than at both ends
-    suspect = ws.step.has_doubtful_force
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        i = normal_guard(c)
-        if contact.mode != Mode.OPEN and contact.least_force < min(ws.guards[i].initial, ws.guards[i].at_end):
-            suspect = True
-    needs_forces = closed and suspect
-    looks = needs_forces + ws.model.n_own_guards
-    if looks > 0:
-        guards_within(ws, h, _MIDDLE, needs_forces)
-        if first_fired(ws, needs_forces, NO_GUARD) >= 0:
-            if needs_forces != closed:
-                guards_within(ws, h, _MIDDLE, closed)
-            return _MIDDLE
-        arm_further(ws, needs_forces)
-        for i in range(number_of_guards(ws)):
-            ws.guards[i].middle = ws.guards[i].value
-        if needs_forces and fired < 0:
-            theta = _force_dip(ws, h)
-            if theta > 0.0:
-                return theta
-    # search for unseen closings only if no guard has fired; else `locate` finds its root first, then gaps before it
-    if fired < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
-        looks += ws.step.n_not_facing
-        theta = _closed_before(ws, h, 1.0, -1)
-        if theta > 0.0:
-            return theta
-    blend_chosen_forces(ws, 1.0)
-    if looks > 0:
-        evaluate_motion(ws, ws.island.time + h, ws.step.y_new.start)
-        for i in range(number_of_guards(ws)):
-            ws.guards[i].value = ws.guards[i].at_end
-        for c in range(ws.island.n_contacts):
-            contact = ws.contacts[c]
-            contact.gap_rate = contact.gap_rate_at_end
-            contact.past_feature = contact.past_feature_at_end
-        deflate(ws, h)
-    elif fired >= 0 or ws.step.n_may_close == 0:
-        return 1.0 if fired >= 0 else 0.0
-    # check all guards again: some were armed only within the step
-    return 1.0 if first_fired(ws, forces_are_known=True, located=NO_GUARD) >= 0 else 0.0
 
 
 @kernel("f8(ws, f8, f8, i8, b1)")
@@ -331,11 +80,11 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
     g_high = ws.guards[i].value
     ws.step.guard_slope = 0.0
     rises = ws.guards[i].initial <= 0.0 or ws.guards[i].is_deflated
-    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i)):
+    while g_low <= FAINT * abs(g_high) and (rises or is_gap(ws, i)):
         # the guard was armed within the step, or rises from zero with unknown rate: seek a time at which it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
-        g_low = _guard_at(ws, h, low, i, needs_forces)
-        if low < _SHORTEST * high:
+        g_low = guard_at(ws, h, low, i, needs_forces)
+        if low < SHORTEST * high:
             if g_low > 0.0 or rises:
                 return low
             # the guard was positive at the start and has its root right after it: the bracket is from the start to low
@@ -350,7 +99,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
         # if one end has a huge value, secants stay at the other end: bisect
         if not low < theta <= high or slow > _SLOW:
             theta = 0.5 * (low + high)
-        g = _guard_at(ws, h, theta, i, needs_forces)
+        g = guard_at(ws, h, theta, i, needs_forces)
         if theta != theta_before:
             ws.step.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
@@ -494,7 +243,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     step is negligible, the root on the interpolant is corrected by further steps, because the step has a higher order
     than its interpolant.
     """
-    closed = _asks_forces(ws)
+    closed = asks_forces(ws)
     first = first_fired(ws, forces_are_known=True, located=NO_GUARD)
     of_contact = 0 <= first < first_user_guard(ws)
     if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != Mode.OPEN:
@@ -518,7 +267,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             fired = first
             first = first_fired(ws, closed, fired)
         if first < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
-            earlier = _closed_before(ws, h, theta, contact_of(ws, fired))
+            earlier = closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(ws, closed, NO_GUARD)
             elif ws.step.n_not_facing > 0:
