@@ -20,7 +20,6 @@ from nonsmooth.checks import check_count, check_kind
 from nonsmooth.engine.memory import owners
 from nonsmooth.errors import STUCK, InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
-from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
@@ -45,7 +44,7 @@ from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import Callbacks, EngineLoop, Progress
 from nonsmooth.runs.outcome import RunOutcome, interpenetration, outcome
 from nonsmooth.runs.records import Records
-from nonsmooth.runs.samples import states_at_samples
+from nonsmooth.runs.samples import places_at_samples
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
 from nonsmooth.solution.end import RunRequest, RunStatus
@@ -426,19 +425,9 @@ class Model:
         loop = EngineLoop(self._engine, laid, self._records, start, sink, callbacks)
         solution = self._complete(loop, energy, wall=0.0)
         if self._pairs_without_contact.any:
-            self._pairs_without_contact.warn_of_run(before, self._places_at_samples(solution.recorded.rows))
+            places = places_at_samples(laid, solution.recorded.rows, self._pairs_without_contact.least_move)
+            self._pairs_without_contact.warn_of_run(before, places)
         return solution
-
-    def _places_at_samples(self, rows: Floats) -> Iterator[tuple[float, list[list[Place]]]]:
-        """Yield the time [s] of chosen samples and the places of all frames then, to search for overlaps.
-
-        A sample is chosen if a coordinate has changed, since the last chosen sample, by more than a fraction of the
-        smallest body's size.
-        """
-        laid = self._laid
-        for t in states_at_samples(laid, rows, self._pairs_without_contact.least_move):
-            laid.evaluate()
-            yield t, laid.places()
 
     def _put_start(self, state: State) -> tuple[float, float]:
         """Put a state into the memory. Return kinetic and potential energy [J] at the start of the energy account.

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterator
 
 import numpy as np
 
 from nonsmooth.engine.memory import owners
+from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats
@@ -36,6 +37,16 @@ def states_at_samples(model: LaidOut, rows: Floats, least_move: float) -> Genera
         before.put(model.memory)
         # evaluate again, because a checkpoint restores the state but no results of evaluations
         model.evaluate()
+
+
+def places_at_samples(model: LaidOut, rows: Floats, least_move: float) -> Iterator[tuple[float, list[list[Place]]]]:
+    """Yield the times [s] of chosen samples, and the places of the frames of all bodies then, to search for overlaps.
+
+    Parameters as for :func:`states_at_samples`, which chooses the samples.
+    """
+    for t in states_at_samples(model, rows, least_move):
+        model.evaluate()
+        yield t, model.places()
 
 
 def _moved_samples(q: Floats, least_move: float) -> list[int]:
