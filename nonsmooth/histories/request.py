@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias, final
+from typing import TYPE_CHECKING, Any, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -130,7 +130,8 @@ def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | Non
     """
     known = {kind: _parts(system, kind) for kind in kinds}
     chosen: dict[str, list[int]] = {kind: [] for kind in kinds}
-    several = of if isinstance(of, (list, tuple, range, np.ndarray)) else [] if of is None else [of]
+    is_single = isinstance(of, str) or not isinstance(of, (Sequence, np.ndarray))
+    several: Any = [] if of is None else [of] if is_single else of
     if len(several) and not kinds:
         raise InvalidInput(where, "must be left out", of, "No variable that was asked for belongs to a part.")
     for part in several:

@@ -58,3 +58,16 @@ def test_copies_have_equal_contacts(system: ns.System) -> None:
     for made in (copy.deepcopy(system), pickle.loads(pickle.dumps(system))):
         assert made.names == system.names
         assert [*map(str, made.contacts)] == [*map(str, system.contacts)]
+
+
+def test_contacts_are_chosen_as_they_were_declared() -> None:
+    """What ``contact`` returns chooses its contacts in a history, like a list of them."""
+    plate, one, two = Plate(), Ball(0.1), Ball(0.1)
+    system = ns.System([plate, one, two])
+    laws = {"normal": LAWS.normal, "friction": LAWS.friction, "impact": LAWS.impact}
+    _, declared = (system.contact(plate, ball, **laws) for ball in (one, two))
+    system.place(one, position=(0.0, 0.0, 0.2))
+    system.place(two, position=(1.0, 0.0, 0.3))
+    solution = ns.simulate(system, 0.01)
+    for chosen in (declared, [*declared], declared[0]):
+        assert solution.history("gap", times=0.0, of=chosen)["gap"] == pytest.approx(0.2)
