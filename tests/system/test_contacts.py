@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -64,7 +65,7 @@ def test_contacts_are_chosen_as_they_were_declared() -> None:
     """What ``contact`` returns chooses its contacts in a history, like a list of them."""
     plate, one, two = Plate(), Ball(0.1), Ball(0.1)
     system = ns.System([plate, one, two])
-    laws = {"normal": LAWS.normal, "friction": LAWS.friction, "impact": LAWS.impact}
+    laws: dict[str, Any] = {"normal": LAWS.normal, "friction": LAWS.friction, "impact": LAWS.impact}
     _, declared = (system.contact(plate, ball, **laws) for ball in (one, two))
     system.place(one, position=(0.0, 0.0, 0.2))
     system.place(two, position=(1.0, 0.0, 0.3))
