@@ -10,10 +10,12 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput, NoDistance, NonsmoothWarning
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
+from nonsmooth.interfaces.solid import Vector
 from nonsmooth.notices import warn
 from nonsmooth.queries.distance import BodyPair
 from nonsmooth.queries.near import Ties, near_bodies, size_of, touching
@@ -25,8 +27,10 @@ Places = Sequence[Sequence[Place]]
 _NAMED = 3
 """Largest number of pairs that a warning names; it gives only the number of further pairs."""
 _MOVED = 0.25
-"""A sample is checked for overlaps if a body has moved by this part of the smallest body's size since the last check.
-Bodies that pass through each other move farther than this while they overlap, so a check finds them."""
+"""Change of a coordinate between two checked samples, relative to its size in the body (:attr:`Body.scales`).
+
+Bodies that pass through each other move farther than this while they overlap, so a check finds them.
+"""
 
 
 class UndeclaredOverlap(NonsmoothWarning):
@@ -112,13 +116,46 @@ class Undeclared:
         ]
         self._warn(found, "overlap at the start, and will pass through each other")
 
-    @property
-    def least_move(self) -> float:
-        """Motion of a body [m] after which a sample is checked for overlaps: a quarter of the smallest body's size."""
-        return _MOVED * min(map(size_of, self.system.bodies))
+    @functools.cached_property
+    def least_move(self) -> Vector:
+        """Change of each coordinate after which a sample is checked for overlaps: a quarter of its size in the body."""
+        return _MOVED * np.concatenate([body.scales[0] for body in self.system.bodies])
+
+    @functools.cached_property
+    def _radii(self) -> list[list[float]]:
+        """Radius about the origin of each frame of each body that holds its shapes [m]; 0 without shapes."""
+        # the extent of a polyhedron takes 20 us
+        return [
+            [max((shape.extent for shape in shapes), default=0.0) for shapes in body.frames]
+            for body in self.system.bodies
+        ]
+
+    @functools.cached_property
+    def _spheres(self) -> tuple[NDArray[np.int64], NDArray[np.int64], Vector, list[tuple[int, int]]]:
+        """Frames of undeclared pairs by number, sums of the radii of their shapes [m], and numbers of the bodies."""
+        bodies, radii = self.system.bodies, self._radii
+        first = np.concatenate([[0], np.cumsum([len(body.frames) for body in bodies])]).tolist()
+        found = [
+            (first[i] + m, first[j] + n, one + two, (i, j))
+            for i, j in itertools.combinations(range(len(bodies)), 2)
+            if self._is_one(i, j)
+            for (m, one), (n, two) in itertools.product(enumerate(radii[i]), enumerate(radii[j]))
+        ]
+        a, b, reach, pairs = zip(*found, strict=True) if found else ((), (), (), ())
+        return np.array(a, np.int64), np.array(b, np.int64), np.array(reach, float), [*pairs]
+
+    def _met(self, places: Places) -> list[tuple[int, int]]:
+        """Undeclared pairs whose bounding spheres overlap, with the frames at given places."""
+        a, b, reach, pairs = self._spheres
+        origins = np.array([position for frames in places for position, _ in frames]).reshape(-1, 3)
+        apart = np.linalg.norm(origins[a] - origins[b], axis=1)
+        return sorted({pairs[k] for k in np.flatnonzero(apart < reach).tolist()})
 
     def warn_of_run(self, before: Places, samples: Iterable[tuple[float, Places]]) -> None:
         """Warn of pairs of bodies, planes too, that overlap at a sample of a run but did not overlap at its start.
+
+        The gap of a pair changes by no more than its bodies move.  So a pair is not measured again until they have
+        moved by as much as its last gap.
 
         Parameters
         ----------
@@ -127,19 +164,28 @@ class Undeclared:
         samples : iterable
             Times [s], and places of the frames at these times.
         """
-        checked: dict[tuple[int, int], bool] = {}
-        """Whether an overlap of the pair would be new: it did not overlap at the start, and was not found yet."""
+        measured: dict[tuple[int, int], tuple[float, Places]] = {}
         found: list[tuple[int, int, float]] = []
-        times = dict[tuple[int, int], float]()
+        times: list[float] = []
         for t, places in samples:
-            for i, j in self.near(places):
-                if (i, j) not in checked:
-                    checked[i, j] = self._gap(i, j, before) >= 0.0
-                if checked[i, j] and (gap := self._gap(i, j, places)) < 0.0:
-                    checked[i, j], times[i, j] = False, t
-                    found.append((i, j, -gap))
-        first = min(times.values(), default=0.0)
-        self._warn(found, f"pass into each other, the first at t = {first:.6g} s")
+            for i, j in self._met(places):
+                gap, then = measured.get((i, j)) or (self._gap(i, j, before), before)
+                # a pair that overlaps at the start, or was found, has a gap of minus infinity from then on
+                if gap >= 0.0 and gap <= sum(self._moved(k, then, places) for k in (i, j)):
+                    gap, then = self._gap(i, j, places), places
+                    if gap < 0.0:
+                        found.append((i, j, -gap))
+                        times.append(t)
+                measured[i, j] = (gap if gap >= 0.0 else -math.inf), then
+        self._warn(found, f"pass into each other, the first at t = {min(times, default=0.0):.6g} s")
+
+    def _moved(self, number: int, before: Places, after: Places) -> float:
+        """Upper bound of the displacement of the points of the bounded shapes of a body [m]; inf of a turning plane."""
+        most = 0.0
+        for (one, axes), (two, turned), radius in zip(before[number], after[number], self._radii[number], strict=True):
+            turn = math.sqrt(0.5 * float(np.sum((turned - axes) ** 2)))
+            most = max(most, float(np.linalg.norm(two - one)) + (radius * turn if turn > 0.0 else 0.0))
+        return most
 
     def _gap(self, i: int, j: int, places: Places) -> float:
         """Gap of two bodies [m], negative if they overlap; 0 if they touch or no method gives their distance."""

@@ -13,7 +13,7 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats
 
 
-def states_at_samples(model: LaidOut, rows: Floats, least_move: float) -> Generator[float]:
+def states_at_samples(model: LaidOut, rows: Floats, least_move: float | Floats) -> Generator[float]:
     """Write the states of chosen samples to the memory in turn, and yield the time of each [s].
 
     The caller evaluates what it needs.  At the end, or when the iterator is closed, the memory has its former state.
@@ -24,8 +24,9 @@ def states_at_samples(model: LaidOut, rows: Floats, least_move: float) -> Genera
         The model that ran.
     rows : Floats
         Samples of the run, shape [n, m]: columns are t [s], q, u and more.
-    least_move : float
-        A sample is chosen if a coordinate changed by more than this [m or rad] since the chosen sample before it.
+    least_move : float or Floats
+        A sample is chosen at the latest when a coordinate has changed by this much since the chosen sample before it:
+        a number for all coordinates, or one for each, in the units of the coordinates, shape [n_q].
     """
     before = Checkpoint.of(model.memory)
     try:
@@ -39,7 +40,9 @@ def states_at_samples(model: LaidOut, rows: Floats, least_move: float) -> Genera
         model.evaluate()
 
 
-def places_at_samples(model: LaidOut, rows: Floats, least_move: float) -> Iterator[tuple[float, list[list[Place]]]]:
+def places_at_samples(
+    model: LaidOut, rows: Floats, least_move: float | Floats
+) -> Iterator[tuple[float, list[list[Place]]]]:
     """Yield the times [s] of chosen samples, and the places of the frames of all bodies then, to search for overlaps.
 
     Parameters as for :func:`states_at_samples`, which chooses the samples.
@@ -49,13 +52,13 @@ def places_at_samples(model: LaidOut, rows: Floats, least_move: float) -> Iterat
         yield t, model.places()
 
 
-def _moved_samples(q: Floats, least_move: float) -> list[int]:
+def _moved_samples(q: Floats, least_move: float | Floats) -> list[int]:
     """Numbers of the chosen samples: the first, the last, and each sample between them that moved enough.
 
-    A sample moved enough if a coordinate changed by more than ``least_move`` [m or rad] since the last chosen sample.
+    The path of the coordinates is cut into pieces of length ``least_move``: from one sample to the next it grows by the
+    largest change of a coordinate, relative to ``least_move``.  Its length is never less than the displacement.
     """
-    chosen = [0]
-    for i in range(1, len(q)):
-        if np.max(np.abs(q[i] - q[chosen[-1]]), initial=0.0) > least_move:
-            chosen.append(i)
-    return sorted({*chosen, len(q) - 1})
+    least = np.maximum(least_move, np.finfo(float).tiny)
+    steps = np.max(np.abs(np.diff(q, axis=0)) / least, axis=1, initial=0.0)
+    pieces = np.floor(np.concatenate([[0.0], np.cumsum(steps)]))
+    return sorted({0, *(1 + np.flatnonzero(np.diff(pieces) > 0.0)).tolist(), len(q) - 1})
