@@ -137,7 +137,7 @@ class Undeclared:
         first = np.concatenate([[0], np.cumsum([len(body.frames) for body in bodies])]).tolist()
         found = [
             (first[i] + m, first[j] + n, one + two, (i, j))
-            for i, j in itertools.combinations(range(len(bodies)), 2)
+            for i, j in itertools.combinations([k for k, body in enumerate(bodies) if any(body.frames)], 2)
             if self._is_one(i, j)
             for (m, one), (n, two) in itertools.product(enumerate(radii[i]), enumerate(radii[j]))
         ]
