@@ -13,6 +13,10 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats
 
 
+_FINEST = 1e-6
+"""Least piece of the path of the coordinates, relative to their largest change between two samples."""
+
+
 def states_at_samples(model: LaidOut, rows: Floats, least_move: float | Floats) -> Generator[float]:
     """Write the states of chosen samples to the memory in turn, and yield the time of each [s].
 
@@ -58,7 +62,9 @@ def _moved_samples(q: Floats, least_move: float | Floats) -> list[int]:
     The path of the coordinates is cut into pieces of length ``least_move``: from one sample to the next it grows by the
     largest change of a coordinate, relative to ``least_move``.  Its length is never less than the displacement.
     """
-    least = np.maximum(least_move, np.finfo(float).tiny)
-    steps = np.max(np.abs(np.diff(q, axis=0)) / least, axis=1, initial=0.0)
+    changes = np.abs(np.diff(q, axis=0))
+    # a body without a size has coordinates without one: each of their changes then is a piece of its own
+    least = np.maximum(least_move, max(_FINEST * np.max(changes, initial=0.0), np.finfo(float).tiny))
+    steps = np.max(changes / least, axis=1, initial=0.0)
     pieces = np.floor(np.concatenate([[0.0], np.cumsum(steps)]))
     return sorted({0, *(1 + np.flatnonzero(np.diff(pieces) > 0.0)).tolist(), len(q) - 1})
