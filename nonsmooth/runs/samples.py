@@ -12,7 +12,6 @@ from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Floats
 
-
 _FINEST = 1e-6
 """Least piece of the path of the coordinates, relative to their largest change between two samples."""
 
