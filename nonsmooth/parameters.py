@@ -194,14 +194,19 @@ class _Checked(Readable):
             raise
 
 
+_DESCRIBED = re.compile(r"^([\w, ]+) : ", re.MULTILINE)
+"""Line of a docstring that begins the description of one or several fields."""
+
+
 def _documented(owner: type) -> str | None:
     """Docstring of a component class, extended by a section on the declared parameters that the docstring omits."""
     text = inspect.cleandoc(owner.__doc__ or "")
+    described = {name for names in _DESCRIBED.findall(text) for name in names.split(", ")}
     fields = {name: value.metadata for name, value in vars(owner).items() if isinstance(value, dataclasses.Field)}
     lines = [
         f"{name} : {owner.__annotations__[name]}\n    {_with_unit(metadata['rule'])}, {metadata['rule'].describe()}"
         for name, metadata in fields.items()
-        if "rule" in metadata and not re.search(rf"^(\w+, )*{name}(, \w+)* : ", text, re.MULTILINE)
+        if "rule" in metadata and name not in described
     ]
     return "\n".join([text, "", "Parameters", "----------", *lines]) if lines else owner.__doc__
 
