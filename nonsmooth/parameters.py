@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, final, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, final, get_origin, get_type_hints
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -181,17 +181,20 @@ class _Checked(Readable):
     The error is UnknownName or MissingArgument instead of Python's TypeError.
     """
 
-    def __call__(cls, *given: Any, **named: Any) -> Any:  # noqa: N805 -- the object is a class
-        # the decorator replaces the fields by their default values, so a field that is left shows that it is missing
-        if "__dataclass_fields__" not in vars(cls) and any(
-            isinstance(one, dataclasses.Field) for one in vars(cls).values()
-        ):
-            raise _undecorated(cls)
-        try:
-            return super().__call__(*given, **named)
-        except TypeError:
-            _check_arguments(cls, given, named)
-            raise
+    # editors and type checkers are to see the arguments of the constructor
+    if not TYPE_CHECKING:
+
+        def __call__(cls, *given: Any, **named: Any) -> Any:  # noqa: N805 -- the object is a class
+            # the decorator replaces the fields by their defaults, so a field that is left shows that it is missing
+            if "__dataclass_fields__" not in vars(cls) and any(
+                isinstance(one, dataclasses.Field) for one in vars(cls).values()
+            ):
+                raise _undecorated(cls)
+            try:
+                return super().__call__(*given, **named)
+            except TypeError:
+                _check_arguments(cls, given, named)
+                raise
 
 
 _DESCRIBED = re.compile(r"^([\w, ]+) : ", re.MULTILINE)
