@@ -171,7 +171,7 @@ class Undeclared:
             for i, j in self._met(places):
                 gap, then = measured.get((i, j)) or (self._gap(i, j, before), before)
                 # a pair that overlaps at the start, or was found, has a gap of minus infinity from then on
-                if gap >= 0.0 and gap <= sum(self._moved(k, then, places) for k in (i, j)):
+                if 0.0 <= gap < sum(self._moved(k, then, places) for k in (i, j)):
                     gap, then = self._gap(i, j, places), places
                     if gap < 0.0:
                         found.append((i, j, -gap))

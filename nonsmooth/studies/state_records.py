@@ -14,7 +14,7 @@ from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, scales_of
 from nonsmooth.studies.inputs import check_phase, check_positive
-from nonsmooth.studies.orbits.scan import check_period
+from nonsmooth.studies.orbits.scan import check_period, drive_periods
 from nonsmooth.studies.records import Recorder, RunResult, StudyRecord
 from nonsmooth.types import Array
 
@@ -85,8 +85,8 @@ class Stroboscope(Recorder):
         Time of the recorded state in each period [s], at which no velocity jumps.
     phase : str, optional
         Parameter of the scenario that is the phase of the drive at t = 0 [rad], if the study varies it.  Then ``at``
-        counts from the time at which the phase of the drive is 0; by default it counts from t = 0.  With ``phase``,
-        ``period`` must not be a multiple.
+        counts from the time at which the phase of the drive is 0; by default it counts from t = 0.  If driven
+        bodies have different periods, or do not tell them, ``period`` must then be that of this phase, no multiple.
 
     Raises
     ------
@@ -149,10 +149,13 @@ class Stroboscope(Recorder):
         return np.concatenate([states["q"], states["u"]], axis=1)[:, places]
 
     def _start(self, result: RunResult) -> float:
-        """Return the phase of the drive at t = 0 [periods]."""
+        """Return the phase of the drive at t = 0, in units of ``period``."""
         if self.phase is None or result.scenario is None:
             return 0.0
-        return float(result.scenario.values[self.phase]) / (2.0 * math.pi)
+        known = drive_periods(result.solution.system)
+        # ``period`` may hold several periods of the drive
+        cycles = max(1, round(self.period / known.pop())) if len(known) == 1 else 1
+        return float(result.scenario.values[self.phase]) / (2.0 * math.pi * cycles)
 
     def _times(self, t_end: float, start: float) -> Array:
         """Return the times of the last recorded states of a run that ends at ``t_end`` [s], shape [keep]."""

@@ -18,9 +18,10 @@ from nonsmooth.cli.parse.request import SCENARIO, SET, TRUST, job
 from nonsmooth.cli.report import orbit_report
 from nonsmooth.cli.report.messages import say, tell
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Motion, Scenario
+from nonsmooth.interfaces import Scenario
 from nonsmooth.studies import Family, orbits
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit, values_of
+from nonsmooth.studies.orbits.scan import drive_periods
 
 
 def _section(word: str) -> orbits.PoincareSection:
@@ -119,19 +120,13 @@ def _drive_period(scenario: Scenario) -> float:
     InvalidInput
         If no body is driven periodically, or driven bodies have different periods.
     """
-    periods = {motion.period for motion in _motions(scenario) if motion.period is not None}
+    periods = drive_periods(scenario.build())
     if len(periods) != 1:
         rule = "must be given, or a section in its place"
         many = ", ".join(f"{period:.9g} s" for period in sorted(periods))
         why = f"Its driven bodies have different periods: {many}." if many else "No body of it is driven periodically."
         raise InvalidInput("orbit: period", rule, None, f"{why} Add --period SECONDS, or --section NAME=LEVEL.")
     return periods.pop()
-
-
-def _motions(scenario: Scenario) -> list[Motion]:
-    """Return the motions of the driven bodies of a scenario."""
-    motions = (getattr(body, "motion", None) for body in scenario.build().bodies)
-    return [motion for motion in motions if isinstance(motion, Motion)]
 
 
 def _continue(arguments: argparse.Namespace) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.interfaces import Motion
 from nonsmooth.progress import Display, RunsDone
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
@@ -17,6 +18,7 @@ from nonsmooth.studies.derivatives.coordinates import scales_of
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.flow import flow
 from nonsmooth.studies.inputs import check_positive, meter
+from nonsmooth.system.system import System
 
 Found = TypeVar("Found")
 Period = float | Callable[[float], float]
@@ -106,6 +108,12 @@ def period_at(period: Period, value: float, thing: str) -> float:
     there = f" at the value {value:.9g}" if callable(period) else ""
     check_positive(thing, found, "Give it in [s].", f"must be positive and finite{there}")
     return float(found)
+
+
+def drive_periods(system: System) -> set[float]:
+    """Return the periods of the driven bodies of a system [s], as far as their motions tell them."""
+    motions = (getattr(body, "motion", None) for body in system.bodies)
+    return {one.period for one in motions if isinstance(one, Motion) and one.period is not None}
 
 
 def check_period(model: Model, state: State, period: float, thing: str, remedy: str = FREQUENCY_REMEDY) -> None:

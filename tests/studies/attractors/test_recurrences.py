@@ -188,3 +188,17 @@ def test_what_is_not_valid(make: Callable[[], Any], words: tuple[str, ...]) -> N
 
 def _study(strobe: studies.Stroboscope) -> studies.Study:
     return studies.Study(_BALL, studies.grid(gamma=[0.5]), [strobe])
+
+
+@runs
+def test_a_multiple_of_the_period_sees_the_same_phase(tmp_path: Path) -> None:
+    """A ball at rest on the table is at one height at this phase, whatever the phase of the drive at the start."""
+    starts = studies.grid(start_phase=[0.0, 1.0, 3.0], speed=[0.01])
+    scenario = BouncingBall(gamma=0.3, t_end=2.0)
+    heights = []
+    for n in (1, 2, 3):
+        strobe = studies.Stroboscope(n * _T, ("z", "vz"), keep=4, at=0.3 * _T, phase="start_phase")
+        found = studies.Study(scenario, starts, [strobe]).run(tmp_path / f"{n}.zarr")
+        heights.append(found.stroboscopic.values[..., 0].ravel())
+    table = scenario.radius + scenario.amplitude * math.sin(0.6 * math.pi)
+    np.testing.assert_allclose(np.concatenate(heights), table, rtol=0, atol=1e-9)
