@@ -129,6 +129,8 @@ def lay_contacts(
     size = 3 * _lay_sides(memory, table, bodies)
     # any unit vector, until a slip has a direction
     memory.declared(_CONTACT.direction)[:, 0] = 1.0
+    # the first of both sides from which anisotropic friction may be opposed
+    memory.declared(_CONTACT.facing)[:] = 1
     memory.declared(_CONTACT.size)[:] = table.extents.min(axis=1)
     memory.declared(_CONTACT.spin_axis)[:] = table.revolutions
     lay_law_floats(memory, contacts, kinds)

@@ -59,12 +59,18 @@ class PartPair(NamedTuple):
         The parts. A half-space comes first, and the larger one of two discs.
     size : float
         Extent of the smaller shape [m].
+    is_guarded : bool
+        True if the separation of the shapes decides whether they meet (:func:`is_guarded`).
+    clearance : float
+        Separation of the parts at which contacts of the shapes may close [m]: feet may extend beyond the parts.
     """
 
     group: int
     contacts: Sequence[int]
     sides: tuple[PairSide, PairSide]
     size: float
+    is_guarded: bool
+    clearance: float
 
 
 def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
@@ -84,12 +90,16 @@ def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
                 parts_of[id(shape)] = shape.parts
             carrier, parts = (int(body), int(frame)), parts_of[id(shape)]
             choices.append([PairSide(carrier, part, (id(shape), number)) for number, part in enumerate(parts)])
+        one_parts, two_parts = ([side.part for side in sides] for sides in choices)
+        clearance = sum(shape.solid.set_back for shape in row.shapes if shape.solid) if one_parts and two_parts else 0.0
+        guarded = is_guarded(one_parts, two_parts, len(numbers))
         for first, second in itertools.product(*choices):
             one, two = first.part, second.part
             if needs_overlap_check(one, two, len(numbers)):
-                is_larger = one.is_disc and two.is_disc and two.radius > one.radius
-                sides = (second, first) if two.is_half_space or is_larger else (first, second)
-                found.append(PartPair(group, numbers, sides, row.size))
+                # the direction of separation is fixed to the first part; the radius of the second bounds its turning
+                sizes = [part.radius if one.is_disc and two.is_disc else _reach(part) for part in (one, two)]
+                sides = (second, first) if sizes[1] > sizes[0] else (first, second)
+                found.append(PartPair(group, numbers, sides, row.size, guarded, clearance))
     return found
 
 
@@ -100,10 +110,13 @@ def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
     """
     radii: dict[tuple[int, int], float] = {}
     for side in itertools.chain.from_iterable(pair.sides for pair in pairs):
-        # a part is within a ball about its own origin
-        reach = _UNBOUNDED if side.part.is_half_space else math.hypot(*side.part.place) + side.part.radius
-        radii[side.carrier] = max(reach, radii.get(side.carrier, 0.0))
+        radii[side.carrier] = max(_reach(side.part), radii.get(side.carrier, 0.0))
     return radii
+
+
+def _reach(part: ConvexPart) -> float:
+    """Distance from the origin of the body's frame to the farthest point of a part [m]."""
+    return _UNBOUNDED if part.is_half_space else math.hypot(*part.place) + part.radius
 
 
 def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
@@ -119,6 +132,20 @@ def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool
         return False
     # circles and points have no volume, so they cannot overlap; of these only two discs may pass through each other
     return not (one.is_flat and two.is_flat) or (one.is_disc and two.is_disc)
+
+
+def is_guarded(first: Sequence[ConvexPart], second: Sequence[ConvexPart], contacts: int) -> bool:
+    """True if the separation of two shapes decides whether they meet: of bounded shapes with several contacts.
+
+    The gap of a single contact is the distance itself. Half-spaces are a plane, over which each vertex has its contact.
+    Points do not meet. ``first`` and ``second`` are the parts of the shapes, ``contacts`` is the number of contacts.
+    """
+    if contacts == 1 or any(part.is_half_space for part in (*first, *second)):
+        return False
+    return all(
+        needs_overlap_check(one, two, contacts) or (one.is_flat and two.is_flat and not (one.is_disc or two.is_disc))
+        for one, two in itertools.product(first, second)
+    )
 
 
 def contacts_without_parts(contacts: Contacts) -> list[int]:
@@ -185,6 +212,7 @@ def lay_part_pairs(
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
     memory[owners.Carrier.frame] = [frames[side] for side in carriers]
+    memory[owners.Carrier.body] = [body for body, _ in carriers]
     memory[owners.Carrier.radius] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
     for number, pair in enumerate(pairs):
@@ -195,6 +223,8 @@ def lay_part_pairs(
             "group": pair.group,
             "contact": pair.contacts[0],
             "are_both_flat": all(side.part.is_flat for side in pair.sides),
+            "is_guarded": pair.is_guarded,
+            "clearance": pair.clearance,
             "allowed": _ALLOWED * pair.size,
             "size": pair.size,
         }

@@ -29,11 +29,11 @@ from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.coincident import closed_coincident, replace_coincident
 from nonsmooth.engine.events.record import NO_PHASES, begin_event, record_event
 from nonsmooth.engine.flow.projection import project_rates
-from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.memory.event_rows import CLOSING_LOSS, DRIVEN_WORK
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
+from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import length
 
 _PART_AT_REST = 1.0 - 1e-6

@@ -23,7 +23,6 @@ from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_touching
 from nonsmooth.engine.events.accumulation import set_provisional_mode, slow_speed
 from nonsmooth.engine.events.record import begin_event, impact_code, record_event
-from nonsmooth.engine.flow.self_check import ALLOWED
 from nonsmooth.engine.impact.end import how_over
 from nonsmooth.engine.impact.instant import jam_slips, map_impact
 from nonsmooth.engine.impact.integration import energetic_impact
@@ -40,6 +39,7 @@ from nonsmooth.engine.memory.modes import (
     Truncation,
 )
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.engine.numerics.vectors import length
 
 

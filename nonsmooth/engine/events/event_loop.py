@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.courses import has_own_step
-from nonsmooth.engine.bodies.listing import list_contacts, longest_step
+from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.events.averaging import (
     average_island_of,
@@ -43,13 +43,17 @@ from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_
 from nonsmooth.engine.flow.point_jump import contact_past_flat_place, evaluate_force_round_off, jump_contact_points
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.redundant_forces import can_choose_within, choose_forces_again
-from nonsmooth.engine.flow.self_check import NEGLIGIBLE, check_end, check_gaps, close_energy_account
+from nonsmooth.engine.flow.self_check import check_end, check_gaps, close_energy_account
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
-from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
-from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Limit, Mode, Status
+from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE, NO_PAIR
+from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Limit, Mode, Status
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.pairs.apart import find_apart
+from nonsmooth.engine.pairs.listing import list_contacts, list_with, longest_step
+from nonsmooth.engine.pairs.motion import bound_carriers
 
 _VANISHED = 1e-9
 """Normal force up to which friction at its static bound means a lift-off, relative to the force at the step's start.
@@ -172,6 +176,10 @@ def _end_within(ws: Workspace) -> Status:
 def _carry_out(ws: Workspace, cause: Cause, which: int) -> Status:
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
     ws.island.follows_a_step = False
+    if ws.model.n_pairs > 0:
+        which = _listed_anew(ws, which)
+        if which == NO_CONTACT:
+            return Status.NO_SLOT
     count_event(ws, which)
     if is_stalled(ws, which):
         if not average_island_of(ws, which):
@@ -180,12 +188,52 @@ def _carry_out(ws: Workspace, cause: Cause, which: int) -> Status:
     return update_at_event(ws, cause, which)
 
 
+@kernel("i8(ws, i8)")
+def _listed_anew(ws: Workspace, which: int) -> int:
+    """List the contacts of pairs that touch at the instant, too. Returns where contact ``which`` is in the new list.
+
+    ``NO_CONTACT`` if the list has not enough places.
+    """
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    declared, pair = ws.contacts[which].declared, ws.contacts[which].pair
+    if not find_apart(ws, pair):
+        return which
+    if list_with(ws, pair) != Status.RUNNING:
+        return NO_CONTACT
+    for contact in ws.contacts:
+        if contact.declared == declared:
+            return contact.index
+    return NO_CONTACT
+
+
+@kernel("Status(ws, f8)")
+def _meet(ws: Workspace, h: float) -> Status:
+    """Accept the step of ``h`` [s], at whose end two parts meet, and carry out the event; return the status."""
+    group = ws.pairs[ws.step.meeting].group
+    _commit(ws, h)
+    ws.island.follows_a_step = False
+    status = list_with(ws, group)
+    if status != Status.RUNNING:
+        return status
+    find_touching(ws)
+    which, least = NO_CONTACT, math.inf
+    for contact in ws.contacts:
+        if contact.pair == group and contact.is_touching and contact.gap < least:
+            which, least = contact.index, contact.gap
+    # no feature touches: the features of the parts are evaluated from now on, as they are next to each other
+    if which == NO_CONTACT:
+        return Status.RUNNING
+    return _carry_out(ws, _cause_of_closing(ws.contacts[which]), which)
+
+
 @kernel("Status(ws)")
 def _step(ws: Workspace) -> Status:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
         ws.island.follows_a_step = False
         return update_at_event(ws, Cause.AVERAGING, -1)
+    if ws.model.n_pairs > 0 and find_apart(ws, NO_PAIR):
+        return list_contacts(ws)
     _evaluate_start(ws)
     check_gaps(ws)
     if ws.run.failure != Status.RUNNING:
@@ -244,6 +292,7 @@ def _evaluate_start(ws: Workspace) -> None:
     write_guards(ws, ws.island.time, ws.island.y.start, forces_are_known=True)
     store_end(ws)
     bound_speeds(ws)
+    bound_carriers(ws)
 
 
 @kernel("i8(ws)")
@@ -357,7 +406,7 @@ def _step_to_event(ws: Workspace, high: float) -> Status:
     if h > ws.request.t_end - ws.island.time:
         ws.step.limit = Limit.END
         return _end_within(ws)
-    return _event(ws, h, ws.step.guard)
+    return _meet(ws, h) if ws.step.meeting != NO_PAIR else _event(ws, h, ws.step.guard)
 
 
 @kernel("Status(ws)")

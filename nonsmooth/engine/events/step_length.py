@@ -9,19 +9,19 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
-from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.events.stopping import part_before_stop
 from nonsmooth.engine.flow.averaging_time import deviation_of_gaps
 from nonsmooth.engine.flow.clearance import ABOUT, first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_of
 from nonsmooth.engine.flow.location import NEGLIGIBLE
-from nonsmooth.engine.flow.self_check import ADJACENT
 from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.modes import Limit, Mode, Status
 from nonsmooth.engine.memory.tableau import ORDER
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
+from nonsmooth.engine.numerics.tolerances import ADJACENT
 from nonsmooth.engine.numerics.vectors import dot
+from nonsmooth.engine.pairs.listing import overran_list
 
 _FIRST_WAY = 1e-3
 """Largest displacement of surfaces in a compliant contact's first step, relative to the size of the smaller body."""

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_of
-from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.flow.step import LARGEST_EXPLICIT
 from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import length
 
 _EXPLICIT_PART = 1.5

@@ -19,9 +19,9 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_of,
     number_of_guards,
 )
-from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, GuardRecord, Workspace, kernel
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 
 NO_BOUND = -1.0, 0.0, 0.0
 """Bounds of a gap's acceleration that were not evaluated. A bound that was evaluated is never negative."""
@@ -58,6 +58,8 @@ def store_start(ws: Workspace) -> None:
         bound = contact.acceleration_bound_at_end if ws.island.follows_a_step else NO_BOUND
         contact.acceleration_bound_at_start = bound
         contact.offset_at_start = contact.offset_at_end
+    for carrier in ws.carriers:
+        carrier.speed_at_start = carrier.speed_at_end
 
 
 @kernel()

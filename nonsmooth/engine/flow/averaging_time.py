@@ -17,9 +17,10 @@ from nonsmooth.engine.bodies.equations import coordinate_rates
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry
 from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, set_mean_forces
 from nonsmooth.engine.delassus.delassus import add_response
-from nonsmooth.engine.flow.self_check import ALLOWED, energies_of_bodies, scale_energy, tolerated_gap
+from nonsmooth.engine.flow.self_check import energies_of_bodies, scale_energy, tolerated_gap
 from nonsmooth.engine.flow.spins import square_of_quaternion
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 
 _ALLOWED_PART = 0.1
 """Deviation of a gap from the linear model that is allowed, relative to the allowed error of a gap, or of energy."""

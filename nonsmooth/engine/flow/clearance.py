@@ -19,11 +19,11 @@ from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.arming import NO_BOUND
 from nonsmooth.engine.flow.flight import fly
 from nonsmooth.engine.flow.guard_numbers import normal_of
-from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Floats, Workspace, entry_point, frame_at, kernel
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 _CURVED = 4.0

@@ -29,10 +29,13 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, sign_depends_on
+from nonsmooth.engine.flow.meeting import first_meeting
 from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces, choose_at_end
+from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT
+from nonsmooth.engine.pairs.motion import bound_carriers
 
 _MIDDLE = 0.5
 """Fraction of the step at which forces and guards of the user are sampled between its ends."""
@@ -199,21 +202,24 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
 
 @kernel("f8(ws, f8, f8, i8)")
 def closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
-    """Fraction of the step, up to ``theta``, at which an open gap has closed, or 0 if none has.
+    """Fraction of the step, up to ``theta``, at which an open gap has closed or parts of bodies meet, or 0 if none has.
 
     If a gap has closed, the guards are afterwards evaluated at this fraction. If no gap has closed, contact ``asked``
     is afterwards evaluated at ``theta``.
     """
+    found = 0.0
     if ws.step.n_not_facing > 0:
         found = _sampled(ws, h, theta)
-        if found > 0.0:
-            return found
-    if ws.step.n_may_close > 0:
+    if found == 0.0 and ws.step.n_may_close > 0:
         found = first_closing(ws, h, theta, asked)
         if found > 0.0:
             guards_within(ws, h, found, asks_forces(ws))
-            return found
-    return 0.0
+    if ws.model.n_pairs > 0:
+        earlier = first_meeting(ws, h, found if found > 0.0 else theta)
+        if earlier > 0.0:
+            guards_within(ws, h, earlier, asks_forces(ws))
+            return earlier
+    return found
 
 
 @entry_point("f8(ws, f8)")
@@ -228,6 +234,8 @@ def first_crossing(ws: Workspace, h: float) -> float:
     choose_at_end(ws, h)
     store_end(ws)
     bound_speeds(ws)
+    bound_carriers(ws)
+    ws.step.meeting = NO_PAIR
     find_doubtful(ws, h)
     deflate(ws, h)
     fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
@@ -254,7 +262,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
             if theta > 0.0:
                 return theta
     # search for unseen closings only if no guard has fired; else `locate` finds its root first, then gaps before it
-    if fired < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
+    if fired < 0 and ws.step.n_not_facing + ws.step.n_may_close + ws.model.n_pairs > 0:
         looks += ws.step.n_not_facing
         theta = closed_before(ws, h, 1.0, -1)
         if theta > 0.0:

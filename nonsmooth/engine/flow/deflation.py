@@ -9,8 +9,8 @@ guard ``guard.initial`` is the growth rate at t0, of any other the value at t0.
 from __future__ import annotations
 
 from nonsmooth.engine.flow.guard_numbers import first_end_guard, first_user_guard, is_of_open_contact
-from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.native.kernel import GuardRecord, Workspace, kernel
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 
 
 @kernel("f8(ws, i8, f8, f8)")

@@ -8,7 +8,7 @@ is a ballistic body as soon as one of its contacts closes.
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.bodies import evaluate_if_changed
+from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies, evaluate_if_changed
 from nonsmooth.engine.contact.problem import accelerate_freely
 from nonsmooth.engine.flow.spins import normalise, write_spin_within
 from nonsmooth.engine.memory.layout import EXCHANGED, LAST_STAGE
@@ -193,6 +193,23 @@ def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) ->
     _write_dense(ws, y, slopes, body.q, body.n_q, early, late, out)
     _write_dense(ws, y, slopes, ws.model.n_q + body.u, body.n_u, early, late, out)
     write_spin_within(ws, number, early, late, out)
+
+
+@kernel("void(ws, f8, f8, i8)")
+def evaluate_within(ws: Workspace, h: float, theta: float, number: int) -> None:
+    """Evaluate body ``number`` at the fraction ``theta`` of the step of ``h`` [s].
+
+    Within the step the state is that of the interpolant, at its ends ``y`` and ``y_new``. ``y_stage`` is overwritten.
+    """
+    # a driven body depends on time only
+    if ws.bodies[number].n_u == 0:
+        evaluate_driven_bodies(ws, ws.island.time + theta * h, ws.island.y.start)
+        return
+    state = ws.island.y.start if theta == 0.0 else ws.step.y_new.start
+    if 0.0 < theta < 1.0:
+        state = ws.step.y_stage.start
+        body_within(ws, h, theta, number, state)
+    evaluate_body(ws, ws.island.time + theta * h, state, number)
 
 
 @kernel("void(ws, f8, f8, i8)")

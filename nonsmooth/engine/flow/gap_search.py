@@ -15,18 +15,18 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.clearance import arm_of, fall_of, too_far
 from nonsmooth.engine.flow.deflation import deflated
-from nonsmooth.engine.flow.flight import body_within
+from nonsmooth.engine.flow.flight import evaluate_within
 from nonsmooth.engine.flow.flow import value_of_slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard, normal_of
 from nonsmooth.engine.flow.guards import has_fired
-from nonsmooth.engine.flow.self_check import ADJACENT, NEGLIGIBLE, fail_check
+from nonsmooth.engine.flow.self_check import fail_check
 from nonsmooth.engine.memory.layout import PARTS
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel, part_end, result
+from nonsmooth.engine.numerics.tolerances import ADJACENT, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import distance
 
 LARGEST_DISPLACEMENT = 0.02
@@ -53,22 +53,9 @@ class GapBounds(NamedTuple):
 
 @kernel("void(ws, f8, f8, ContactRecord)")
 def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: ContactRecord) -> None:
-    """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry.
-
-    Within the step the state is that of the interpolant, at its ends ``y`` and ``y_new``. ``y_stage`` is overwritten.
-    """
-    for side in range(2):
-        number = contact.body_a if side == 0 else contact.body_b
-        body = ws.bodies[number]
-        # a driven body depends on time only
-        if body.n_u == 0:
-            evaluate_driven_bodies(ws, ws.island.time + theta * h, ws.island.y.start)
-            continue
-        state = ws.island.y.start if theta == 0.0 else ws.step.y_new.start
-        if 0.0 < theta < 1.0:
-            state = ws.step.y_stage.start
-            body_within(ws, h, theta, number, state)
-        evaluate_body(ws, ws.island.time + theta * h, state, number)
+    """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry."""
+    evaluate_within(ws, h, theta, contact.body_a)
+    evaluate_within(ws, h, theta, contact.body_b)
     evaluate_geometry(ws, contact.index)
 
 

@@ -20,12 +20,14 @@ from nonsmooth.engine.flow.guard_numbers import (
 from nonsmooth.engine.flow.guard_values import evaluate_guards, write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
 from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces
-from nonsmooth.engine.flow.self_check import ADJACENT, ALLOWED, allowed_gap
+from nonsmooth.engine.flow.self_check import allowed_gap
 from nonsmooth.engine.flow.step import try_step
-from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
+from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR, PARTS
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
+from nonsmooth.engine.numerics.tolerances import ADJACENT, ALLOWED
+from nonsmooth.engine.pairs.motion import rate_of, separation_of
 
 NEGLIGIBLE = 0.01
 """Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""
@@ -159,9 +161,27 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
     return -1.0
 
 
+@kernel("v2(ws, f8, i8)")
+def _value_and_slope(ws: Workspace, step: float, i: int) -> tuple[float, float]:
+    """Value of guard ``i``, evaluated after a ``step`` [s], and its slope per second; of the meeting pair if no guard.
+
+    Of a gap the slope is its rate. That of another guard is the one at its root on the interpolant.
+    """
+    if i == NO_GUARD:
+        pair = ws.pairs[ws.step.meeting]
+        return separation_of(ws, pair) - pair.clearance, rate_of(ws, pair)
+    guard = ws.guards[i]
+    value = guard.value - (guard.base if guard.is_deflated else 0.0)
+    if is_gap(ws, i):
+        return value, ws.contacts[contact_of(ws, i)].gap_rate
+    return value / step if guard.is_deflated else value, ws.step.guard_slope
+
+
 @kernel("f8(ws, f8, i8)")
 def _corrected(ws: Workspace, root: float, i: int) -> float:
     """Make a step that ends at the root of guard ``i``, which the interpolant has at ``root`` [s].
+
+    For ``NO_GUARD`` it is the root of the separation of the pair that meets.
 
     Returns the length of the step [s], or -1 if the step is inaccurate or has no root.
     """
@@ -175,16 +195,9 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
         if not try_step(ws, step) <= TRUSTED:
             return -1.0
         write_guards(ws, ws.island.time + step, ws.step.y_new.start, forces_are_known=True)
-        value = ws.guards[i].value
-        slope = ws.step.guard_slope
-        if ws.guards[i].is_deflated:
-            value -= ws.guards[i].base
-        if is_gap(ws, i):
-            slope = ws.contacts[contact_of(ws, i)].gap_rate
-        elif ws.guards[i].is_deflated:
-            value /= step
+        value, slope = _value_and_slope(ws, step, i)
         # the slope of a gap at rest is round-off, and gives no correction
-        if not slope < (-ws.tolerance.velocity if is_gap(ws, i) else 0.0):
+        if not slope < (-ws.tolerance.velocity if i == NO_GUARD or is_gap(ws, i) else 0.0):
             return step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
         if abs(correction) <= SHORT * h:
@@ -266,7 +279,9 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         else:
             fired = first
             first = first_fired(ws, closed, fired)
-        if first < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
+        # parts that meet after this root do not count
+        ws.step.meeting = NO_PAIR
+        if first < 0 and ws.step.n_not_facing + ws.step.n_may_close + ws.model.n_pairs > 0:
             earlier = closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(ws, closed, NO_GUARD)
@@ -277,6 +292,11 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         return -1.0
     ws.step.guard = fired
     step = theta * h
+    if ws.step.meeting != NO_PAIR:
+        if ws.step.error > NEGLIGIBLE:
+            return _corrected(ws, step, NO_GUARD)
+        state_within(ws, h, theta, ws.step.y_new.start)
+        return step
     if ws.step.guard_slope == -math.inf and _hides_another(ws, step, fired):
         return -1.0
     # a gap without a rate jumps when its features come to face each other: there is no root to correct

@@ -20,10 +20,10 @@ from nonsmooth.engine.contact.trial import NO_FORCE, small_force
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.flow.flow import right_hand_side
-from nonsmooth.engine.flow.self_check import ALLOWED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode
 from nonsmooth.engine.native.kernel import Workspace, frame_at, kernel
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus, scaled
 
 _STRETCH = 0.01

@@ -30,7 +30,7 @@ from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE, allowed_gap, energies_of_bodies, fail_check, held_gap
+from nonsmooth.engine.flow.self_check import allowed_gap, energies_of_bodies, fail_check, held_gap
 from nonsmooth.engine.flow.spins import normalise, square_of_quaternion
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
@@ -44,6 +44,7 @@ from nonsmooth.engine.native.kernel import (
     kernel,
     result,
 )
+from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import cross, dot, minus
 
 _ROUND_OFF = 8.0 * 2.0**-52

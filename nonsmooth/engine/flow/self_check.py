@@ -16,16 +16,11 @@ from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, at, call_compliance, frame_at, kernel
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.engine.numerics.vectors import Pair as EnergyPair
 from nonsmooth.engine.numerics.vectors import minus
 from nonsmooth.engine.pairs.overlaps import check_pairs
 
-ALLOWED = 1e3
-"""Largest accumulated error that is allowed, in tolerances. Steps and events within their tolerances add up to less."""
-NEGLIGIBLE = 1.0 / ALLOWED
-"""Gap, rate, time or residual that counts as zero, in tolerances. ``ALLOWED`` of them add up to one tolerance."""
-ADJACENT = 10.0
-"""Gap and rate of surfaces that are next to each other at rest, in tolerances."""
 _ROUND_OFF = 1e-12
 """Round-off of the energies that are summed over a run, relative to their absolute sum."""
 

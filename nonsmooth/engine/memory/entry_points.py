@@ -44,6 +44,7 @@ ENTRY_POINTS = (
     "write_contact_problem",
     "find_doubtful",
     "first_closing",
+    "first_meeting",
     "first_crossing",
     "locate",
     "follow",

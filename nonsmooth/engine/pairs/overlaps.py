@@ -23,7 +23,13 @@ from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, frame_a
 from nonsmooth.engine.numerics.vectors import distance, dot
 from nonsmooth.engine.pairs.discs import crossing_overlap
 from nonsmooth.engine.pairs.separation import best_direction, separating_direction
-from nonsmooth.engine.pairs.support import height_above_plane, middle_of, separation_along
+from nonsmooth.engine.pairs.support import (
+    height_above_plane,
+    known_direction,
+    middle_of,
+    separation_along,
+    store_direction,
+)
 
 _LARGEST_DISPLACEMENT = 1e3
 """Displacement bound [m] at which all bounds restart from zero, so that round-off of their sum stays small."""
@@ -47,7 +53,7 @@ def _write_depths_of_contacts(ws: Workspace) -> None:
 
 
 @kernel()
-def _add_displacements(ws: Workspace) -> None:
+def add_displacements(ws: Workspace) -> None:
     """Add to the distance of each carrier a bound of the displacement of its points since the last evaluation [m].
 
     A rotation by the angle a displaces a point at the radius r by 2 r sin(a / 2). This is r over the square root of two
@@ -72,13 +78,13 @@ def _add_displacements(ws: Workspace) -> None:
 
 
 @kernel("f8(ws, Pair)")
-def _displacement_bound(ws: Workspace, pair: Pair) -> float:
+def displacement_bound(ws: Workspace, pair: Pair) -> float:
     """Sum of the bounds of the displacements of both parts of a pair [m]. Its separation changes by no more."""
     return float(ws.carriers[pair.carrier_a].distance + ws.carriers[pair.carrier_b].distance)
 
 
 @kernel("f8(ws, i8)")
-def _known_separation(ws: Workspace, number: int) -> float:
+def known_separation(ws: Workspace, number: int) -> float:
     """Lower bound of the separation of pair ``number`` [m], without a search.
 
     Of a half-space it is exact. Else it is that of the bounding spheres, or along the last direction if they overlap.
@@ -88,7 +94,7 @@ def _known_separation(ws: Workspace, number: int) -> float:
         return height_above_plane(ws, number)
     between = distance(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     apart = between - part_at(ws.floats, pair.part_a).radius - part_at(ws.floats, pair.part_b).radius
-    n = pair.direction
+    n = known_direction(ws, pair)
     # a direction of length 0: no search has been made yet
     if apart >= 0.0 or dot(n, n) == 0.0:
         return float(apart)
@@ -116,10 +122,11 @@ def _separation(ws: Workspace, number: int, enough: float) -> float:
     if group.is_closed:
         found = separation_along(ws, number, group.normal)
         if found >= enough:
-            pair.direction = group.normal
+            store_direction(ws, pair, group.normal)
             return float(found)
-    pair.direction = best_direction(ws, number, pair.direction, enough)
-    return float(separation_along(ws, number, pair.direction))
+    n = best_direction(ws, number, known_direction(ws, pair), enough)
+    store_direction(ws, pair, n)
+    return float(separation_along(ws, number, n))
 
 
 @entry_point()
@@ -130,10 +137,10 @@ def check_pairs(ws: Workspace) -> None:
     one [m]. If the depth is beyond the tolerances, too, the caller ends the run. Bodies and contacts must be evaluated.
     """
     ws.run.passed_pair, are_depths_known, most = NO_PAIR, False, 0.0
-    _add_displacements(ws)
+    add_displacements(ws)
     for pair in ws.pairs:
         # the parts have not moved so far that they may meet
-        if _displacement_bound(ws, pair) < pair.margin:
+        if displacement_bound(ws, pair) < pair.margin:
             continue
         depth = _depth(ws, pair)
         # an overlap that the laws of the pair allow
@@ -163,13 +170,14 @@ def _depth(ws: Workspace, pair: Pair) -> float:
     of the pair: the displacement bound up to which it need not be evaluated again.
     """
     number = pair.index
-    apart = _known_separation(ws, number)
+    apart = known_separation(ws, number)
     # the separation from a half-space is exact
     if apart < -pair.allowed and not _has_half_space(ws, pair):
-        pair.direction = separating_direction(ws, number, pair.direction)
-        apart = separation_along(ws, number, pair.direction)
+        n = separating_direction(ws, number, known_direction(ws, pair))
+        store_direction(ws, pair, n)
+        apart = separation_along(ws, number, n)
     are_discs = pair.are_both_flat
     depth = crossing_overlap(ws, number) if are_discs else -apart
     # an overlap up to the allowed one needs no evaluation, but discs without thickness have no such depth
-    pair.margin = _displacement_bound(ws, pair) + apart + (0.0 if are_discs else pair.allowed)
+    pair.margin = displacement_bound(ws, pair) + apart + (0.0 if are_discs else pair.allowed)
     return float(depth)

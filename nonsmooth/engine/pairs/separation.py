@@ -127,6 +127,16 @@ def separating_direction(ws: Workspace, number: int, known: Vector) -> Vector:
     return _search(ws, number, _unit(known, _between_middles(ws, number)), (0.0, 0.0, 0.0), pair.size)
 
 
+@kernel("v3(ws, i8, v3)")
+def accurate_direction(ws: Workspace, number: int, known: Vector) -> Vector:
+    """Unit vector along which a pair is farthest apart, accurate next to contact, too, by searches from ``known``.
+
+    Of parts that overlap, it need not be the direction of least overlap.
+    """
+    n, size = separating_direction(ws, number, known), ws.pairs[number].size
+    return _climb(ws, number, n, size) if separation_along(ws, number, n) < _SHIFT * size else n
+
+
 @kernel("v3(ws, i8, v3, f8)")
 def best_direction(ws: Workspace, number: int, known: Vector, enough: float) -> Vector:
     """Unit vector along which the separation of a pair is at least ``enough`` [m], or else the largest one found.

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
-from nonsmooth.engine.native.kernel import Floats, Workspace, at, call_support, frame_at, kernel, part_at
+from nonsmooth.engine.native.kernel import Floats, Pair, Workspace, at, call_support, frame_at, kernel, part_at
 from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
 
 
@@ -141,6 +141,24 @@ def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector
     return mx + x, my + y, mz + z
 
 
+@kernel("i8(Pair)")
+def _fixed_frame(pair: Pair) -> int:
+    """Offset of the frame of the part to which the direction of a pair is fixed."""
+    return int(pair.frame_b if pair.is_fixed_to_second else pair.frame_a)
+
+
+@kernel("v3(ws, Pair)")
+def known_direction(ws: Workspace, pair: Pair) -> Vector:
+    """Direction of a pair in the world: the stored one turns with the part it is fixed to. Zero if none is known."""
+    return turned(frame_at(ws.floats, _fixed_frame(pair)).rotation, pair.direction)
+
+
+@kernel("void(ws, Pair, v3)")
+def store_direction(ws: Workspace, pair: Pair, n: Vector) -> None:
+    """Store a unit vector ``n`` of the world as the direction of a pair, fixed to the same part as before."""
+    pair.direction = _turned_back(frame_at(ws.floats, _fixed_frame(pair)).rotation, n)
+
+
 @kernel("v3(ws, i8, v3)")
 def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
     """Vector from the support point of the first part of a pair along ``n`` to that of the second along -``n`` [m].
@@ -150,6 +168,13 @@ def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
     pair = ws.pairs[number]
     farthest_a = _farthest(ws.floats, pair.frame_a, pair.part_a, n)
     return minus(_farthest(ws.floats, pair.frame_b, pair.part_b, opposite(n)), farthest_a)
+
+
+@kernel("v3(ws, Pair, b1, v3)")
+def support_offset(ws: Workspace, pair: Pair, is_second: bool, n: Vector) -> Vector:
+    """Support point of the second or the first part of a pair along ``n``, from the origin of its frame [m]."""
+    frame, part = (pair.frame_b, pair.part_b) if is_second else (pair.frame_a, pair.part_a)
+    return minus(_farthest(ws.floats, frame, part, n), frame_at(ws.floats, frame).origin)
 
 
 @kernel("f8(ws, i8, v3)")

@@ -90,7 +90,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     # --- its history --------------------------------------------------------------------------------------------------
     mode: Mode = one_of(Mode, _STATE, "Open, stick or slide.")
     direction: Vector2 = vector(_STATE, 2, "1", "Unit direction of the slip, or of the slip that begins.")
-    facing: int = whole(_STATE, "Side, 1 or -1, from which anisotropic friction is opposed.", is_of_slot=True)
+    facing: int = whole(_STATE, "Side, 1 or -1, from which anisotropic friction is opposed.")
     closing_rate: float = real(_STATE, "m/s", "Gap rate with which a compliant contact closed.")
     force_round_off: float = real(_STATE, "N", "Normal force that counts as zero.")
     slip_per_force: float = real(_STATE, "1/kg", "Slip acceleration per unit of friction.")
@@ -102,10 +102,10 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     mean_gap_change: float = real(_STATE, "m", "Change of the gap until it comes to rest.")
     mean_forces_asked: float = real(_STATE, "s", "Time when forces were last tried at an instant.")
     mean_forces_wait: float = real(_STATE, "s", "Time after which the next attempt is made.")
-    null_space_force: Floats = row(_STATE, 3, "N", "Chosen part of a force that is not unique.", is_of_slot=True)
-    slack: float = real(_STATE, "N", "Excess over the bounds that a choice of forces is allowed.", is_of_slot=True)
-    burst_start: float = real(_STATE, "s", "Start of the present burst of events.", is_of_slot=True)
-    burst_events: int = whole(_STATE, "Number of events in the present burst.", is_of_slot=True)
+    null_space_force: Floats = row(_STATE, 3, "N", "Chosen part of a force that is not unique.")
+    slack: float = real(_STATE, "N", "Excess over the bounds that a choice of forces is allowed.")
+    burst_start: float = real(_STATE, "s", "Start of the present burst of events.")
+    burst_events: int = whole(_STATE, "Number of events in the present burst.")
 
     # --- what the next step starts from -------------------------------------------------------------------------------
     gap_at_end: float = real(_REUSED, "m", "Gap at the end of the step.")

@@ -62,13 +62,23 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     part_b: int = whole(_PARAMETER, "Offset of the numbers of the second part.")
     group: int = whole(_PARAMETER, "First pair of the same shapes.")
     contact: int = whole(_PARAMETER, "First declared contact of the pair.")
+    is_guarded: bool = question(_PARAMETER, "The separation of its shapes decides whether they meet.")
+    is_apart: bool = question(Life.STATE, "Its shapes are apart, and their contacts are not listed.")
     are_both_flat: bool = question(_PARAMETER, "Both parts are discs without thickness.")
     allowed: float = real(_PARAMETER, "m", "Overlap that the laws of the pair allow.")
     size: float = real(_PARAMETER, "m", "Size of the smaller part.")
     margin: float = real(_REUSED, "m", "Distance that the parts may move before the pair is evaluated again.")
+    is_near: bool = question(Life.STEP, "Its shapes touch within the tolerances.")
     is_closed: bool = question(Life.STEP, "A contact of the pair is closed.")
     deepest: float = real(Life.STEP, "m", "Least gap of the closed contacts.")
-    direction: Vector3 = vector(_REUSED, 3, "1", "Direction in which the parts are farthest apart.")
+    is_fixed_to_second: bool = question(Life.STATE, "Its direction is fixed to the second part, not to the first.")
+    direction: Vector3 = vector(
+        Life.STATE,
+        3,
+        "1",
+        "Direction of largest separation, along the axes of the part to which it is fixed.",
+    )
+    clearance: float = real(_PARAMETER, "m", "Separation at which contacts of the shapes may close.")
     normal: Vector3 = vector(Life.STEP, 3, "1", "Normal of the deepest closed contact.")
     between: Vector3 = vector(
         _REUSED, 3, "m", "Centre of the second disc along the axes of the first, if both are flat."
@@ -80,7 +90,10 @@ class Carrier(Record, key="carriers", capacity="n_carriers", length="model.n_car
     """A frame that carries convex parts."""
 
     frame: int = whole(_PARAMETER, "Offset of the frame.")
+    body: int = whole(_PARAMETER, "Body of the frame.")
     radius: float = real(_PARAMETER, "m", "Radius about the origin of the frame that holds all of its parts.")
+    speed_at_start: float = real(Life.STEP, "m/s", "Bound of the speed of its points at the start of the step.")
+    speed_at_end: float = real(_REUSED, "m/s", "Bound of the speed of its points at the end of the step.")
     place: Vector3 = vector(_REUSED, 3, "m", "Origin when it was evaluated last.")
     axes: Floats = row(_REUSED, 9, "1", "Axes when it was evaluated last.")
     distance: float = real(_REUSED, "m", "Bound of its displacement since its pairs were evaluated.")

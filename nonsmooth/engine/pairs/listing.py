@@ -4,7 +4,7 @@ A unit is a frame that carries bounded shapes, all within a ball about its origi
 whose balls are nearer than a margin, found by sorting the balls along an axis and sweeping over them, and contacts with
 unbounded shapes, walls: those of units whose balls are nearer than the margin where the wall is below a plane at rest,
 all of others.  It stands until some unit has moved by half the margin; of a unit with pools of features
-(:mod:`nonsmooth.engine.bodies.candidates`), until some point of it has.
+(:mod:`nonsmooth.engine.pairs.candidates`), until some point of it has.
 """
 
 from __future__ import annotations
@@ -12,12 +12,14 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.candidates import are_near, find_candidates, has_no_features
 from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
 from nonsmooth.engine.memory.blocks import PAIR
+from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import Floats, Workspace, copy_fields, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
+from nonsmooth.engine.pairs.apart import find_apart
+from nonsmooth.engine.pairs.candidates import are_near, find_candidates, has_no_features
 
 _SPENT = 0.6
 """A list is drawn anew when a unit has used up this part of its way."""
@@ -30,14 +32,14 @@ _ACCELERATION = 2.0
 @kernel("b1(ws, i8)")
 def _enter(ws: Workspace, declared: int) -> bool:
     """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
-    if has_no_features(ws, declared):
+    pair = ws.declared_contacts[declared].pair
+    if has_no_features(ws, declared) or (pair != NO_PAIR and ws.pairs[pair].is_apart):
         return True
     if ws.island.n_contacts == ws.model.n_slots:
         return False
     c = ws.island.n_contacts
     contact = ws.contacts[c]
     copy_fields(ws.declared_contacts[declared], contact)
-    contact.facing = 1
     contact.is_touching = False
     contact.version_a = NOT_EVALUATED
     contact.declared = declared
@@ -140,6 +142,16 @@ def _widest_axis(ws: Workspace) -> int:
 @entry_point("Status(ws)")
 def list_contacts(ws: Workspace) -> Status:
     """Fill the slots for the present state; return the status."""
+    return list_with(ws, NO_PAIR)
+
+
+@kernel("Status(ws, i8)")
+def list_with(ws: Workspace, touching: int) -> Status:
+    """List the contacts at the present state, those of the pair ``touching`` in any case; return the status."""
+    # the pairs need the bodies, and the modes of the contacts that are listed
+    if ws.model.n_spheres + ws.model.n_pairs > 0:
+        evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+        find_apart(ws, touching)
     _leave(ws)
     ws.island.follows_a_step = False
     ws.totals.n_listings += 1
@@ -147,7 +159,6 @@ def list_contacts(ws: Workspace) -> Status:
         for declared in range(ws.model.n_declared):
             _enter(ws, declared)
         return Status.RUNNING
-    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for unit in ws.spheres:
         frame = frame_at(ws.floats, unit.frame)
         unit.place = frame.origin
