@@ -27,7 +27,8 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 from nonsmooth.engine.numerics.tolerances import ADJACENT, ALLOWED
-from nonsmooth.engine.pairs.motion import rate_of, separation_of
+from nonsmooth.engine.pairs.motion import rate_of
+from nonsmooth.engine.pairs.support import known_direction, separation_along
 
 NEGLIGIBLE = 0.01
 """Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""
@@ -169,7 +170,7 @@ def _value_and_slope(ws: Workspace, step: float, i: int) -> tuple[float, float]:
     """
     if i == NO_GUARD:
         pair = ws.pairs[ws.step.meeting]
-        return separation_of(ws, pair) - pair.clearance, rate_of(ws, pair)
+        return separation_along(ws, pair.index, known_direction(ws, pair)) - pair.clearance, rate_of(ws, pair)
     guard = ws.guards[i]
     value = guard.value - (guard.base if guard.is_deflated else 0.0)
     if is_gap(ws, i):

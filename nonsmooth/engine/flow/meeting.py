@@ -1,11 +1,11 @@
 """First time within a step at which two parts of bodies meet that were apart.
 
-The separation s(n) along a direction n that is fixed to one of the parts is a lower bound of the distance. So nothing
-has touched before its first root, whatever the features of the bodies are. The search goes through the step from the
-left, part by part:
+The separation along any direction is a lower bound of the distance. So nothing has touched before its first root,
+whatever the features of the bodies are. The search goes through the step from the left, part by part:
 
-1. Predictions of s(n) from both ends of the part, and a bound of the acceleration, prove that it stays open.
-2. If they do not, n becomes the direction of largest separation at the left end, unless that was done not long before.
+1. Predictions from both ends of the part, and a bound of accelerations, prove that it stays open.
+2. If they do not, the direction of largest separation at the left end is searched, unless that was done not long
+   before. It then changes at its rate there (:mod:`nonsmooth.engine.pairs.motion`).
 3. If that does not suffice, the part is cut: at the root of the secant, or in the middle.
 4. If the largest separation at the left end is zero within the tolerance, the parts meet there.
 
@@ -15,45 +15,35 @@ other. The cached direction is that of the time of impact in Box2D; the proof is
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
 
 from nonsmooth.engine.flow.flight import evaluate_within
 from nonsmooth.engine.flow.self_check import fail_check
 from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, kernel, result
-from nonsmooth.engine.numerics.tolerances import ADJACENT, NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import dot
+from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.tolerances import ADJACENT
+from nonsmooth.engine.numerics.vectors import dot, minus, scaled
 from nonsmooth.engine.pairs.apart import budget, renew_direction
 from nonsmooth.engine.pairs.motion import (
     acceleration_bound,
-    fix_direction,
+    length_of_direction,
     predicted_separation,
     rate_of,
-    separation_of,
     speed_of,
+    speed_of_drift,
 )
 
 _MOST_EVALUATIONS = 10_000
 """Most parts of one step for which one pair is evaluated. Halving down to the time tolerance needs far fewer."""
 _RENEWED = 0.5
 """The direction is searched again once the separation along it is below this part of its last largest value."""
+_LITTLE = 1e-4
+"""Displacement of the parts over which the rate of a direction is measured, relative to the size of the pair."""
 _FINER = 8.0
 """Ratio of successive times at which two parts that touch at the start of a step are tested for being apart."""
 _SHORTEST = 1e-3
 """Least time until parts meet, in time tolerances: an event ends a step."""
-
-
-@result
-class Forecast(NamedTuple):
-    """What one end of a part of the step tells about the pair within that part."""
-
-    gap: float
-    """Separation at this end, less that at which contacts may close [m]."""
-    least: float
-    """Lower bound of it in the half of the part next to this end, without the effect of accelerations [m]."""
-    speed: float
-    """Bound of its rate at this end [m/s]."""
 
 
 @entry_point("f8(ws, f8, f8)")
@@ -89,27 +79,34 @@ def _evaluate(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
     ws.totals.n_gap_evaluations += 1
 
 
-@kernel("Forecast(ws, f8, f8, f8, Pair)")
-def _forecast(ws: Workspace, h: float, theta: float, reach: float, pair: Pair) -> Forecast:
-    """Forecast of a pair from the fraction ``theta`` of the step of ``h`` [s], up to ``theta + reach``."""
+@kernel("f8(ws, f8, f8, Pair)")
+def _gap_at(ws: Workspace, h: float, theta: float, pair: Pair) -> float:
+    """Separation along the direction of a pair at the fraction ``theta`` of the step, less its clearance [m]."""
     _evaluate(ws, h, theta, pair)
-    gap = separation_of(ws, pair) - pair.clearance
-    # the least of linear functions of time is least at an end
-    return Forecast(gap, min(gap, predicted_separation(ws, pair, reach * h) - pair.clearance), speed_of(ws, pair))
+    return float(predicted_separation(ws, pair, theta * h - pair.searched, 0.0) - pair.clearance)
 
 
 @kernel("f8(ws, f8, f8, Pair)")
 def _renewed_gap(ws: Workspace, h: float, theta: float, pair: Pair) -> float:
-    """Largest separation at the fraction ``theta`` of the step, less that at which contacts may close [m].
+    """Largest separation at the fraction ``theta`` of the step, less the clearance of the pair [m].
 
-    Stores its direction, fixed to the part for which it lasts longer.
+    Stores its direction. The clearance is the separation at which contacts may close.
     """
     _evaluate(ws, h, theta, pair)
-    separation, speed = renew_direction(ws, pair), speed_of(ws, pair)
-    if speed > 0.0:
-        # the time after which the parts may meet
-        fix_direction(ws, pair, max(separation - pair.clearance, ws.tolerance.gap) / speed)
-    return float(separation - pair.clearance)
+    pair.drift, pair.searched = (0.0, 0.0, 0.0), theta * h
+    return float(renew_direction(ws, pair) - pair.clearance)
+
+
+@kernel("void(ws, f8, f8, Pair)")
+def _measure_drift(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
+    """Measure the rate of the direction of a pair, which was searched at the fraction ``theta`` of the step."""
+    n, speed = pair.direction, speed_of(ws, pair)
+    later = min(theta + _LITTLE * pair.size / (speed * h), 1.0) if speed > 0.0 else theta
+    if later > theta:
+        _renewed_gap(ws, h, later, pair)
+        span = (later - theta) * h
+        pair.drift = scaled(1.0 / span, minus(pair.direction, n))
+        pair.direction, pair.searched = n, theta * h
 
 
 @kernel("f8(ws, f8, Pair, f8)")
@@ -147,35 +144,49 @@ def _first_root(ws: Workspace, h: float, pair: Pair, begin: float, high: float) 
 
     The present part of the step is from ``theta`` to ``last``. All before it is proved open.
     """
-    if dot(pair.direction, pair.direction) == 0.0:
-        _renewed_gap(ws, h, begin, pair)
+    if _cannot_reach(ws, h, pair, begin, high):
+        return 0.0
     theta, last, is_cut_by_secant = begin, high, False
-    acceleration, fixed = _acceleration_within(ws, h, pair), pair.is_fixed_to_second
-    known, gap = -1.0, 0.0
+    acceleration, gap = _acceleration_within(ws, h, pair), _renewed_gap(ws, h, theta, pair)
+    known, shortest = gap, _SHORTEST * ws.tolerance.time
+    _measure_drift(ws, h, theta, pair)
     for _ in range(_MOST_EVALUATIONS):
         span = last - theta
-        left, right = _forecast(ws, h, theta, 0.5 * span, pair), _forecast(ws, h, last, -0.5 * span, pair)
-        is_open = _stays_open(ws, span * h, left, right, acceleration)
-        is_short = span * h <= NEGLIGIBLE * ws.tolerance.time
-        gap = right.gap if is_open else left.gap
+        is_open, is_short = (
+            _stays_open(ws, h, pair, theta, span, acceleration),
+            span * h <= _SHORTEST * ws.tolerance.time,
+        )
         if is_open:
             theta, last = last, min(high, last + 2.0 * span)
             if theta >= high:
                 return 0.0
-        if is_short or gap <= max(ws.tolerance.gap, _RENEWED * known) or known < 0.0:
+        gap = _gap_at(ws, h, theta, pair)
+        if is_short or gap <= max(ws.tolerance.gap, _RENEWED * known):
             known = _renewed_gap(ws, h, theta, pair)
             # in a short part the gap is known up to its change in the time tolerance
-            if known <= ws.tolerance.gap + (ws.tolerance.time * left.speed if is_short else 0.0):
+            if known <= ws.tolerance.gap + (ws.tolerance.time * speed_of(ws, pair) if is_short else 0.0):
                 return _meeting_time(ws, h, pair, theta, known)
-            if fixed != pair.is_fixed_to_second:
-                acceleration, fixed = _acceleration_within(ws, h, pair), pair.is_fixed_to_second
+            _measure_drift(ws, h, theta, pair)
             last = high if is_short else last
         elif not is_open:
             # a secant that leads to a part which is not open either is followed by the middle
-            is_cut_by_secant = right.gap < 0.0 and not is_cut_by_secant
-            last = theta + span * (left.gap / (left.gap - right.gap) if is_cut_by_secant else 0.5)
+            gap_at_last = _gap_at(ws, h, last, pair)
+            is_cut_by_secant = gap_at_last < 0.0 and not is_cut_by_secant
+            last = theta + span * (gap / (gap - gap_at_last) if is_cut_by_secant else 0.5)
     fail_check(ws, Status.GAP_UNDECIDED, pair.contact, gap, ws.tolerance.gap)
     return 0.0
+
+
+@kernel("b1(ws, f8, Pair, f8, f8)")
+def _cannot_reach(ws: Workspace, h: float, pair: Pair, begin: float, high: float) -> bool:
+    """True if the parts cannot come as near as contacts need between two fractions of the step, by their speeds."""
+    pair.drift, pair.searched = (0.0, 0.0, 0.0), begin * h
+    gap = (
+        _renewed_gap(ws, h, begin, pair) if dot(pair.direction, pair.direction) == 0.0 else _gap_at(ws, h, begin, pair)
+    )
+    speed = speed_of(ws, pair)
+    gap += _gap_at(ws, h, high, pair)
+    return gap > (high - begin) * h * (speed + speed_of(ws, pair))
 
 
 @kernel("f8(ws, f8, Pair, f8, f8)")
@@ -190,13 +201,20 @@ def _meeting_time(ws: Workspace, h: float, pair: Pair, theta: float, gap: float)
     return float(max(theta + later / h, _SHORTEST * ws.tolerance.time / h))
 
 
-@kernel("b1(ws, f8, Forecast, Forecast, f8)")
-def _stays_open(ws: Workspace, span: float, left: Forecast, right: Forecast, acceleration: float) -> bool:
-    """True if parts are proved to stay apart in a ``span`` [s] between two ends, up to the gap tolerance.
+@kernel("b1(ws, f8, Pair, f8, f8, f8)")
+def _stays_open(ws: Workspace, h: float, pair: Pair, theta: float, span: float, acceleration: float) -> bool:
+    """True if parts are proved to stay apart, up to the gap tolerance, in a ``span`` of the step from ``theta`` on.
 
-    Either end decides on the half next to it. The effect of accelerations there is at most half the bound of the
-    ``acceleration`` [m/s^2] times the square of half the span.
+    Either end decides on the half next to it, for which it predicts the separation. The least of linear functions of
+    time is least at an end of that half. Accelerations lower it by at most half their bound times the square of half
+    the span. ``acceleration`` [m/s^2] is that of the points of the second part.
     """
-    if left.gap + right.gap > span * (left.speed + right.speed):
-        return True
-    return min(left.least, right.least) - 0.125 * acceleration * span * span >= -ws.tolerance.gap
+    least, half, bound = math.inf, 0.5 * span * h, acceleration
+    for end in range(2):
+        at, later = (theta + end * span), (half if end == 0 else -half)
+        elapsed = at * h - pair.searched
+        _evaluate(ws, h, at, pair)
+        gap = predicted_separation(ws, pair, elapsed, 0.0)
+        least = min(least, gap - pair.clearance, predicted_separation(ws, pair, elapsed, later) - pair.clearance)
+        bound = max(bound, acceleration * length_of_direction(ws, pair, elapsed) + speed_of_drift(ws, pair))
+    return least - 0.5 * bound * half * half >= -ws.tolerance.gap

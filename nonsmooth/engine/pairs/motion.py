@@ -1,12 +1,15 @@
 """How the separation of a pair changes: its rate, a prediction, and bounds of its speed and acceleration.
 
-The separation s(n) is evaluated along a direction n that is fixed to one of the parts. The support point of that part
-rests in its frame. Each point of the other part, the moving one, has a height along n over it, and s(n) is the least of
-these heights. So s(n) never falls below the least of all heights that are predicted with the present rates, except by
-half the bound of the acceleration times the square of the time. The least predicted height is that of one support
-point: with the unit vector u that points from the fixed to the moving part, the relative velocity v of the origins and
-the relative angular velocity w, the point at the offset r has the height u . r + t (u . v + (u x w) . r), and that is
-linear in r. All velocities are those that an observer on the fixed part sees.
+The separation is evaluated along a vector m that changes at a constant rate, the drift, along the axes of the first
+frame. The normal of a face of the first body has no drift; that of a face of the second one, or of two edges, has. As m
+is no unit vector, the separation is multiplied by its length, which is at least 1. Each point b of the second part has
+a height over each point a of the first, m . (b - a), and the separation is the least of these heights. So it never
+falls below the least of all heights that are predicted with the present rates, except by half the bound of their
+acceleration times the square of the time.
+
+The predicted heights are linear in a and b. With the relative velocity v of the origins, the relative angular velocity
+w and the drift d, the height after the time t is (m + t d) . (b - a) + t m . v + t (m x w) . b. There b and a are the
+offsets from the origins. So the least height is that of two support points. Velocities are seen from the first frame.
 """
 
 from __future__ import annotations
@@ -15,108 +18,104 @@ import math
 
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import Pair, Workspace, frame_at, kernel
-from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, opposite, scaled
-from nonsmooth.engine.pairs.support import known_direction, separation_along, store_direction, support_offset
+from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
+from nonsmooth.engine.pairs.support import known_direction, support_offset, turned
 
 
-@kernel("i8(Pair, b1)")
-def _frame(pair: Pair, is_moving: bool) -> int:
-    """Offset of the frame of the moving part, or of the part to which the direction is fixed."""
-    return int(pair.frame_b if pair.is_fixed_to_second != is_moving else pair.frame_a)
+@kernel("v3(v3, f8, v3)")
+def _sum(a: Vector, factor: float, b: Vector) -> Vector:
+    """Sum of a vector and a multiple of another one, a + factor b."""
+    return a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]
 
 
-@kernel("i8(Pair, b1)")
-def _carrier(pair: Pair, is_moving: bool) -> int:
-    """Carrier of the moving part, or of the part to which the direction is fixed."""
-    return int(pair.carrier_b if pair.is_fixed_to_second != is_moving else pair.carrier_a)
+@kernel("f8(v3)")
+def _size(v: Vector) -> float:
+    """Length of a vector."""
+    return math.sqrt(dot(v, v))
 
 
 @kernel("v3(ws, Pair)")
-def _outward(ws: Workspace, pair: Pair) -> Vector:
-    """Direction of a pair, from the part to which it is fixed to the moving part."""
-    n = known_direction(ws, pair)
-    return opposite(n) if pair.is_fixed_to_second else n
+def _drift(ws: Workspace, pair: Pair) -> Vector:
+    """Rate of the direction of a pair, seen from the first frame, in the world [1/s]."""
+    return turned(frame_at(ws.floats, pair.frame_a).rotation, pair.drift)
+
+
+@kernel("v3(ws, Pair, f8)")
+def _direction_at(ws: Workspace, pair: Pair, elapsed: float) -> Vector:
+    """Vector along which the separation is evaluated, a time ``elapsed`` [s] after the search of the direction."""
+    return _sum(known_direction(ws, pair), elapsed, _drift(ws, pair))
+
+
+@kernel("f8(ws, Pair, f8)")
+def length_of_direction(ws: Workspace, pair: Pair, elapsed: float) -> float:
+    """Length of the vector along which the separation is evaluated, a time ``elapsed`` [s] after the search."""
+    return _size(_direction_at(ws, pair, elapsed))
 
 
 @kernel("v3(ws, Pair)")
 def _relative_velocity(ws: Workspace, pair: Pair) -> Vector:
-    """Velocity of the origin of the moving frame, seen from the fixed one, which may rotate [m/s]."""
-    fixed, moving = (
-        frame_at(ws.floats, _frame(pair, is_moving=False)),
-        frame_at(ws.floats, _frame(pair, is_moving=True)),
-    )
-    return minus(minus(moving.velocity, fixed.velocity), cross(fixed.spin, minus(moving.origin, fixed.origin)))
+    """Velocity of the origin of the second frame, seen from the first one, which may rotate [m/s]."""
+    a, b = frame_at(ws.floats, pair.frame_a), frame_at(ws.floats, pair.frame_b)
+    return minus(minus(b.velocity, a.velocity), cross(a.spin, minus(b.origin, a.origin)))
 
 
 @kernel("v3(ws, Pair)")
 def _relative_spin(ws: Workspace, pair: Pair) -> Vector:
-    """Angular velocity of the moving frame relative to the fixed one [rad/s]."""
-    fixed, moving = (
-        frame_at(ws.floats, _frame(pair, is_moving=False)),
-        frame_at(ws.floats, _frame(pair, is_moving=True)),
-    )
-    return minus(moving.spin, fixed.spin)
+    """Angular velocity of the second frame relative to the first one [rad/s]."""
+    return minus(frame_at(ws.floats, pair.frame_b).spin, frame_at(ws.floats, pair.frame_a).spin)
 
 
-@kernel("f8(ws, Pair)")
-def separation_of(ws: Workspace, pair: Pair) -> float:
-    """Separation of a pair along its direction [m]. Both bodies must be evaluated."""
-    return float(separation_along(ws, pair.index, known_direction(ws, pair)))
+@kernel("f8(ws, Pair, b1, v3)")
+def _extreme(ws: Workspace, pair: Pair, is_second: bool, w: Vector) -> float:
+    """Least w . b of the points of the second part, or largest w . a of those of the first, from its origin [m]."""
+    size = _size(w)
+    outward = scaled(-1.0 / size if is_second else 1.0 / size, w)
+    return dot(w, support_offset(ws, pair, is_second, outward))
+
+
+@kernel("f8(ws, Pair, f8, f8)")
+def predicted_separation(ws: Workspace, pair: Pair, elapsed: float, later: float) -> float:
+    """Separation times the length of m, predicted for a time ``later`` [s], which may be negative [m].
+
+    At present a time ``elapsed`` [s] has passed since the search of the direction. Both bodies must be evaluated.
+    """
+    m = _direction_at(ws, pair, elapsed)
+    m_later = _sum(m, later, _drift(ws, pair))
+    between = minus(frame_at(ws.floats, pair.frame_b).origin, frame_at(ws.floats, pair.frame_a).origin)
+    height = dot(m_later, between) + later * dot(m, _relative_velocity(ws, pair))
+    least_b = _extreme(ws, pair, True, _sum(m_later, later, cross(m, _relative_spin(ws, pair))))
+    return height + least_b - _extreme(ws, pair, False, m_later)
 
 
 @kernel("f8(ws, Pair)")
 def rate_of(ws: Workspace, pair: Pair) -> float:
-    """Rate of the separation of a pair along its direction at its present support points [m/s]."""
-    u = _outward(ws, pair)
-    offset = support_offset(ws, pair, not pair.is_fixed_to_second, opposite(u))
-    return dot(u, _relative_velocity(ws, pair)) + dot(u, cross(_relative_spin(ws, pair), offset))
+    """Rate of the separation along a direction that is fixed to the first part, at the present support points [m/s]."""
+    n = known_direction(ws, pair)
+    offset = support_offset(ws, pair, True, scaled(-1.0, n))
+    return dot(n, _relative_velocity(ws, pair)) + dot(n, cross(_relative_spin(ws, pair), offset))
 
 
 @kernel("f8(ws, Pair)")
 def speed_of(ws: Workspace, pair: Pair) -> float:
-    """Bound of the rate of the separation along any direction that is fixed to the same part [m/s]."""
-    v, spin = _relative_velocity(ws, pair), _relative_spin(ws, pair)
-    return math.sqrt(dot(v, v)) + math.sqrt(dot(spin, spin)) * ws.carriers[_carrier(pair, is_moving=True)].radius
+    """Bound of the speed of the points of the second part, seen from the first [m/s]."""
+    radius = ws.carriers[pair.carrier_b].radius
+    return _size(_relative_velocity(ws, pair)) + _size(_relative_spin(ws, pair)) * radius
 
 
-@kernel("f8(ws, Pair, f8)")
-def predicted_separation(ws: Workspace, pair: Pair, elapsed: float) -> float:
-    """Least height after the time ``elapsed`` [s], which may be negative, with the present rates [m]."""
-    u, is_second = _outward(ws, pair), not pair.is_fixed_to_second
-    turned = cross(u, _relative_spin(ws, pair))
-    w = u[0] + elapsed * turned[0], u[1] + elapsed * turned[1], u[2] + elapsed * turned[2]
-    now = dot(u, support_offset(ws, pair, is_second, opposite(u)))
-    # the length of w is at least 1: the change of u is perpendicular to it
-    later = dot(w, support_offset(ws, pair, is_second, scaled(-1.0 / math.sqrt(dot(w, w)), w)))
-    return separation_of(ws, pair) + elapsed * dot(u, _relative_velocity(ws, pair)) + later - now
-
-
-@kernel("void(ws, Pair, f8)")
-def fix_direction(ws: Workspace, pair: Pair, elapsed: float) -> None:
-    """Fix the direction of a pair to the part for which the separation predicted after ``elapsed`` [s] is larger.
-
-    The normal of a face, for example, is best fixed to the body of the face.
-    """
-    n, one = known_direction(ws, pair), predicted_separation(ws, pair, elapsed)
-    _fix_to_other(ws, pair, n)
-    if predicted_separation(ws, pair, elapsed) < one:
-        _fix_to_other(ws, pair, n)
-
-
-@kernel("void(ws, Pair, v3)")
-def _fix_to_other(ws: Workspace, pair: Pair, n: Vector) -> None:
-    """Fix the direction ``n`` of a pair to the other part."""
-    pair.is_fixed_to_second = not pair.is_fixed_to_second
-    store_direction(ws, pair, n)
+@kernel("f8(ws, Pair)")
+def speed_of_drift(ws: Workspace, pair: Pair) -> float:
+    """Bound of the acceleration of heights by the drift of the direction [m/s^2]."""
+    return 2.0 * _size(pair.drift) * speed_of(ws, pair)
 
 
 @kernel("v3(ws, Pair, b1, b1, i8)")
-def _acceleration(ws: Workspace, pair: Pair, is_moving: bool, is_angular: bool, du: int) -> Vector:
-    """Acceleration of the origin of the moving or the fixed frame [m/s^2], or its angular acceleration [rad/s^2].
+def _acceleration(ws: Workspace, pair: Pair, is_second: bool, is_angular: bool, du: int) -> Vector:
+    """Acceleration of the origin of the second or the first frame [m/s^2], or its angular acceleration [rad/s^2].
 
     ``du`` is the offset of the accelerations of all bodies.
     """
-    body, start = ws.bodies[ws.carriers[_carrier(pair, is_moving)].body], _frame(pair, is_moving)
+    start = pair.frame_b if is_second else pair.frame_a
+    body = ws.bodies[ws.carriers[pair.carrier_b if is_second else pair.carrier_a].body]
     n_u, first = body.n_u, du + body.u
     frame = frame_at(ws.floats, start)
     x, y, z = frame.spin_acceleration if is_angular else frame.acceleration
@@ -131,26 +130,22 @@ def _acceleration(ws: Workspace, pair: Pair, is_moving: bool, is_angular: bool, 
 
 @kernel("f8(ws, Pair, i8)")
 def acceleration_bound(ws: Workspace, pair: Pair, du: int) -> float:
-    """Bound of the acceleration of all points of the moving part, seen from the fixed one [m/s^2].
+    """Bound of the acceleration of the points of the second part, seen from the first [m/s^2].
 
     ``du`` is the offset of the accelerations of all bodies.
     """
-    fixed, moving = (
-        frame_at(ws.floats, _frame(pair, is_moving=False)),
-        frame_at(ws.floats, _frame(pair, is_moving=True)),
-    )
-    own, between, spin = fixed.spin, minus(moving.origin, fixed.origin), _relative_spin(ws, pair)
-    alpha = _acceleration(ws, pair, is_moving=False, is_angular=True, du=du)
+    a, b = frame_at(ws.floats, pair.frame_a), frame_at(ws.floats, pair.frame_b)
+    own, between, spin = a.spin, minus(b.origin, a.origin), _relative_spin(ws, pair)
+    alpha = _acceleration(ws, pair, is_second=False, is_angular=True, du=du)
     linear = minus(
-        _acceleration(ws, pair, is_moving=True, is_angular=False, du=du),
-        _acceleration(ws, pair, is_moving=False, is_angular=False, du=du),
+        _acceleration(ws, pair, is_second=True, is_angular=False, du=du),
+        _acceleration(ws, pair, is_second=False, is_angular=False, du=du),
     )
-    # terms of the rotating fixed frame: alpha x d, omega x (omega x d), and twice omega x velocity
+    # terms of the rotating first frame: alpha x d, omega x (omega x d), and twice omega x velocity
     linear = minus(minus(linear, cross(alpha, between)), cross(own, cross(own, between)))
     linear = minus(linear, scaled(2.0, cross(own, _relative_velocity(ws, pair))))
-    angular = minus(minus(_acceleration(ws, pair, is_moving=True, is_angular=True, du=du), alpha), cross(own, spin))
-    radius = ws.carriers[_carrier(pair, is_moving=True)].radius
-    return math.sqrt(dot(linear, linear)) + (math.sqrt(dot(angular, angular)) + dot(spin, spin)) * radius
+    angular = minus(minus(_acceleration(ws, pair, is_second=True, is_angular=True, du=du), alpha), cross(own, spin))
+    return _size(linear) + (_size(angular) + dot(spin, spin)) * ws.carriers[pair.carrier_b].radius
 
 
 @kernel()
@@ -158,5 +153,4 @@ def bound_carriers(ws: Workspace) -> None:
     """Write bounds of the speeds of all parts of each carrier at the end of a step [m/s]. Bodies must be evaluated."""
     for carrier in ws.carriers:
         frame = frame_at(ws.floats, carrier.frame)
-        turning = math.sqrt(dot(frame.spin, frame.spin)) * carrier.radius
-        carrier.speed_at_end = math.sqrt(dot(frame.velocity, frame.velocity)) + turning
+        carrier.speed_at_end = _size(frame.velocity) + _size(frame.spin) * carrier.radius

@@ -29,7 +29,7 @@ def turned(axes: Floats, v: Vector) -> Vector:
 
 
 @kernel("v3(F, v3)")
-def _turned_back(axes: Floats, v: Vector) -> Vector:
+def turned_back(axes: Floats, v: Vector) -> Vector:
     """R^T v for a rotation matrix R: components along the axes of a body or part from those along the outer axes."""
     x, y, z = v
     return (
@@ -118,7 +118,7 @@ def to_world(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
 @kernel("v3(F, i8, i8, v3)")
 def to_part(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
     """Components of a world vector ``v`` along the axes of the part at offset ``place``."""
-    return _turned_back(part_at(floats, place).axes, _turned_back(frame_at(floats, frame_place).rotation, v))
+    return turned_back(part_at(floats, place).axes, turned_back(frame_at(floats, frame_place).rotation, v))
 
 
 @kernel("v3(F, i8, i8)")
@@ -141,22 +141,16 @@ def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector
     return mx + x, my + y, mz + z
 
 
-@kernel("i8(Pair)")
-def _fixed_frame(pair: Pair) -> int:
-    """Offset of the frame of the part to which the direction of a pair is fixed."""
-    return int(pair.frame_b if pair.is_fixed_to_second else pair.frame_a)
-
-
 @kernel("v3(ws, Pair)")
 def known_direction(ws: Workspace, pair: Pair) -> Vector:
-    """Direction of a pair in the world: the stored one turns with the part it is fixed to. Zero if none is known."""
-    return turned(frame_at(ws.floats, _fixed_frame(pair)).rotation, pair.direction)
+    """Direction of a pair in the world: the stored one turns with the first part. Zero if none is known."""
+    return turned(frame_at(ws.floats, pair.frame_a).rotation, pair.direction)
 
 
 @kernel("void(ws, Pair, v3)")
 def store_direction(ws: Workspace, pair: Pair, n: Vector) -> None:
-    """Store a unit vector ``n`` of the world as the direction of a pair, fixed to the same part as before."""
-    pair.direction = _turned_back(frame_at(ws.floats, _fixed_frame(pair)).rotation, n)
+    """Store a unit vector ``n`` of the world as the direction of a pair, along the axes of the first frame."""
+    pair.direction = turned_back(frame_at(ws.floats, pair.frame_a).rotation, n)
 
 
 @kernel("v3(ws, i8, v3)")
@@ -172,7 +166,7 @@ def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
 
 @kernel("v3(ws, Pair, b1, v3)")
 def support_offset(ws: Workspace, pair: Pair, is_second: bool, n: Vector) -> Vector:
-    """Support point of the second or the first part of a pair along ``n``, from the origin of its frame [m]."""
+    """Support point of the second or the first part of a pair along the unit vector ``n``, from its origin [m]."""
     frame, part = (pair.frame_b, pair.part_b) if is_second else (pair.frame_a, pair.part_a)
     return minus(_farthest(ws.floats, frame, part, n), frame_at(ws.floats, frame).origin)
 

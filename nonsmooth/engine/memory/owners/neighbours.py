@@ -71,13 +71,11 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     is_near: bool = question(Life.STEP, "Its shapes touch within the tolerances.")
     is_closed: bool = question(Life.STEP, "A contact of the pair is closed.")
     deepest: float = real(Life.STEP, "m", "Least gap of the closed contacts.")
-    is_fixed_to_second: bool = question(Life.STATE, "Its direction is fixed to the second part, not to the first.")
     direction: Vector3 = vector(
-        Life.STATE,
-        3,
-        "1",
-        "Direction of largest separation, along the axes of the part to which it is fixed.",
+        Life.STATE, 3, "1", "Direction of largest separation, along the axes of the first frame."
     )
+    drift: Vector3 = vector(Life.STEP, 3, "1/s", "Rate of that direction, along the same axes.")
+    searched: float = real(Life.STEP, "s", "Time within the step at which the direction was searched.")
     clearance: float = real(_PARAMETER, "m", "Separation at which contacts of the shapes may close.")
     normal: Vector3 = vector(Life.STEP, 3, "1", "Normal of the deepest closed contact.")
     between: Vector3 = vector(
