@@ -42,6 +42,11 @@ _FAILED_CHECKS = {
         "The {contact}: its gap is {found:.3g} m and hardly changes within a step of {h:.3g} s. Place the bodies "
         "farther apart or in contact, or take a smaller tolerance: EventDriven(tolerance=...)."
     ),
+    Status.PAIR_UNDECIDED: (
+        "The bodies {first!r} and {second!r} of the {contact}: their separation is {found:.3g} m and hardly changes "
+        "within a step of {h:.3g} s. Take shorter steps, EventDriven(largest_step=...), or a smaller tolerance: "
+        "EventDriven(tolerance=...)."
+    ),
     Status.JOINTS_APART: (
         "They are apart by {found:.3g} m or rad; the tolerances allow {allowed:.3g}. Leave out a joint that repeats "
         "another one, and let no inertia be below 1e-8 of the largest one of joined bodies: round-off moves it."
@@ -113,7 +118,9 @@ def _failed_check(model: LaidOut, status: Status) -> str:
         things |= {"body": model.system.names.bodies[number]}
         things |= {"evaluator": described(model.system.bodies[number].evaluator)}
     elif status != Status.JOINTS_APART:
-        contact = model.system.contacts[number if status == Status.PASSED else model.active[number]]
+        contact = model.system.contacts[
+            number if status in (Status.PASSED, Status.PAIR_UNDECIDED) else model.active[number]
+        ]
         first, second = map(model.system.name_of, (contact.first, contact.second))
         things |= {"contact": contact, "first": first, "second": second}
     text = _FAILED_CHECKS[status].format(**things)

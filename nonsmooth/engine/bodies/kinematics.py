@@ -16,8 +16,10 @@ import math
 from typing import NamedTuple
 
 from nonsmooth.engine.bodies.anisotropy import stretch_bias, stretch_tangents
+from nonsmooth.engine.bodies.support import separates
 from nonsmooth.engine.memory.blocks import FRAME
-from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
+from nonsmooth.engine.memory.layout import FIRST_ROW, NO_PAIR, NORMAL_ROW, SECOND_ROW
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     ContactRecord,
     Floats,
@@ -30,6 +32,7 @@ from nonsmooth.engine.native.kernel import (
     result,
 )
 from nonsmooth.engine.numerics.linear import multiply, product
+from nonsmooth.engine.numerics.tolerances import ADJACENT
 from nonsmooth.engine.numerics.vectors import Pair, Vector, cross, dot, length, minus, opposite, scaled
 
 NOT_EVALUATED = -1
@@ -61,7 +64,8 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     If ``past_feature`` > 0, the contact points lie past the end of their features, such as a face or an edge. Compliant
     bodies may overlap there while another contact of theirs is closed. Then ``overlap`` keeps the negative gap, and the
     gap becomes a positive substitute, the length of gap and ``past_feature``, so that this contact does not act.
-    ``overlap`` is zero otherwise.
+    ``overlap`` is zero otherwise. So it is for an open contact along whose normal the parts of its pair overlap more
+    than they do: its features do not separate the bodies (:func:`nonsmooth.engine.bodies.support.separates`).
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -74,6 +78,11 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
         if contact.gap < 0.0 < contact.past_feature:
             contact.overlap = contact.gap
             contact.gap = length((contact.gap, contact.past_feature))
+    near = ADJACENT * ws.tolerance.gap
+    is_near = contact.mode == Mode.OPEN and contact.gap <= near and contact.past_feature <= 0.0
+    if is_near and contact.pair != NO_PAIR and not separates(ws, contact.pair, contact.normal, near):
+        contact.past_feature = max(near, -contact.gap)
+        contact.gap = length((contact.gap, contact.past_feature))
 
 
 @kernel("v3(F, i8, v3)")

@@ -18,7 +18,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.arming import NO_BOUND
 from nonsmooth.engine.flow.flight import fly
-from nonsmooth.engine.flow.guard_numbers import normal_of
+from nonsmooth.engine.flow.guard_numbers import is_of_watched_pair, normal_of
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import Mode
@@ -314,7 +314,7 @@ def find_doubtful(ws: Workspace, h: float) -> None:
     for contact in ws.contacts:
         c, normal = contact.index, normal_of(ws, contact)
         contact.acceleration_bound_at_end = NO_BOUND
-        if contact.mode != Mode.OPEN:
+        if contact.mode != Mode.OPEN or is_of_watched_pair(ws, contact):
             continue
         start = 0.0 if normal.is_deflated else normal.initial
         way = h * (contact.speed_at_start + contact.speed_at_end)

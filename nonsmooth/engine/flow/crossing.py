@@ -29,7 +29,7 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, sign_depends_on
-from nonsmooth.engine.flow.meeting import first_meeting
+from nonsmooth.engine.flow.meeting import first_meeting, watch_pairs
 from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces, choose_at_end
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
@@ -236,6 +236,8 @@ def first_crossing(ws: Workspace, h: float) -> float:
     bound_speeds(ws)
     bound_carriers(ws)
     ws.step.meeting = NO_PAIR
+    if ws.model.n_pairs > 0:
+        watch_pairs(ws, h)
     find_doubtful(ws, h)
     deflate(ws, h)
     fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)

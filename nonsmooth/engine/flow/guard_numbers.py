@@ -5,6 +5,7 @@ The number of a guard gives its kind and its contact, so a guard that has fired 
 
 from __future__ import annotations
 
+from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, GuardRecord, Workspace, kernel
 
@@ -79,3 +80,9 @@ def contact_at(ws: Workspace, i: int) -> ContactRecord:
 def is_of_open_contact(ws: Workspace, i: int) -> bool:
     """True if the contact of the normal or friction guard ``i`` is open."""
     return contact_at(ws, i).mode == Mode.OPEN
+
+
+@kernel("b1(ws, ContactRecord)")
+def is_of_watched_pair(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if the separation of the shapes of a contact is watched within the step, in place of its gap."""
+    return contact.pair != NO_PAIR and ws.pairs[contact.pair].is_watched

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.support import known_direction, separation_along
 from nonsmooth.engine.flow.crossing import FAINT, SHORTEST, asks_forces, closed_before, guard_at, guards_within
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
@@ -28,7 +29,6 @@ from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 from nonsmooth.engine.numerics.tolerances import ADJACENT, ALLOWED
 from nonsmooth.engine.pairs.motion import rate_of
-from nonsmooth.engine.pairs.support import known_direction, separation_along
 
 NEGLIGIBLE = 0.01
 """Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""

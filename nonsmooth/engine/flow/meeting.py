@@ -40,10 +40,31 @@ _RENEWED = 0.5
 """The direction is searched again once the separation along it is below this part of its last largest value."""
 _LITTLE = 1e-4
 """Displacement of the parts over which the rate of a direction is measured, relative to the size of the pair."""
+_JUMP = 100.0 * _LITTLE
+"""Change of a direction over that displacement above which it jumps to other features, and has no rate."""
 _FINER = 8.0
 """Ratio of successive times at which two parts that touch at the start of a step are tested for being apart."""
 _SHORTEST = 1e-3
 """Least time until parts meet, in time tolerances: an event ends a step."""
+
+
+@entry_point("void(ws, f8)")
+def watch_pairs(ws: Workspace, h: float) -> None:
+    """Find the pairs whose separation is watched within the step of ``h`` [s], and from when on.
+
+    It is watched while no contact of the shapes is closed. Parts that touch at the start are watched once they are
+    apart; if they stay next to each other, the contacts decide. Bodies must be evaluated at the end of the step.
+    """
+    for pair in ws.pairs:
+        group = ws.pairs[pair.group]
+        if pair.index == pair.group:
+            group.is_watched = group.is_guarded and not group.is_closed
+        pair.begin = 0.0
+        if group.is_watched and not group.is_apart:
+            if budget(ws, pair) <= ADJACENT * ws.tolerance.gap:
+                pair.begin = _begin_of(ws, h, pair)
+                _evaluate(ws, h, 1.0, pair)
+            group.is_watched = pair.begin < 1.0
 
 
 @entry_point("f8(ws, f8, f8)")
@@ -54,15 +75,14 @@ def first_meeting(ws: Workspace, h: float, high: float) -> float:
     """
     found, ws.step.meeting = 0.0, NO_PAIR
     for pair in ws.pairs:
-        group, a, b = ws.pairs[pair.group], ws.carriers[pair.carrier_a], ws.carriers[pair.carrier_b]
-        if not group.is_guarded or group.is_closed:
+        a, b = ws.carriers[pair.carrier_a], ws.carriers[pair.carrier_b]
+        if not ws.pairs[pair.group].is_watched or pair.begin >= high:
             continue
         speed = a.speed_at_start + a.speed_at_end + b.speed_at_start + b.speed_at_end
         # the parts cannot have moved so far
         if budget(ws, pair) > high * h * speed:
             continue
-        begin = 0.0 if group.is_apart else _begin_of(ws, h, pair, high)
-        theta = _first_root(ws, h, pair, begin, high) if begin < high else 0.0
+        theta = _first_root(ws, h, pair, high)
         if theta > 0.0:
             found = high = theta
             ws.step.meeting = pair.index
@@ -104,27 +124,26 @@ def _measure_drift(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
     later = min(theta + _LITTLE * pair.size / (speed * h), 1.0) if speed > 0.0 else theta
     if later > theta:
         _renewed_gap(ws, h, later, pair)
-        span = (later - theta) * h
-        pair.drift = scaled(1.0 / span, minus(pair.direction, n))
+        span, change = (later - theta) * h, minus(pair.direction, n)
         pair.direction, pair.searched = n, theta * h
+        if dot(change, change) <= _JUMP * _JUMP:
+            pair.drift = scaled(1.0 / span, change)
 
 
-@kernel("f8(ws, f8, Pair, f8)")
-def _begin_of(ws: Workspace, h: float, pair: Pair, high: float) -> float:
-    """First tested fraction of the step at which two parts are apart that touch at its start; ``high`` if none is."""
-    enough = ADJACENT * ws.tolerance.gap
-    _evaluate(ws, h, high, pair)
-    speed = speed_of(ws, pair)
+@kernel("f8(ws, f8, Pair)")
+def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
+    """First tested fraction of the step at which two parts are apart that touch at its start; 1 if none is."""
+    enough, speed = ADJACENT * ws.tolerance.gap, speed_of(ws, pair)
     _evaluate(ws, h, 0.0, pair)
     # neighbours at rest stay next to each other
-    if high * h * (speed + speed_of(ws, pair)) <= enough:
-        return high
+    if h * (speed + speed_of(ws, pair)) <= enough:
+        return 1.0
     elapsed = ws.tolerance.time
-    while elapsed < high * h:
+    while elapsed < h:
         if _renewed_gap(ws, h, elapsed / h, pair) > enough:
             return elapsed / h
         elapsed *= _FINER
-    return high
+    return 1.0
 
 
 @kernel("f8(ws, f8, Pair)")
@@ -138,24 +157,22 @@ def _acceleration_within(ws: Workspace, h: float, pair: Pair) -> float:
     return max(start, end) + abs(end - start)
 
 
-@kernel("f8(ws, f8, Pair, f8, f8)")
-def _first_root(ws: Workspace, h: float, pair: Pair, begin: float, high: float) -> float:
-    """Fraction of the step of ``h`` [s], from ``begin`` to ``high``, at which the parts meet, or 0 if they stay apart.
+@kernel("f8(ws, f8, Pair, f8)")
+def _first_root(ws: Workspace, h: float, pair: Pair, high: float) -> float:
+    """Fraction of the step of ``h`` [s], up to ``high``, at which the parts meet, or 0 if they stay apart.
 
     The present part of the step is from ``theta`` to ``last``. All before it is proved open.
     """
-    if _cannot_reach(ws, h, pair, begin, high):
+    if _cannot_reach(ws, h, pair, high):
         return 0.0
-    theta, last, is_cut_by_secant = begin, high, False
+    theta, last, is_cut_by_secant = pair.begin, high, False
     acceleration, gap = _acceleration_within(ws, h, pair), _renewed_gap(ws, h, theta, pair)
     known, shortest = gap, _SHORTEST * ws.tolerance.time
     _measure_drift(ws, h, theta, pair)
     for _ in range(_MOST_EVALUATIONS):
         span = last - theta
-        is_open, is_short = (
-            _stays_open(ws, h, pair, theta, span, acceleration),
-            span * h <= _SHORTEST * ws.tolerance.time,
-        )
+        is_short = span * h <= shortest
+        is_open = _stays_open(ws, h, pair, theta, span, acceleration)
         if is_open:
             theta, last = last, min(high, last + 2.0 * span)
             if theta >= high:
@@ -173,13 +190,14 @@ def _first_root(ws: Workspace, h: float, pair: Pair, begin: float, high: float) 
             gap_at_last = _gap_at(ws, h, last, pair)
             is_cut_by_secant = gap_at_last < 0.0 and not is_cut_by_secant
             last = theta + span * (gap / (gap - gap_at_last) if is_cut_by_secant else 0.5)
-    fail_check(ws, Status.GAP_UNDECIDED, pair.contact, gap, ws.tolerance.gap)
+    fail_check(ws, Status.PAIR_UNDECIDED, pair.contact, gap, ws.tolerance.gap)
     return 0.0
 
 
-@kernel("b1(ws, f8, Pair, f8, f8)")
-def _cannot_reach(ws: Workspace, h: float, pair: Pair, begin: float, high: float) -> bool:
-    """True if the parts cannot come as near as contacts need between two fractions of the step, by their speeds."""
+@kernel("b1(ws, f8, Pair, f8)")
+def _cannot_reach(ws: Workspace, h: float, pair: Pair, high: float) -> bool:
+    """True if the parts cannot come as near as contacts need, up to the fraction ``high``, by their speeds."""
+    begin = pair.begin
     pair.drift, pair.searched = (0.0, 0.0, 0.0), begin * h
     gap = (
         _renewed_gap(ws, h, begin, pair) if dot(pair.direction, pair.direction) == 0.0 else _gap_at(ws, h, begin, pair)

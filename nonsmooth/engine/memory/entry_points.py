@@ -45,6 +45,7 @@ ENTRY_POINTS = (
     "find_doubtful",
     "first_closing",
     "first_meeting",
+    "watch_pairs",
     "first_crossing",
     "locate",
     "follow",

@@ -232,6 +232,8 @@ class Status(IntEnum):
     """It cannot be decided whether a gap closes within a step."""
     PASSED = 18
     """Bodies passed into each other."""
+    PAIR_UNDECIDED = 19
+    """It cannot be decided whether bodies meet within a step."""
 
 
 REASONS = {
@@ -248,6 +250,7 @@ REASONS = {
     Status.GAP_UNEXPLAINED: "a gap differs from zero by more than the tolerances allow",
     Status.GAP_UNDECIDED: "whether a gap closes within a step is not decided after ten thousand evaluations",
     Status.PASSED: "bodies passed into each other",
+    Status.PAIR_UNDECIDED: "whether bodies meet within a step is not decided after ten thousand evaluations",
     Status.MOTION_UNEXPLAINED: "closing contacts or joints would move a body farther than the tolerances allow",
     Status.QUATERNION_UNEXPLAINED: "the length of a quaternion differs from one by more than the tolerances allow",
     Status.PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",

@@ -8,13 +8,13 @@ long as one of its contacts is closed.
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.support import known_direction, separation_along, store_direction
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Pair, Workspace, kernel
 from nonsmooth.engine.numerics.tolerances import ADJACENT
 from nonsmooth.engine.pairs.overlaps import add_displacements, displacement_bound, known_separation
 from nonsmooth.engine.pairs.separation import accurate_direction
-from nonsmooth.engine.pairs.support import known_direction, separation_along, store_direction
 
 
 @kernel("b1(ws, i8)")

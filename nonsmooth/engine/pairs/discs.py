@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.support import middle_of, to_part, to_world
 from nonsmooth.engine.memory.blocks import PART_RINGS
 from nonsmooth.engine.native.kernel import Floats, Workspace, at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, minus
-from nonsmooth.engine.pairs.support import middle_of, to_part, to_world
 
 
 @kernel("v3(F, i8, i8)")

@@ -16,10 +16,10 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.support import known_direction, support_offset, turned
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import Pair, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
-from nonsmooth.engine.pairs.support import known_direction, support_offset, turned
 
 
 @kernel("v3(v3, f8, v3)")

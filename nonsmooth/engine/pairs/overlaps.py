@@ -17,19 +17,19 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.layout import NO_PAIR
-from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, frame_at, kernel, part_at
-from nonsmooth.engine.numerics.vectors import distance, dot
-from nonsmooth.engine.pairs.discs import crossing_overlap
-from nonsmooth.engine.pairs.separation import best_direction, separating_direction
-from nonsmooth.engine.pairs.support import (
+from nonsmooth.engine.bodies.support import (
     height_above_plane,
     known_direction,
     middle_of,
     separation_along,
     store_direction,
 )
+from nonsmooth.engine.memory.layout import NO_PAIR
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, frame_at, kernel, part_at
+from nonsmooth.engine.numerics.vectors import distance, dot
+from nonsmooth.engine.pairs.discs import crossing_overlap
+from nonsmooth.engine.pairs.separation import best_direction, separating_direction
 
 _LARGEST_DISPLACEMENT = 1e3
 """Displacement bound [m] at which all bounds restart from zero, so that round-off of their sum stays small."""

@@ -16,10 +16,10 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.support import closest_difference, middle_of, separation_along
 from nonsmooth.engine.native.kernel import Floats, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, dot, minus, scaled
 from nonsmooth.engine.pairs.simplex import corner, nearest_point, put_corner, reduce_to_nearest
-from nonsmooth.engine.pairs.support import closest_difference, middle_of, separation_along
 
 _MOST_STEPS = 100
 """Most steps of a search. Flat ellipsoids take about sixty."""

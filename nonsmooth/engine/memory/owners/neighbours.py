@@ -68,6 +68,8 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     allowed: float = real(_PARAMETER, "m", "Overlap that the laws of the pair allow.")
     size: float = real(_PARAMETER, "m", "Size of the smaller part.")
     margin: float = real(_REUSED, "m", "Distance that the parts may move before the pair is evaluated again.")
+    is_watched: bool = question(Life.STEP, "Its separation is watched within the step, in place of its contacts.")
+    begin: float = real(Life.STEP, "1", "Fraction of the step from which its separation is watched.")
     is_near: bool = question(Life.STEP, "Its shapes touch within the tolerances.")
     is_closed: bool = question(Life.STEP, "A contact of the pair is closed.")
     deepest: float = real(Life.STEP, "m", "Least gap of the closed contacts.")

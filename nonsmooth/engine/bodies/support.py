@@ -177,6 +177,28 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
     return dot(n, closest_difference(ws, number, n))
 
 
+@kernel("b1(ws, i8, v3, f8)")
+def separates(ws: Workspace, group: int, n: Vector, near: float) -> bool:
+    """True if parts of a pair of shapes are as far apart along ``n`` as along their direction, up to ``near`` [m].
+
+    The normal of a contact that touches has this property: along any other direction the parts overlap. ``group`` is
+    the first pair of the shapes. A pair of shapes that is not guarded leaves the decision to its contacts.
+    """
+    number = group
+    while number < ws.model.n_pairs and ws.pairs[number].group == group:
+        pair = ws.pairs[number]
+        known = known_direction(ws, pair)
+        if not ws.pairs[group].is_guarded or dot(known, known) == 0.0:
+            return True
+        largest = separation_along(ws, number, known)
+        # feet may extend beyond the parts by the clearance
+        allowed = near + pair.clearance
+        if largest <= allowed and separation_along(ws, number, n) >= min(largest, 0.0) - allowed:
+            return True
+        number += 1
+    return False
+
+
 @kernel("f8(ws, i8)")
 def height_above_plane(ws: Workspace, number: int) -> float:
     """Separation of pair ``number``, whose first part is a half-space [m], by the lowest point of the second part.
