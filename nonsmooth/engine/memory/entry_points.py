@@ -40,6 +40,7 @@ ENTRY_POINTS = (
     "project_joints",
     "project_closed",
     "list_contacts",
+    "list_touching",
     "check_pairs",
     "write_contact_problem",
     "find_doubtful",

@@ -141,17 +141,27 @@ def _widest_axis(ws: Workspace) -> int:
 
 @entry_point("Status(ws)")
 def list_contacts(ws: Workspace) -> Status:
-    """Fill the slots for the present state; return the status."""
-    return list_with(ws, NO_PAIR)
+    """List the contacts of all bodies near each other, whether their shapes are apart or not; return the status."""
+    for pair in ws.pairs:
+        pair.is_apart = False
+    return _fill(ws)
 
 
-@kernel("Status(ws, i8)")
-def list_with(ws: Workspace, touching: int) -> Status:
-    """List the contacts at the present state, those of the pair ``touching`` in any case; return the status."""
+@entry_point("Status(ws, i8)")
+def list_touching(ws: Workspace, touching: int) -> Status:
+    """List the contacts of bodies near each other, except of guarded pairs that are apart; return the status.
+
+    The contacts of the pair ``touching`` are listed in any case, or ``NO_PAIR``.
+    """
     # the pairs need the bodies, and the modes of the contacts that are listed
-    if ws.model.n_spheres + ws.model.n_pairs > 0:
-        evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-        find_apart(ws, touching)
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    find_apart(ws, touching)
+    return _fill(ws)
+
+
+@kernel("Status(ws)")
+def _fill(ws: Workspace) -> Status:
+    """Fill the slots for the present state; return the status."""
     _leave(ws)
     ws.island.follows_a_step = False
     ws.totals.n_listings += 1
@@ -159,6 +169,7 @@ def list_with(ws: Workspace, touching: int) -> Status:
         for declared in range(ws.model.n_declared):
             _enter(ws, declared)
         return Status.RUNNING
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for unit in ws.spheres:
         frame = frame_at(ws.floats, unit.frame)
         unit.place = frame.origin
