@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record
+from nonsmooth.solids.measure import numbers_of
 from nonsmooth.system.contacts import Contacts
 
 _ALLOWED = 1e-7
@@ -158,18 +158,6 @@ def numbers_of_rows(contacts: Contacts, rows: Sequence[int]) -> Sequence[int]:
     """Numbers of the contacts in the rows with these indices."""
     ranges = [range(int(contacts.starts[row]), int(contacts.starts[row + 1])) for row in rows]
     return ranges[0] if len(ranges) == 1 else [*itertools.chain.from_iterable(ranges)]
-
-
-def numbers_of(part: ConvexPart) -> list[float]:
-    """Numbers of a convex part as the engine reads them (:mod:`nonsmooth.engine.memory.blocks`).
-
-    After the head come the circles, then the support function (address and parameters) of a shape that has one.
-    """
-    # -1 marks a half-space, and place 0 a part without a support function
-    n_rings = -1 if part.is_half_space else len(part.rings)
-    function_place = PART_RINGS + RING * len(part.rings) if part.function else 0
-    head = *part.place, *np.ravel(part.axes), *part.semi, *part.powers, part.ball, part.radius, function_place, n_rings
-    return [float(number) for number in (*head, *np.ravel(part.rings), *part.function)]
 
 
 def lay_part_pairs(

@@ -41,6 +41,7 @@ ENTRY_POINTS = (
     "project_closed",
     "list_contacts",
     "check_pairs",
+    "measure_pair",
     "write_contact_problem",
     "find_doubtful",
     "first_closing",
@@ -57,3 +58,5 @@ ENTRY_POINTS = (
     "begin_sample",
 )
 """Functions of the engine that are called by address (:func:`nonsmooth.engine.native.kernel.entry_point`)."""
+MODULES = ("nonsmooth.engine.events.event_loop", "nonsmooth.engine.pairs.measure")
+"""Modules whose import defines all entry points."""

@@ -23,7 +23,7 @@ from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, frame_a
 from nonsmooth.engine.numerics.vectors import distance, dot
 from nonsmooth.engine.pairs.discs import crossing_overlap
 from nonsmooth.engine.pairs.separation import best_direction, separating_direction
-from nonsmooth.engine.pairs.support import height_above_plane, middle_of, separation_along
+from nonsmooth.engine.pairs.support import has_half_space, height_above_plane, middle_of, separation_along
 
 _LARGEST_DISPLACEMENT = 1e3
 """Displacement bound [m] at which all bounds restart from zero, so that round-off of their sum stays small."""
@@ -84,7 +84,7 @@ def _known_separation(ws: Workspace, number: int) -> float:
     Of a half-space it is exact. Else it is that of the bounding spheres, or along the last direction if they overlap.
     """
     pair = ws.pairs[number]
-    if _has_half_space(ws, pair):
+    if has_half_space(ws, number):
         return height_above_plane(ws, number)
     between = distance(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     apart = between - part_at(ws.floats, pair.part_a).radius - part_at(ws.floats, pair.part_b).radius
@@ -95,13 +95,6 @@ def _known_separation(ws: Workspace, number: int) -> float:
     return float(separation_along(ws, number, n))
 
 
-@kernel("b1(ws, Pair)")
-def _has_half_space(ws: Workspace, pair: Pair) -> bool:
-    """True if the first part of a pair is a half-space."""
-    # its number of circles is -1
-    return bool(part_at(ws.floats, pair.part_a).rings < 0.0)
-
-
 @kernel("f8(ws, i8, f8)")
 def _separation(ws: Workspace, number: int, enough: float) -> float:
     """Largest separation that is found of pair ``number`` [m], negative in an overlap. Writes its direction.
@@ -109,7 +102,7 @@ def _separation(ws: Workspace, number: int, enough: float) -> float:
     The search stops at a value of ``enough`` [m] or more. The normal of its deepest closed contact is tried first.
     """
     pair = ws.pairs[number]
-    if _has_half_space(ws, pair):
+    if has_half_space(ws, number):
         return height_above_plane(ws, number)
     # the first pair of the same two shapes has their contact
     group = ws.pairs[pair.group]
@@ -165,7 +158,7 @@ def _depth(ws: Workspace, pair: Pair) -> float:
     number = pair.index
     apart = _known_separation(ws, number)
     # the separation from a half-space is exact
-    if apart < -pair.allowed and not _has_half_space(ws, pair):
+    if apart < -pair.allowed and not has_half_space(ws, number):
         pair.direction = separating_direction(ws, number, pair.direction)
         apart = separation_along(ws, number, pair.direction)
     are_discs = pair.are_both_flat

@@ -142,14 +142,26 @@ def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector
 
 
 @kernel("v3(ws, i8, v3)")
+def farthest_of_first(ws: Workspace, number: int, n: Vector) -> Vector:
+    """Support point of the first part of pair ``number`` along the unit vector ``n`` [m], both in the world."""
+    pair = ws.pairs[number]
+    return _farthest(ws.floats, pair.frame_a, pair.part_a, n)
+
+
+@kernel("v3(ws, i8, v3)")
+def farthest_of_second(ws: Workspace, number: int, n: Vector) -> Vector:
+    """Support point of the second part of pair ``number`` along the unit vector ``n`` [m], both in the world."""
+    pair = ws.pairs[number]
+    return _farthest(ws.floats, pair.frame_b, pair.part_b, n)
+
+
+@kernel("v3(ws, i8, v3)")
 def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
     """Vector from the support point of the first part of a pair along ``n`` to that of the second along -``n`` [m].
 
     The separation s(n) is its component along ``n``.
     """
-    pair = ws.pairs[number]
-    farthest_a = _farthest(ws.floats, pair.frame_a, pair.part_a, n)
-    return minus(_farthest(ws.floats, pair.frame_b, pair.part_b, opposite(n)), farthest_a)
+    return minus(farthest_of_second(ws, number, opposite(n)), farthest_of_first(ws, number, n))
 
 
 @kernel("f8(ws, i8, v3)")
@@ -158,14 +170,26 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
     return dot(n, closest_difference(ws, number, n))
 
 
+@kernel("b1(ws, i8)")
+def has_half_space(ws: Workspace, number: int) -> bool:
+    """True if the first part of pair ``number`` is a half-space."""
+    # its number of circles is -1
+    return bool(part_at(ws.floats, ws.pairs[number].part_a).rings < 0.0)
+
+
+@kernel("v3(ws, i8)")
+def normal_of_plane(ws: Workspace, number: int) -> Vector:
+    """Unit normal of the half-space that is the first part of pair ``number``: the third axis of its frame."""
+    frame = frame_at(ws.floats, ws.pairs[number].frame_a)
+    return frame.rotation[2], frame.rotation[5], frame.rotation[8]
+
+
 @kernel("f8(ws, i8)")
 def height_above_plane(ws: Workspace, number: int) -> float:
     """Separation of pair ``number``, whose first part is a half-space [m], by the lowest point of the second part.
 
     The half-space is below the plane through the origin of that part, normal to the third axis of its frame.
     """
-    pair = ws.pairs[number]
-    frame = frame_at(ws.floats, pair.frame_a)
-    up = frame.rotation[2], frame.rotation[5], frame.rotation[8]
-    lowest = _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(up))
+    pair, up = ws.pairs[number], normal_of_plane(ws, number)
+    lowest = farthest_of_second(ws, number, opposite(up))
     return dot(up, minus(lowest, middle_of(ws.floats, pair.frame_a, pair.part_a)))

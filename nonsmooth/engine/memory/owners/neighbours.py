@@ -70,6 +70,10 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     deepest: float = real(Life.STEP, "m", "Least gap of the closed contacts.")
     direction: Vector3 = vector(_REUSED, 3, "1", "Direction in which the parts are farthest apart.")
     normal: Vector3 = vector(Life.STEP, 3, "1", "Normal of the deepest closed contact.")
+    separation: float = real(Life.SOLUTION, "m", "Separation along the direction, a lower bound of the distance.")
+    shallowest: float = real(Life.SOLUTION, "m", "Upper bound of the separation, negative if an overlap is proved.")
+    first: Vector3 = vector(Life.SOLUTION, 3, "m", "Point of the first part that is nearest to the second.")
+    second: Vector3 = vector(Life.SOLUTION, 3, "m", "Point of the second part that is nearest to the first.")
     between: Vector3 = vector(
         _REUSED, 3, "m", "Centre of the second disc along the axes of the first, if both are flat."
     )
