@@ -8,7 +8,7 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.model.overlaps import solid_pairs
+from nonsmooth.model.overlaps import placed_pairs
 from nonsmooth.placing.probe import Probe
 from nonsmooth.solids.passage import Passage
 
@@ -56,8 +56,9 @@ class Line:
         self._q = probe.q.copy()
         self._rates, self._way = self._motion()
         self._size = max(row.size for row in probe.contacts.rows)
-        pairs = list(solid_pairs(probe.model, range(len(probe.contacts))))
-        self._slack = sum(solid.solid.set_back for _, *both in pairs for solid in both)
+        pairs = list(placed_pairs(probe.model, range(len(probe.contacts))))
+        shapes = {id(shape): shape for row in probe.contacts.rows for shape in row.shapes}
+        self._slack = sum(shape.solid.set_back for shape in shapes.values() if shape.solid is not None)
         self._passages = [
             Passage(one.moved(-one.position), two.moved(-one.position), self._way, height)
             for one, two in (
@@ -65,8 +66,8 @@ class Line:
                 for numbers, first, second in pairs
             )
         ]
-        rows = [any(shape.solid is None for shape in row.shapes) for row in probe.contacts.rows]
-        self._by_gap = np.flatnonzero(probe.contacts.repeated(rows)).tolist()
+        measured = {number for numbers, *_ in pairs for number in numbers}
+        self._by_gap = [number for number in range(len(probe.contacts)) if number not in measured]
 
     def met(self) -> Vector:
         """Coordinates q of the body at its first contact with another body along the line, shape [n_q].

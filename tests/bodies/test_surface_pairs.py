@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from nonsmooth.queries.exact import Contacts
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
@@ -39,7 +40,6 @@ from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ConvexShape, Shape
-from nonsmooth.queries.exact import Contacts
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, channel, hills, torus
 

@@ -6,11 +6,11 @@ import dataclasses
 
 import numpy as np
 import pytest
+from nonsmooth.queries.exact import Contacts
 from scipy.spatial.transform import Rotation
 
 from bodies import Box, Sphere
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.queries.exact import Contacts
 from nonsmooth.queries.result import DistanceResult
 from tests.benchmarks import independent_look as independent
 from tests.benchmarks.independent_look import DRAWN, PAIRS, look, table_pairs

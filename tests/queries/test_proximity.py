@@ -219,7 +219,7 @@ def test_bodies_through_one_another_are_found_without_a_corner_inside() -> None:
     mesh, ball, floor = MeshBody(Triangles(*bracket(0.1), "bracket"), density=1e3), Ball(0.002), Plate()
     system = ns.System([floor, *bars, mesh, ball])
     system.contact(floor, ball, **LAWS)
-    inside = mesh.frames[0][0].solid.inner[0]  # type: ignore[union-attr]
+    inside = mesh.frames[0][0].solid.surface.inner[0]  # type: ignore[union-attr]
     system.place(mesh, position=(0.0, 0.0, 1.0))
     system.place(ball, position=np.add(inside, (0.0, 0.0, 1.0)))
     (message,) = _warned(system)

@@ -92,7 +92,7 @@ def test_what_overlaps_goes_back_to_the_last_free_place(build: Any) -> None:
     mesh, ball = angle(0.02), Ball(0.004)
     inside = ns.System([mesh, ball])
     inside.contact(mesh, ball, **laws)
-    centre = mesh.frames[0][0].solid.inner[0]  # type: ignore[union-attr]
+    centre = mesh.frames[0][0].solid.surface.inner[0]  # type: ignore[union-attr]
     ns.touching(inside, ball, position=(centre[0], centre[1], 0.0))
     assert inside.start(ball)[0][2] == pytest.approx(0.014, abs=1e-14)
 

@@ -50,6 +50,6 @@ SINGULAR = 1e-10
 NO_PAIR = -1
 """Index of the checked pair of shapes of a contact, if the overlap of its shapes is not checked."""
 MOST_POINTS = 200
-"""Most points of the polytope that proves the depth of an overlap. Concentric balls end with an error of a hundredth."""
+"""Most points of the polytope that proves the depth of an overlap. Concentric balls end with an error of 1 %."""
 MOST_FACES = 2 * MOST_POINTS
 """Most faces of that polytope: a closed surface of triangles has twice as many faces as points, less four."""

@@ -1,4 +1,4 @@
-"""Compute the least gap of two shapes: call the compiled kinematics of all their contacts, and take the least gap."""
+"""Least gap of the contacts of two shapes at any place, to compare it with their distance."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from nonsmooth.errors import PluginError
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
-from nonsmooth.queries.result import EXACT, DistanceResult
+from nonsmooth.queries.result import DistanceResult
 from nonsmooth.system.pairing import installed_pair
 
 _HALVINGS = 40
@@ -116,5 +116,5 @@ class Contacts:
         if best is None:
             return None
         gap = float(best[0])
-        found = DistanceResult(gap, gap, gap, best[7:10], best[10:13], best[1:4], EXACT)
+        found = DistanceResult(gap, gap, gap, best[7:10], best[10:13], best[1:4], "contacts")
         return found if self._in_order else found.exchanged()
