@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from nonsmooth.queries.exact import Contacts
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
@@ -40,6 +39,7 @@ from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ConvexShape, Shape
+from tests.benchmarks.contact_gaps import Contacts
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, channel, hills, torus
 

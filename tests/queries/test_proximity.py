@@ -252,7 +252,7 @@ def test_a_history_is_what_single_questions_say() -> None:
     system.exclude(one, two)
     solution = ns.simulate(system, 0.1, sample_interval=0.01)
     found = distances(solution, plate, one)
-    assert set(found["how"].tolist()) == {"exact"}
+    assert set(found["how"].tolist()) == {"pair"}
     z = solution.of(one)[0][:, 2]
     np.testing.assert_allclose(found["gap"], z - 0.01, atol=1e-15)
     np.testing.assert_allclose(found["second"] - found["first"], found["gap"][:, None] * found["normal"], atol=1e-15)
