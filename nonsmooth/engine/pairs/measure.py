@@ -12,7 +12,7 @@ import math
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import Vector, distance, minus, opposite, scaled
 from nonsmooth.engine.pairs.polytope import proved_depth
-from nonsmooth.engine.pairs.separation import ROUND_OFF, SHIFT, best_direction, climb, search
+from nonsmooth.engine.pairs.separation import ROUND_OFF, SHIFT, best_direction, climb, search, unit
 from nonsmooth.engine.pairs.simplex import has_nearest_point, nearest_of_first, nearest_of_second
 from nonsmooth.engine.pairs.support import (
     farthest_of_first,
@@ -55,7 +55,10 @@ def _write_nearest_points(ws: Workspace, number: int) -> None:
         # without a tolerance the search ends where round-off stops it
         other = search(ws, number, n, away, 0.0)
         if has_nearest_point(ws):
-            first, second = nearest_of_first(ws), minus(nearest_of_second(ws), away)
+            first, moved = nearest_of_first(ws), nearest_of_second(ws)
+            # a search that round-off stops does not evaluate the direction of its last point
+            _take_if_better(ws, number, unit(minus(moved, first), n))
+            second = minus(moved, away)
             apart = distance(first, second)
             if apart < best:
                 best, pair.first, pair.second = apart, first, second
