@@ -134,10 +134,10 @@ def contacts_without_parts(contacts: Contacts) -> list[int]:
 
 
 def unchecked_contacts(contacts: Contacts) -> list[str]:
-    """Names of contacts of a shape without convex parts and without a solid: only their gaps show an overlap."""
+    """Names of contacts of a shape without convex parts and without a surface: only their gaps show an overlap."""
     # shapes are shared, and their parts are costly
     shapes = {id(shape): shape for row in contacts.rows for shape in row.shapes}
-    bare = {key for key, shape in shapes.items() if not shape.parts and not shape.solid}
+    bare = {key for key, shape in shapes.items() if not (shape.parts or (shape.solid and shape.solid.surface))}
     rows = [row for row in contacts.rows if not bare.isdisjoint(map(id, row.shapes))]
     return [row.name(index) for row in rows for index in range(len(row))]
 

@@ -57,11 +57,11 @@ class Pose:
 
 
 def _about(axis: str, angle: float) -> Array:
-    return Rotation.from_euler(axis, angle).as_matrix()
+    return np.asarray(Rotation.from_euler(axis, angle).as_matrix())
 
 
 def _diagonal_along_x() -> Array:
-    return Rotation.align_vectors([[1.0, 0.0, 0.0]], [[1.0, 1.0, 1.0]])[0].as_matrix()
+    return np.asarray(Rotation.align_vectors([[1.0, 0.0, 0.0]], [[1.0, 1.0, 1.0]])[0].as_matrix())
 
 
 _NONE, _LAID, _EDGE = np.eye(3), _about("y", math.pi / 2.0), _about("z", math.pi / 4.0)
