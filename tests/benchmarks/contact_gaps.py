@@ -7,7 +7,6 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.binding.call import candidate_caller, pair_caller
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import PluginError
@@ -16,6 +15,7 @@ from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.queries.result import DistanceResult
 from nonsmooth.system.pairing import installed_pair
+from tests.contact_calls import candidate_caller, pair_caller
 
 _HALVINGS = 40
 """Largest number of halvings of the distance within which near features are searched for.  The distance is halved as
