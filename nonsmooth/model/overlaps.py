@@ -50,7 +50,7 @@ def overlap_allowed(contact: Contact) -> float:
 
 
 def check_overlaps(model: LaidOut) -> None:
-    """Check that the solids of active contacts, whose bodies were evaluated, do not overlap.
+    """Check that the shapes of active contacts, whose bodies were evaluated, do not overlap.
 
     Raises
     ------
@@ -85,9 +85,9 @@ def at_default(model: LaidOut, contact: Contact) -> str:
 
 
 def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
-    """The first overlap of solids deeper than is allowed, or None.
+    """The first overlap of shapes deeper than is allowed, or None.
 
-    Gaps belong to features that face each other, and do not show all overlaps, so the solids are compared. Compliant
+    Gaps belong to features that face each other, and do not show all overlaps, so convex pieces are compared. Compliant
     bodies may overlap if a gap of theirs is negative, because then a contact force pushes them apart.
 
     Parameters

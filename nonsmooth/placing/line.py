@@ -18,8 +18,8 @@ _ROUND_OFF = 1e-9
 _NEAR = 1e-7
 """Gap up to which a contact decides the place at which two bodies touch, relative to the size of the contact.
 
-The place found from the solids is corrected until this gap is 0. A larger gap shows that the contact's features do not
-face each other, so the place is not corrected. The number is not 0, because distances of round solids are inexact.
+The place found from the convex parts is corrected until this gap is 0. A larger gap shows that the contact's features
+do not face each other, so the place is not corrected. Feet are added: they are parts, but some contacts ignore them.
 """
 _GRAZING = 1e4
 """Largest correction, along the line, of the place at which the bodies touch, relative to the error of the gap.
@@ -32,8 +32,8 @@ which the gap hardly changes along the line.
 class Line:
     """The line along which a body can move without being turned.
 
-    If all shapes of a contact have solids, a :class:`Passage` finds the place at which the solids touch.  For other
-    contacts the body moves forward by the least gap, again and again, until this gap is zero.  The body cannot pass
+    If both shapes of a contact are bounded and have convex parts or a surface, a :class:`Passage` finds the place at
+    which they touch.  For other contacts the body moves forward by the least gap, again and again, until this gap is zero.  The body cannot pass
     through another body, because a gap changes no faster than the body moves.
 
     Parameters
@@ -108,7 +108,7 @@ class Line:
     def _least_gap(self, distance: float) -> float:
         """Least value of gap - ``height`` [m] after a move by ``distance`` [m] along the line; 0 is the goal.
 
-        Only contacts that have a shape without a solid are taken into account; without such contacts it is inf.
+        Only contacts without a :class:`Passage` are taken into account; without such contacts it is inf.
         """
         return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
 
@@ -145,7 +145,7 @@ class Line:
     def _exact(self, distance: float) -> float:
         """Distance along the line at which the least gap of all contacts is the gap to be reached, ``height`` [m].
 
-        It is searched near ``distance``, at which the solids have this gap. If the search fails, it is ``distance``.
+        It is searched near ``distance``, at which the shapes have this gap. If the search fails, it is ``distance``.
         """
         from scipy.optimize import brentq
 
@@ -154,7 +154,7 @@ class Line:
 
         gap, slack = over(distance), 2.0 * _ROUND_OFF * self._size + self._slack
         if gap == 0.0 or abs(gap) > _NEAR * self._size + self._slack:
-            # the features do not face each other, so their gap has no meaning: the distance of the solids is the result
+            # the features do not face each other, so their gap has no meaning: the distance of the shapes is the result
             return distance
         step = np.copysign(max(abs(gap), 1e-16 * self._size), gap)
         while abs(step) < _GRAZING * slack:

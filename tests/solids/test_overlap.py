@@ -13,8 +13,9 @@ from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.solids.pieces import Pieces
 from nonsmooth.solids.placed import Placed, measured_hulls, overlap
+from tests.solids.depth import penetration
 from tests.solids.kinds import KINDS, angle
-from tests.solids.separation import piece_of
+from tests.solids.separation import nearest, piece_of
 
 CONVEX = sorted(set(KINDS) - {"angle"})
 
@@ -45,7 +46,12 @@ def test_one_of_two_proofs_holds(pair: tuple[str, str]) -> None:
             # nowhere more: the distance along any other direction is less
             others = [float(n @ (two.support(-n) - one.support(n))) / np.linalg.norm(n) for n in ways]
             assert max(others) <= apart * (1.0 + 1e-12)
+            assert apart == pytest.approx(nearest(one, two, 1e-14).lower, abs=1e-12)
         else:
+            # no worse than the expanding polytope in Python
+            reference = penetration(one, two, 1e-12)
+            assert reference is not None
+            assert reference.lower * (1.0 - 1e-9) <= -apart <= reference.upper * (1.0 + 1e-9)
             assert all(float(n @ (one.support(n) - two.support(-n))) >= deep * np.linalg.norm(n) for n in ways)
 
 
