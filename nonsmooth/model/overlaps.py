@@ -126,7 +126,6 @@ def placed_pairs(
     """
     contacts = model.system.contacts
     rows = np.unique(np.searchsorted(contacts.starts, np.array(numbers), side="right") - 1)
-    pieces: dict[int, Pieces | None] = {}
     for same in by_shapes(contacts, rows.tolist()):
         row, of_rows = contacts.rows[same[0]], numbers_of_rows(contacts, same)
         # the gap of a half-space shows each overlap
@@ -135,11 +134,7 @@ def placed_pairs(
         frames = frames_of(model, of_rows[0])
         if math.dist(frames[0][:3], frames[1][:3]) - sum(row.extents) > within:
             continue
-        # the pieces of a shape are prepared once
-        for shape in row.shapes:
-            if id(shape) not in pieces:
-                pieces[id(shape)] = Pieces.of(shape)
-        found = [each for shape in row.shapes if (each := pieces[id(shape)]) is not None]
+        found = [each for shape in row.shapes if (each := Pieces.of(shape)) is not None]
         # without pieces of both there is nothing to compare
         if len(found) < len(row.shapes):
             continue

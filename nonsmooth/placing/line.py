@@ -33,8 +33,8 @@ class Line:
     """The line along which a body can move without being turned.
 
     If both shapes of a contact are bounded and have convex parts or a surface, a :class:`Passage` finds the place at
-    which they touch.  For other contacts the body moves forward by the least gap, again and again, until this gap is zero.  The body cannot pass
-    through another body, because a gap changes no faster than the body moves.
+    which they touch.  For other contacts the body moves forward by the least gap, again and again, until this gap is
+    zero.  The body cannot pass through another body, because a gap changes no faster than the body moves.
 
     Parameters
     ----------

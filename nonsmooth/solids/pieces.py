@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import final
 
@@ -12,6 +13,9 @@ from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.shape import Shape
 from nonsmooth.interfaces.solid import Surface, Vector
 from nonsmooth.solids.measure import PartNumbers
+
+_AXES = np.vstack([-np.eye(3), np.eye(3)])
+"""Both directions of the coordinate axes, the negative ones first."""
 
 
 @final
@@ -38,13 +42,15 @@ class Pieces:
 
     @classmethod
     def of(cls, shape: Shape) -> Pieces | None:
-        """Pieces of a shape; None if it has neither convex parts nor a surface."""
-        # the hull of a convex mesh takes less time than its triangles
-        if parts := shape.parts:
-            return cls(parts, None)
-        solid = shape.solid
-        surface = None if solid is None else solid.surface
-        return None if surface is None else cls((), surface)
+        """Pieces of a shape; None if it has neither convex parts nor a surface.
+
+        They are kept for the next call, if the shape is hashable.
+        """
+        try:
+            hash(shape)
+        except TypeError:
+            return _made(shape)
+        return _kept(shape)
 
     @property
     def is_bounded(self) -> bool:
@@ -82,5 +88,19 @@ def _box(part: ConvexPart) -> tuple[Vector, Vector]:
     if part.is_half_space or part.function:
         # of a function only a radius is known
         return part.place - part.radius, part.place + part.radius
-    low, high = (np.array([sign * part.height(sign * axis) for axis in np.eye(3)]) for sign in (-1.0, 1.0))
-    return low, high
+    heights = part.heights(_AXES)
+    return -heights[:3], heights[3:]
+
+
+def _made(shape: Shape) -> Pieces | None:
+    # the hull of a convex mesh takes less time than its triangles
+    if parts := shape.parts:
+        return Pieces(parts, None)
+    solid = shape.solid
+    surface = None if solid is None else solid.surface
+    return None if surface is None else Pieces((), surface)
+
+
+@functools.lru_cache(maxsize=256)
+def _kept(shape: Shape) -> Pieces | None:
+    return _made(shape)
