@@ -16,7 +16,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, PART_RINGS, RING
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import call_entry, entry_addresses
+from nonsmooth.engine.native.kernel import call_alone
 from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
@@ -104,7 +104,6 @@ class _Bench:
         blocks = Heap(memory)
         self._starts = [blocks.block(size) for size in (FRAME, FRAME, room, room)]
         self._memory = memory = blocks.close()
-        memory[owners.ModelNumbers.entry_points][: len(entry_addresses())] = entry_addresses()
         pair = owners.Pair
         for field, start in zip((pair.frame_a, pair.frame_b, pair.part_a, pair.part_b), self._starts, strict=True):
             memory[field][0] = start
@@ -126,7 +125,7 @@ class _Bench:
         small, large = sorted((first.radius, second.radius))
         self._size[0] = small if small > 0.0 or np.isinf(large) else large
         self._direction[:] = 0.0
-        call_entry("measure_pair", self._memory, 0)
+        call_alone("measure_pair", self._memory, 0)
         return Measured(
             float(self._separation[0]),
             float(self._shallowest[0]),
