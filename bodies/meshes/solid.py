@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
+from nonsmooth.interfaces import ConvexPart
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.interfaces.solid import Piece, SolidRegion
+from nonsmooth.interfaces.solid import SolidRegion, Surface
 
 from .integrals import areas_of, winding_number
 from .topology import Integers, shells
@@ -21,7 +22,7 @@ _LOOKED_AT = 32
 
 @final
 @dataclass(frozen=True, eq=False)
-class MeshSolid(SolidRegion):
+class MeshSolid(SolidRegion, Surface):
     """The triangles are its pieces.
 
     Attributes
@@ -44,24 +45,30 @@ class MeshSolid(SolidRegion):
         return float(np.max(np.linalg.norm(self.touched() - self.vertices, axis=1)))
 
     @property
-    def hollow(self) -> bool:
-        """There is nothing between the triangles."""
-        return True
+    def surface(self) -> MeshSolid:
+        """The triangles, with nothing between them."""
+        return self
 
     @functools.cached_property
     def _corners(self) -> Vector:
         return self.vertices[self.faces]
 
     @functools.cached_property
-    def _boxes(self) -> tuple[Vector, Vector]:
-        return np.min(self._corners, axis=1), np.max(self._corners, axis=1)
+    def _triangles(self) -> Vector:
+        """Corners of the triangles that contacts see [m], shape [m, 3, 3]."""
+        return self.touched()[self.faces]
+
+    @functools.cached_property
+    def boxes(self) -> tuple[Vector, Vector]:
+        """Lowest and highest coordinates of every triangle [m]."""
+        return np.min(self._triangles, axis=1), np.max(self._triangles, axis=1)
 
     @functools.cached_property
     def _tree(self) -> tuple[Any, float]:
         """Return the middles of the boxes in a tree, and half the widest box with what rounding may take of it [m]."""
         from scipy.spatial import cKDTree
 
-        low, high = self._boxes
+        low, high = self.boxes
         size = float(np.max(np.abs(self.vertices)))
         return cKDTree(0.5 * (low + high)), 0.5 * float(np.max(high - low)) + 1e-12 * size
 
@@ -80,22 +87,27 @@ class MeshSolid(SolidRegion):
         """Return the corner that lies farthest along a direction [m]."""
         return np.asarray(self.vertices[int(np.argmax(self.vertices @ direction))])
 
-    def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
-        """Return the triangles whose boxes meet the box."""
+    def near(self, low: Vector, high: Vector) -> Integers:
+        """Return the numbers of the triangles whose boxes meet the box."""
         tree, widest = self._tree
-        low, high = np.maximum(low, self.bounds[0]), np.minimum(high, self.bounds[1])
+        bounds = np.min(self.boxes[0], axis=0), np.max(self.boxes[1], axis=0)
+        low, high = np.maximum(low, bounds[0]), np.minimum(high, bounds[1])
         around = tree.query_ball_point(0.5 * (low + high), 0.5 * np.max(high - low) + widest, p=np.inf)
         near = np.sort(np.array(around, dtype=np.int64))
-        meets = np.all((self._boxes[0][near] <= high) & (self._boxes[1][near] >= low), axis=1)
-        return [self._triangle(int(i)) for i in near[meets]]
+        meets = np.all((self.boxes[0][near] <= high) & (self.boxes[1][near] >= low), axis=1)
+        return np.asarray(near[meets])
 
-    def _triangle(self, number: int) -> Piece:
-        corners = self._corners[number]
+    def piece(self, number: int) -> ConvexPart:
+        """Return a triangle."""
+        return ConvexPart.of_points(self._triangles[number])
 
-        def support(direction: Vector) -> Vector:
-            return np.asarray(corners[int(np.argmax(corners @ direction))])
+    @property
+    def hull(self) -> ConvexPart:
+        """The hull of the corners that contacts see."""
+        from scipy.spatial import ConvexHull
 
-        return Piece(support, np.mean(corners, axis=0), (self._normals[number],))
+        corners = self._triangles.reshape(-1, 3)
+        return ConvexPart.of_points(corners[ConvexHull(corners).vertices])
 
     @functools.cached_property
     def inner(self) -> Vector:

@@ -91,10 +91,14 @@ class ConvexPart:
 
     def height(self, direction: Vector) -> float:
         """Return h(n) in the frame of the body, for a direction of any length [m times that]; not of functions."""
-        n = np.asarray(direction) @ self.axes
-        across = math.hypot(n[0], n[1])
+        return float(self.heights(np.asarray(direction)[None])[0])
+
+    def heights(self, directions: Vector) -> Vector:
+        """Return h(n) for several directions, shape [m, 3]; shape [m]."""
+        n = directions @ self.axes
+        across = np.hypot(n[:, 0], n[:, 1])
         (a, b, c), (p, q) = self.semi, self.powers
-        wide = (abs(a * n[0]) ** q + abs(b * n[1]) ** q) ** (1.0 / q)
-        added = (wide**p + abs(c * n[2]) ** p) ** (1.0 / p) + self.ball * float(np.linalg.norm(n))
-        hull = np.max(self.rings[:, :3] @ n + self.rings[:, 3] * across) if len(self.rings) > 0 else 0.0
-        return float(self.place @ direction + hull + added)
+        wide = (np.abs(a * n[:, 0]) ** q + np.abs(b * n[:, 1]) ** q) ** (1.0 / q)
+        added = (wide**p + np.abs(c * n[:, 2]) ** p) ** (1.0 / p) + self.ball * np.linalg.norm(n, axis=1)
+        hull = np.max(n @ self.rings[:, :3].T + np.outer(across, self.rings[:, 3]), axis=1) if len(self.rings) else 0.0
+        return np.asarray(directions @ self.place + hull + added)

@@ -9,6 +9,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.convex_solid import ConvexSolid
 from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.shape import Shape
@@ -27,6 +28,7 @@ class ConvexShape(Shape):
        volume and inertia 0.
     3. ``drawing`` returns a closed mesh of triangles that are counter-clockwise seen from outside, with vertices on the
        surface; it tends to the surface as ``fineness`` grows, and is exact at any for a polyhedron.
+    4. ``parts`` are convex parts within the surface that contacts see. Distances and overlaps are those of the parts.
     """
 
     @abstractmethod
@@ -36,6 +38,11 @@ class ConvexShape(Shape):
     def farthest(self, direction: Vector) -> Vector:
         """Return what ``support`` returns; a shape whose ``support`` may be wrong looks at it first."""
         return self.support(direction)
+
+    @property
+    @abstractmethod
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """Convex parts within the surface that contacts see, whose distance is that of the shape."""
 
     @property
     @abstractmethod

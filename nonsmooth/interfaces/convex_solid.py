@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces.solid import Piece, SolidRegion, Vector
+from nonsmooth.interfaces.solid import SolidRegion, Vector
 
 
 @final
 @dataclass(frozen=True)
 class ConvexSolid(SolidRegion):
-    """A single piece, which fills the solid.
+    """A convex solid of a shape, which also has the ``parts`` from which distances are computed.
 
     Attributes
     ----------
     farthest : callable
         Returns a point that lies farthest along a direction [m], both of shape [3].
     set_back : float
-        How far what contacts see may lie off the boundary [m].
+        Largest distance between the boundary and the surface from which contacts compute gaps [m].
     """
 
     farthest: Callable[[Vector], Vector]
@@ -33,33 +33,13 @@ class ConvexSolid(SolidRegion):
         return self.farthest(direction)
 
     @property
-    def hollow(self) -> bool:
-        """False, because one piece fills the solid."""
-        return False
-
-    @functools.cached_property
-    def _extremes(self) -> Vector:
-        return np.array([self.support(sign * axis) for sign in (-1.0, 1.0) for axis in np.eye(3)])
-
-    @functools.cached_property
-    def _whole(self) -> Piece:
-        # in the middle of what is extreme, and so inside
-        return Piece(self.farthest, np.mean(self._extremes, axis=0))
+    def surface(self) -> None:
+        """None, because it is convex."""
 
     @functools.cached_property
     def bounds(self) -> tuple[Vector, Vector]:
         """Those of the farthest points along the axes [m]."""
-        return np.diag(self._extremes[:3]), np.diag(self._extremes[3:])
-
-    def pieces(self, low: Vector, high: Vector) -> Sequence[Piece]:
-        """Return the whole: who asks has looked at its bounds."""
-        return (self._whole,)
-
-    @property
-    def inner(self) -> Vector:
-        """A point in the middle [m]."""
-        return self._whole.place[None, :]
-
-    def holds(self, point: Vector, margin: float) -> bool:
-        """Return False always, because the single convex piece of this solid already decides if a point is inside."""
-        return False
+        low, high = (
+            np.array([self.support(sign * axis)[i] for i, axis in enumerate(np.eye(3))]) for sign in (-1.0, 1.0)
+        )
+        return low, high

@@ -19,10 +19,9 @@ class Shape(Component, ABC):
     1. is a frozen dataclass of floats, in the frame of its body;
     2. knows no body and no contact: pairs of shapes are the business of ContactKinematics;
     3. may say by ``advice`` what to do where no kinematics is known for a pair with it;
-    4. should give the ``solid`` that it bounds, where it has one: without it, what overlaps and what is met on a way is
-       told by the gaps of contacts alone;
-    5. may say by ``parts`` of which convex parts it consists: a run looks at those of bodies whose contact is declared
-       where its steps begin, and ends if they have passed into each other;
+    4. should give the ``solid`` that it bounds, if it has one, for pictures and checks of its support points;
+    5. should give the convex ``parts`` of which it consists. Distances, placing and checks of overlap measure them. A
+       shape without parts, and without the surface of a solid, has only the gaps of its contacts;
     6. may say by ``look`` how it is drawn.
     """
 
@@ -76,7 +75,7 @@ class Shape(Component, ABC):
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:
-        """Convex parts that lie within what contacts see of it; none, by default, and it is not looked at in a run."""
+        """Convex parts within the surface that contacts see; none by default."""
         return ()
 
     @property

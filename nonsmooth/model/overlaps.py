@@ -1,6 +1,7 @@
-"""Overlaps of the solids of bodies in the poses that the memory holds.
+"""Overlaps of bodies in the poses that the memory holds.
 
-Gaps belong to features that face each other. Bodies that overlap deeply may have none, so their solids are compared.
+Gaps belong to features that face each other. Bodies that overlap deeply may have none, so their convex pieces are
+compared.
 """
 
 from __future__ import annotations
@@ -12,10 +13,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import GAP, NORMAL
+from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.part_pairs import by_shapes, numbers_of_rows
+from nonsmooth.solids.pieces import Pieces
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 
@@ -48,7 +50,7 @@ def overlap_allowed(contact: Contact) -> float:
 
 
 def check_overlaps(model: LaidOut) -> None:
-    """Check that the solids of active contacts, whose bodies were evaluated, do not overlap.
+    """Check that the shapes of active contacts, whose bodies were evaluated, do not overlap.
 
     Raises
     ------
@@ -83,9 +85,9 @@ def at_default(model: LaidOut, contact: Contact) -> str:
 
 
 def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
-    """The first overlap of solids deeper than is allowed, or None.
+    """The first overlap of shapes deeper than is allowed, or None.
 
-    Gaps belong to features that face each other, and do not show all overlaps, so the solids are compared. Compliant
+    Gaps belong to features that face each other, and do not show all overlaps, so convex pieces are compared. Compliant
     bodies may overlap if a gap of theirs is negative, because then a contact force pushes them apart.
 
     Parameters
@@ -98,25 +100,20 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     contacts, blocks = model.system.contacts, model.memory[owners.ContactRecord.geometry]
     indices = {number: index for index, number in enumerate(model.active.tolist())}
     # only pairs whose bounding spheres meet
-    for same, one, two in solid_pairs(model, numbers, within=0.0):
+    for same, one, two in placed_pairs(model, numbers, within=0.0):
         contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
         if np.any(blocks[near, GAP] < 0.0) and isinstance(contact.normal, CompliantNormalLaw):
             continue
-        # the surface that contacts use may lie off the boundary of the solid by up to set_back
-        allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
-        # a plane across the normal of the smallest gap separates most solids; without a gap any direction is tried
-        nearest = min(near, key=lambda index: abs(float(blocks[index, GAP])), default=None)
-        normal = np.array([0.0, 0.0, 1.0]) if nearest is None else blocks[nearest, NORMAL : NORMAL + 3]
-        depth = overlap(one, two, allowed, normal)
+        depth = overlap(one, two, overlap_allowed(contact))
         if depth > 0.0:
             return Overlap(contact, depth)
     return None
 
 
-def solid_pairs(
+def placed_pairs(
     model: LaidOut, numbers: Sequence[int], within: float = np.inf
 ) -> Iterator[tuple[Sequence[int], Placed, Placed]]:
-    """For each pair of shapes with solids: the numbers of their contacts, and the two solids in their poses.
+    """For each pair of bounded shapes with convex pieces: the numbers of their contacts, and the shapes in their poses.
 
     Parameters
     ----------
@@ -131,16 +128,19 @@ def solid_pairs(
     rows = np.unique(np.searchsorted(contacts.starts, np.array(numbers), side="right") - 1)
     for same in by_shapes(contacts, rows.tolist()):
         row, of_rows = contacts.rows[same[0]], numbers_of_rows(contacts, same)
-        # without both solids there is nothing to compare
-        solids = [solid for shape in row.shapes if (solid := shape.solid) is not None]
-        if len(solids) < len(row.shapes):
+        # the gap of a half-space shows each overlap
+        if not all(map(math.isfinite, row.extents)):
             continue
         frames = frames_of(model, of_rows[0])
         if math.dist(frames[0][:3], frames[1][:3]) - sum(row.extents) > within:
             continue
+        found = [each for shape in row.shapes if (each := Pieces.of(shape)) is not None]
+        # without pieces of both there is nothing to compare
+        if len(found) < len(row.shapes):
+            continue
         one, two = (
-            Placed(solid, frame[:3].copy(), frame[3:].reshape(3, 3).copy())
-            for solid, frame in zip(solids, frames, strict=True)
+            Placed(each, frame[:3].copy(), frame[3:].reshape(3, 3).copy())
+            for each, frame in zip(found, frames, strict=True)
         )
         yield of_rows, one, two
 

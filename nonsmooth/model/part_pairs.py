@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record
+from nonsmooth.solids.measure import numbers_of
 from nonsmooth.system.contacts import Contacts
 
 _ALLOWED = 1e-7
@@ -57,6 +57,8 @@ class PartPair(NamedTuple):
         Numbers of the contacts of the shapes.
     sides : tuple of PairSide
         The parts. A half-space comes first, and the larger one of two discs.
+    is_swapped : bool
+        True if the first part belongs to the second body of the contacts.
     size : float
         Extent of the smaller shape [m].
     is_guarded : bool
@@ -68,6 +70,7 @@ class PartPair(NamedTuple):
     group: int
     contacts: Sequence[int]
     sides: tuple[PairSide, PairSide]
+    is_swapped: bool
     size: float
     is_guarded: bool
     clearance: float
@@ -98,8 +101,9 @@ def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
             if needs_overlap_check(one, two, len(numbers)):
                 # the direction of separation is fixed to the first part; the radius of the second bounds its turning
                 sizes = [part.radius if one.is_disc and two.is_disc else _reach(part) for part in (one, two)]
-                sides = (second, first) if sizes[1] > sizes[0] else (first, second)
-                found.append(PartPair(group, numbers, sides, row.size, guarded, clearance))
+                is_swapped = sizes[1] > sizes[0]
+                sides = (second, first) if is_swapped else (first, second)
+                found.append(PartPair(group, numbers, sides, is_swapped, row.size, guarded, clearance))
     return found
 
 
@@ -161,10 +165,10 @@ def contacts_without_parts(contacts: Contacts) -> list[int]:
 
 
 def unchecked_contacts(contacts: Contacts) -> list[str]:
-    """Names of contacts of a shape without convex parts and without a solid: only their gaps show an overlap."""
+    """Names of contacts of a shape without convex parts and without a surface: only their gaps show an overlap."""
     # shapes are shared, and their parts are costly
     shapes = {id(shape): shape for row in contacts.rows for shape in row.shapes}
-    bare = {key for key, shape in shapes.items() if not shape.parts and not shape.solid}
+    bare = {key for key, shape in shapes.items() if not (shape.parts or (shape.solid and shape.solid.surface))}
     rows = [row for row in contacts.rows if not bare.isdisjoint(map(id, row.shapes))]
     return [row.name(index) for row in rows for index in range(len(row))]
 
@@ -185,18 +189,6 @@ def numbers_of_rows(contacts: Contacts, rows: Sequence[int]) -> Sequence[int]:
     """Numbers of the contacts in the rows with these indices."""
     ranges = [range(int(contacts.starts[row]), int(contacts.starts[row + 1])) for row in rows]
     return ranges[0] if len(ranges) == 1 else [*itertools.chain.from_iterable(ranges)]
-
-
-def numbers_of(part: ConvexPart) -> list[float]:
-    """Numbers of a convex part as the engine reads them (:mod:`nonsmooth.engine.memory.blocks`).
-
-    After the head come the circles, then the support function (address and parameters) of a shape that has one.
-    """
-    # -1 marks a half-space, and place 0 a part without a support function
-    n_rings = -1 if part.is_half_space else len(part.rings)
-    function_place = PART_RINGS + RING * len(part.rings) if part.function else 0
-    head = *part.place, *np.ravel(part.axes), *part.semi, *part.powers, part.ball, part.radius, function_place, n_rings
-    return [float(number) for number in (*head, *np.ravel(part.rings), *part.function)]
 
 
 def lay_part_pairs(
@@ -224,6 +216,7 @@ def lay_part_pairs(
             "contact": pair.contacts[0],
             "are_both_flat": all(side.part.is_flat for side in pair.sides),
             "is_guarded": pair.is_guarded,
+            "is_swapped": pair.is_swapped,
             "clearance": pair.clearance,
             "allowed": _ALLOWED * pair.size,
             "size": pair.size,

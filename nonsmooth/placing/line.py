@@ -8,7 +8,7 @@ import numpy as np
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.model.overlaps import solid_pairs
+from nonsmooth.model.overlaps import placed_pairs
 from nonsmooth.placing.probe import Probe
 from nonsmooth.solids.passage import Passage
 
@@ -18,8 +18,8 @@ _ROUND_OFF = 1e-9
 _NEAR = 1e-7
 """Gap up to which a contact decides the place at which two bodies touch, relative to the size of the contact.
 
-The place found from the solids is corrected until this gap is 0. A larger gap shows that the contact's features do not
-face each other, so the place is not corrected. The number is not 0, because distances of round solids are inexact.
+The place found from the convex parts is corrected until this gap is 0. A larger gap shows that the contact's features
+do not face each other, so the place is not corrected. Feet are added: they are parts, but some contacts ignore them.
 """
 _GRAZING = 1e4
 """Largest correction, along the line, of the place at which the bodies touch, relative to the error of the gap.
@@ -32,9 +32,9 @@ which the gap hardly changes along the line.
 class Line:
     """The line along which a body can move without being turned.
 
-    If all shapes of a contact have solids, a :class:`Passage` finds the place at which the solids touch.  For other
-    contacts the body moves forward by the least gap, again and again, until this gap is zero.  The body cannot pass
-    through another body, because a gap changes no faster than the body moves.
+    If both shapes of a contact are bounded and have convex parts or a surface, a :class:`Passage` finds the place at
+    which they touch.  For other contacts the body moves forward by the least gap, again and again, until this gap is
+    zero.  The body cannot pass through another body, because a gap changes no faster than the body moves.
 
     Parameters
     ----------
@@ -56,8 +56,9 @@ class Line:
         self._q = probe.q.copy()
         self._rates, self._way = self._motion()
         self._size = max(row.size for row in probe.contacts.rows)
-        pairs = list(solid_pairs(probe.model, range(len(probe.contacts))))
-        self._slack = sum(solid.solid.set_back for _, *both in pairs for solid in both)
+        pairs = list(placed_pairs(probe.model, range(len(probe.contacts))))
+        shapes = {id(shape): shape for row in probe.contacts.rows for shape in row.shapes}
+        self._slack = sum(shape.solid.set_back for shape in shapes.values() if shape.solid is not None)
         self._passages = [
             Passage(one.moved(-one.position), two.moved(-one.position), self._way, height)
             for one, two in (
@@ -65,8 +66,8 @@ class Line:
                 for numbers, first, second in pairs
             )
         ]
-        rows = [any(shape.solid is None for shape in row.shapes) for row in probe.contacts.rows]
-        self._by_gap = np.flatnonzero(probe.contacts.repeated(rows)).tolist()
+        measured = {number for numbers, *_ in pairs for number in numbers}
+        self._by_gap = [number for number in range(len(probe.contacts)) if number not in measured]
 
     def met(self) -> Vector:
         """Coordinates q of the body at its first contact with another body along the line, shape [n_q].
@@ -107,7 +108,7 @@ class Line:
     def _least_gap(self, distance: float) -> float:
         """Least value of gap - ``height`` [m] after a move by ``distance`` [m] along the line; 0 is the goal.
 
-        Only contacts that have a shape without a solid are taken into account; without such contacts it is inf.
+        Only contacts without a :class:`Passage` are taken into account; without such contacts it is inf.
         """
         return float(np.min(self._gaps(distance)[self._by_gap])) if self._by_gap else np.inf
 
@@ -144,7 +145,7 @@ class Line:
     def _exact(self, distance: float) -> float:
         """Distance along the line at which the least gap of all contacts is the gap to be reached, ``height`` [m].
 
-        It is searched near ``distance``, at which the solids have this gap. If the search fails, it is ``distance``.
+        It is searched near ``distance``, at which the shapes have this gap. If the search fails, it is ``distance``.
         """
         from scipy.optimize import brentq
 
@@ -153,7 +154,7 @@ class Line:
 
         gap, slack = over(distance), 2.0 * _ROUND_OFF * self._size + self._slack
         if gap == 0.0 or abs(gap) > _NEAR * self._size + self._slack:
-            # the features do not face each other, so their gap has no meaning: the distance of the solids is the result
+            # the features do not face each other, so their gap has no meaning: the distance of the shapes is the result
             return distance
         step = np.copysign(max(abs(gap), 1e-16 * self._size), gap)
         while abs(step) < _GRAZING * slack:

@@ -10,12 +10,12 @@ from typing import Any, final
 import numpy as np
 
 from nonsmooth.checks import check_kind
-from nonsmooth.errors import InvalidInput, NoDistance
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.queries.pair import ShapePair, shape_pair
 from nonsmooth.queries.places import HERE, BodyFrames, read_place
-from nonsmooth.queries.result import EXACT, DistanceResult
+from nonsmooth.queries.result import DistanceResult
 
 Carried = Sequence[Sequence[Shape]]
 """The shapes of every frame of a body."""
@@ -31,8 +31,6 @@ class BodyPair:
         Shapes of the frames of each body.
     by : str, optional
         Method (:class:`nonsmooth.queries.pair.ShapePair`).
-    quick : bool
-        True to use the solids of the shapes, if both have one, and not their contacts.
 
     Raises
     ------
@@ -42,15 +40,15 @@ class BodyPair:
         The library is not installed.
     """
 
-    def __init__(self, first: Carried, second: Carried, by: str | None = None, quick: bool = False) -> None:
+    def __init__(self, first: Carried, second: Carried, by: str | None = None) -> None:
         sides = [
             [(frame, shape) for frame, shapes in enumerate(carried) for shape in shapes] for carried in (first, second)
         ]
         if not all(sides):
             raise InvalidInput("distance", "needs bodies that carry shapes", None, "Without a shape nothing is near.")
         if by is not None:
-            check_kind("distance: by", by, str, 'For example "exact", or leave it out.')
-        self._by, self._quick = by, quick
+            check_kind("distance: by", by, str, 'For example "fcl", or leave it out.')
+        self._by = by
         numbered = [
             ((i, j), frame, other, one, two)
             for i, (frame, one) in enumerate(sides[0])
@@ -69,7 +67,7 @@ class BodyPair:
 
     def _pair(self, i: int, j: int, one: Shape, two: Shape) -> ShapePair:
         if (i, j) not in self._pairs:
-            self._pairs[i, j] = shape_pair(one, two, self._by, self._quick)
+            self._pairs[i, j] = shape_pair(one, two, self._by)
         return self._pairs[i, j]
 
     def at(self, first: Sequence[Place], second: Sequence[Place]) -> DistanceResult:
@@ -78,7 +76,7 @@ class BodyPair:
         Raises
         ------
         NoDistance
-            No method gives a distance there.
+            As :meth:`nonsmooth.queries.pair.ShapePair.at`.
         """
         # lower bound of the gap of each pair: the gap of the bounding spheres about the origins of their frames
         least = [0.0]
@@ -88,24 +86,14 @@ class BodyPair:
                 for _, frame, other, one, two in self._numbered
             ]
         best: DistanceResult | None = None
-        missing: NoDistance | None = None
         for number in sorted(range(len(least)), key=least.__getitem__):
             if best is not None and least[number] > best.gap:
                 break
             shapes, frame, other, one, two = self._numbered[number]
-            try:
-                found = self._pair(*shapes, one, two).at(first[frame], second[other])
-            except NoDistance as error:
-                # by="exact", a pair without features that face each other has no distance; other pairs may have one
-                if self._by != EXACT:
-                    raise
-                missing = error
-                continue
+            found = self._pair(*shapes, one, two).at(first[frame], second[other])
             if best is None or found.gap < best.gap:
                 best = replace(found, shapes=shapes)
-        if best is None:
-            assert missing is not None
-            raise missing
+        assert best is not None
         return best
 
 
@@ -123,8 +111,8 @@ def distance(
         body or of the shape.  None, the default, is the origin without rotation; for a driven body or a mechanism it is
         the pose at t = 0.
     by : str, optional
-        Method: "exact", "planes" or the name of a library ("fcl", "coal"), as an independent check.  By default the
-        best method that knows the shapes; ``how`` names it.
+        Method: "pair", the default, or the name of a library ("fcl", "coal"), as an independent check.  Shapes without
+        convex parts or a surface are left to a library; ``how`` names the method.
 
     Returns
     -------
@@ -137,7 +125,7 @@ def distance(
         An argument is neither a body nor a shape, a pose is wrong, or no method, or not the method `by`, supports the
         shapes.
     NoDistance
-        No method, or not the method `by`, gives a distance at these poses.
+        A library computes the distance, and the shapes overlap, or it contradicts support functions.
     MissingPackagesError
         The library `by` is not installed.
     """

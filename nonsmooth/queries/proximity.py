@@ -81,7 +81,7 @@ def proximity(system: System, within: float | None = None) -> tuple[NearPair, ..
     for i, j in near_bodies(bodies, places, margins):
         if not any(math.isfinite(shape.extent) for k in (i, j) for shapes in bodies[k].frames for shape in shapes):
             continue
-        pair = BodyPair(bodies[i].frames, bodies[j].frames, quick=True)
+        pair = BodyPair(bodies[i].frames, bodies[j].frames)
         gap = pair.at(places[i], places[j])
         size = min(sizes[i], sizes[j])
         least = float(touching(size))

@@ -7,8 +7,8 @@ from typing import final
 
 from nonsmooth.interfaces.solid import Vector
 
-EXACT, PLANES = "exact", "planes"
-"""Names of the methods that need no library, for ``DistanceResult.how``."""
+PAIR = "pair"
+"""Name of the method that needs no library, for ``DistanceResult.how``."""
 
 
 @final
@@ -19,16 +19,17 @@ class DistanceResult:
     Attributes
     ----------
     gap : float
-        Distance; if they overlap, minus the length of a translation that separates them [m].
+        Distance; if they overlap, minus the length of a translation along ``normal`` that separates them [m].
     lower, upper : float
-        Bounds of the gap [m]; if a library computed the gap, the gap minus and plus the error bound of the library.
+        Bounds of the gap [m]. Two planes normal to ``normal`` prove the lower bound. The distance of ``first`` and
+        ``second`` is the upper bound, or minus the depth of an overlap that is proved. If a library computed the gap,
+        its error is subtracted and added.
     first, second : Vector
         Point of each body that is nearest to the other body, or deepest in it, in world axes [m], shape [3].
     normal : Vector
         Unit vector from the first to the second, shape [3].
     how : str
-        Method: "exact" for the contact kinematics of the pair; "planes" for planes that separate the solids or bound
-        their overlap; or the name of a library.
+        Method: "pair" for the search with the convex parts or triangles of the pair, or the name of a library.
     shapes : tuple of int
         Number of the shape of each body, counted through all of its frames.
     """

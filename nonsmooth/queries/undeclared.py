@@ -19,6 +19,7 @@ from nonsmooth.interfaces.solid import Vector
 from nonsmooth.notices import warn
 from nonsmooth.queries.distance import BodyPair
 from nonsmooth.queries.near import Ties, near_bodies, size_of, touching
+from nonsmooth.solids.pieces import Pieces
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.system import System
 
@@ -192,7 +193,7 @@ class Undeclared:
         bodies = self.system.bodies
         sizes = [size for size in (size_of(bodies[i]), size_of(bodies[j])) if math.isfinite(size)]
         try:
-            gap = BodyPair(bodies[i].frames, bodies[j].frames, quick=True).at(places[i], places[j]).gap
+            gap = BodyPair(bodies[i].frames, bodies[j].frames).at(places[i], places[j]).gap
         except (InvalidInput, NoDistance):
             # no method gives the distance of two unbounded or of unsupported shapes: with 0 the pair gets no warning
             return 0.0
@@ -213,28 +214,25 @@ class Undeclared:
 
 
 def _overlap(one: Body, places: Sequence[Place], two: Body, others: Sequence[Place]) -> float:
-    """Lower bound of the depth to which solids of two bodies overlap [m]; 0 if they are apart or merely touch.
+    """Lower bound of the depth to which bounded shapes of two bodies overlap [m]; 0 if they are apart or merely touch.
 
     An overlap within the tolerance is treated as touching.
     """
-    for a, b in itertools.product(_solids(one, places), _solids(two, others)):
-        (low, high), (below, above) = a[0].bounds, b[0].bounds
+    for (a, size), (b, other) in itertools.product(_placed(one, places), _placed(two, others)):
+        (low, high), (below, above) = a.bounds, b.bounds
         if np.any(low > above) or np.any(below > high):
             continue
-        allowed = max(1e-9, 1e-6 * min(a[1], b[1])) + a[0].solid.set_back + b[0].solid.set_back
-        way = 0.5 * (below + above - low - high)
-        away = float(np.linalg.norm(way))
-        found = overlap(a[0], b[0], allowed, way / away if away > 0.0 else np.array([0.0, 0.0, 1.0]))
+        found = overlap(a, b, float(touching(min(size, other))))
         if found > 0.0:
             return found
     return 0.0
 
 
-def _solids(body: Body, places: Sequence[Place]) -> list[tuple[Placed, float]]:
-    """Solids of a body, with its frames at given places, and the extents of their shapes [m]."""
+def _placed(body: Body, places: Sequence[Place]) -> list[tuple[Placed, float]]:
+    """Bounded shapes of a body, with its frames at given places, and their extents [m]."""
     return [
-        (Placed(solid, *place), shape.extent)
+        (Placed(pieces, *place), shape.extent)
         for place, shapes in zip(places, body.frames, strict=True)
         for shape in shapes
-        if (solid := shape.solid) is not None
+        if math.isfinite(shape.extent) and (pieces := Pieces.of(shape)) is not None
     ]

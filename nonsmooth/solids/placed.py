@@ -1,151 +1,180 @@
-"""Solids at their places in the world, and the overlap of two of them."""
+"""Shapes at their places in the world, and the pairs of their pieces that are near each other."""
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from nonsmooth.interfaces.solid import Piece, SolidRegion, Vector
-from nonsmooth.solids.overlap import depth
+from nonsmooth.interfaces.distance_backend import Place
+from nonsmooth.interfaces.solid import Vector
+from nonsmooth.solids.measure import Measured, measure
+from nonsmooth.solids.pieces import Pieces
+
+_ENTRIES = 1_000_000
+"""Largest number of pairs of pieces whose boxes are compared at once, so that they take tens of megabytes."""
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Placed:
-    """A solid in the world.
+    """Pieces of a shape in the world.
 
     Attributes
     ----------
-    solid : SolidRegion
-        The solid.
+    pieces : Pieces
+        The pieces of the shape.
     position : Vector
         Origin of its frame [m], shape [3].
     rotation : Vector
         Axes of its frame as columns, shape [3, 3].
     """
 
-    solid: SolidRegion
+    pieces: Pieces
     position: Vector
     rotation: Vector
 
+    @property
+    def place(self) -> Place:
+        """Position and rotation."""
+        return self.position, self.rotation
+
     def moved(self, way: Vector) -> Placed:
-        """Copy of the placed solid after a translation ``way`` [m], shape [3]."""
+        """Copy of the placed shape after a translation ``way`` [m], shape [3]."""
         return replace(self, position=self.position + way)
 
-    @functools.cached_property
+    @property
     def bounds(self) -> tuple[Vector, Vector]:
-        """Lower and upper corner of a box along the world axes that contains the solid [m], shape [3] each."""
-        return _box(*self.solid.bounds, self.rotation, self.position)
-
-    def support(self, direction: Vector) -> Vector:
-        """Point that lies farthest along a direction [m], shape [3]."""
-        return np.asarray(self.position + self.rotation @ self.solid.support(direction @ self.rotation))
+        """Lower and upper corner of a box along the world axes that contains the shape [m], shape [3] each."""
+        low, high = self._boxes(*(corner[None, :] for corner in self.pieces.bounds))
+        return low[0], high[0]
 
     @property
     def inner(self) -> Vector:
-        """Points of the solid that are as far inside as possible [m], in world axes, shape [n, 3].
+        """Points deep inside of the shape [m], in world axes, shape [n, 3]."""
+        return self.in_world(self.pieces.inner)
 
-        They decide whether this solid is completely inside a hollow one.
-        """
-        return self.position + self.solid.inner @ self.rotation.T
+    def in_world(self, points: Vector) -> Vector:
+        """Points of the frame of the body in world axes [m], shape [n, 3]."""
+        return np.asarray(self.position + points @ self.rotation.T)
 
     def holds(self, point: Vector, margin: float) -> bool:
-        """True if the solid is hollow and a point is inside of it, more than ``margin`` [m] below its boundary."""
-        return self.solid.holds(self.rotation.T @ (point - self.position), margin)
+        """True if the shape has a surface, and a point is inside of it, more than ``margin`` [m] below it."""
+        surface = self.pieces.surface
+        return surface is not None and surface.holds(self.rotation.T @ (point - self.position), margin)
 
-    def pieces(self, low: Vector, high: Vector) -> list[Piece]:
-        """Pieces that may reach into the box between two corners [m], in world axes."""
-        inverse = self.rotation.T
-        box = _box(low, high, inverse, -inverse @ self.position)
-        return [self._in_world(piece) for piece in self.solid.pieces(*box)]
+    def near(self, low: Vector, high: Vector) -> NDArray[np.int64]:
+        """Numbers of the pieces that may reach into the box between two corners in the world [m], shape [3] each."""
+        middle = self.rotation.T @ (0.5 * (low + high) - self.position)
+        half = np.abs(self.rotation.T) @ (0.5 * (high - low))
+        return self.pieces.near(middle - half, middle + half)
 
-    def _in_world(self, piece: Piece) -> Piece:
-        place, axes, support = self.position, self.rotation, piece.support
+    def boxes(self, numbers: NDArray[np.int64]) -> tuple[Vector, Vector]:
+        """Corners of boxes along the world axes that contain some pieces [m], shape [n, 3] each."""
+        return self._boxes(*self.pieces.boxes(numbers))
 
-        def turned(direction: Vector) -> Vector:
-            return np.asarray(place + axes @ support(direction @ axes))
+    def _boxes(self, low: Vector, high: Vector) -> tuple[Vector, Vector]:
+        middle, half = self.in_world(0.5 * (low + high)), (0.5 * (high - low)) @ np.abs(self.rotation.T)
+        return middle - half, middle + half
 
-        return Piece(turned, place + axes @ piece.place, tuple(axes @ normal for normal in piece.normals))
+
+def measured(one: Placed, two: Placed, i: int, j: int) -> Measured:
+    """Distance of piece ``i`` of the first shape and piece ``j`` of the second, or the depth of their overlap."""
+    return measure(one.pieces.piece(i), one.place, two.pieces.piece(j), two.place)
 
 
-def overlap(one: Placed, two: Placed, tolerance: float, normal: Vector) -> float:
-    """Lower bound of the least translation that separates two solids [m]; 0 if it is within the tolerance.
+def measured_hulls(one: Placed, two: Placed) -> Measured:
+    """Distance of the convex parts that hold two shapes, one of which may be unbounded, or the depth of an overlap."""
+    found = (measure(a, one.place, b, two.place) for a in one.pieces.hull for b in two.pieces.hull)
+    return min(found, key=lambda each: each.separation)
+
+
+def near_pairs(
+    one: Placed, two: Placed, reach: float = 0.0, way: Vector | None = None
+) -> Iterator[tuple[int, int, float]]:
+    """Pairs of pieces of two bounded shapes whose boxes are at most ``reach`` apart, the nearest boxes first.
 
     Parameters
     ----------
     one, two : Placed
-        The solids.
+        The shapes.
+    reach : float
+        Largest distance of the boxes of a pair [m].
+    way : Vector, optional
+        Translation of the first shape [m], shape [3]. The boxes of its pieces then contain the whole path.
+
+    Yields
+    ------
+    i, j : int
+        Numbers of the pieces.
+    apart : float
+        Distance of their boxes [m].
+    """
+    path = np.zeros(3) if way is None else way
+    back, ahead = np.minimum(path, 0.0), np.maximum(path, 0.0)
+    low, high = two.bounds
+    first = one.near(low - ahead - reach, high - back + reach)
+    if len(first) == 0:
+        return
+    low, high = one.boxes(first)
+    low, high = low + back, high + ahead
+    second = two.near(np.min(low, axis=0) - reach, np.max(high, axis=0) + reach)
+    below, above = two.boxes(second)
+    found = []
+    rows = max(1, _ENTRIES // max(1, len(second)))
+    for start in range(0, len(first), rows):
+        some = slice(start, start + rows)
+        between = np.maximum(below[None] - high[some, None], low[some, None] - above[None])
+        apart = np.linalg.norm(np.maximum(between, 0.0), axis=2)
+        i, j = np.nonzero(apart <= reach)
+        found.append((first[some][i], second[j], apart[i, j]))
+    i, j, apart = (np.concatenate(each) for each in zip(*found, strict=True))
+    order = np.argsort(apart, kind="stable")
+    yield from zip(i[order].tolist(), j[order].tolist(), apart[order].tolist(), strict=True)
+
+
+def overlap(one: Placed, two: Placed, tolerance: float) -> float:
+    """Lower bound of the least translation that separates two bounded shapes [m]; 0 if it is within the tolerance.
+
+    Parameters
+    ----------
+    one, two : Placed
+        The shapes.
     tolerance : float
         Largest overlap that is treated as touching [m].
-    normal : Vector
-        Unit vector from the first to the second, shape [3]. If a plane across it separates them, the result is 0 at
-        once.
     """
-    if float(normal @ (one.support(normal) - two.support(-normal))) <= tolerance:
+    if measured_hulls(one, two).separation >= -tolerance:
         return 0.0
-    for a, b in near_pairs(one, two):
-        found = depth(a, b, tolerance)
-        if found > 0.0:
-            return found
+    for i, j, _ in near_pairs(one, two):
+        found = measured(one, two, i, j)
+        if found.upper < -tolerance:
+            return -found.upper
     return nested(one, two, tolerance)
 
 
 def nested(one: Placed, two: Placed, tolerance: float) -> float:
-    """Lower bound of the depth [m] to which a solid is inside a hollow one; 0 if neither solid is inside the other.
+    """Lower bound of the depth [m] to which a shape is inside a surface; 0 if neither shape is inside the other.
 
-    A depth of at most ``tolerance`` [m] is returned as 0, too.  The pieces of the two solids must not overlap by more
+    A depth of at most ``tolerance`` [m] is returned as 0, too.  The pieces of the two shapes must not overlap by more
     than ``tolerance``.
     """
-    if not (one.solid.hollow or two.solid.hollow):
+    if one.pieces.surface is None and two.pieces.surface is None:
         return 0.0
-    deepest, pairs = 0.0, list(near_pairs(one, two, tolerance))
-    for outer, inner, near in ((one, two, [b for _, b in pairs]), (two, one, [a for a, _ in pairs])):
-        if outer.solid.hollow:
-            # if the boundaries do not cross, a solid is wholly inside or wholly outside: its inner points decide. If
-            # the boundaries coincide in some region, a solid may enter beside this region. So points of the pieces that
-            # are near the other solid decide, too
-            places = np.unique(np.array([*inner.inner, *(piece.place for piece in near)]), axis=0)
-            low, high = outer.bounds
-            for place in places[np.all((places > low) & (places < high), axis=1)]:
-                margin = max(deepest, tolerance)
-                while outer.holds(place, margin):
-                    deepest, margin = margin, 2.0 * margin
+    pairs = list(near_pairs(one, two, tolerance))
+    near = {0: {i for i, _, _ in pairs}, 1: {j for _, j, _ in pairs}}
+    deepest = 0.0
+    for outer, inner, numbers in ((one, two, near[1]), (two, one, near[0])):
+        # if the boundaries do not cross, a shape is wholly inside or wholly outside: its inner points decide. If the
+        # boundaries coincide in some region, a shape may enter beside this region. So points of the pieces that are
+        # near the other shape decide, too
+        middles = [inner.pieces.piece(number).middle for number in sorted(numbers)]
+        places = np.unique(np.array([*inner.inner, *inner.in_world(np.reshape(middles, (-1, 3)))]), axis=0)
+        low, high = outer.bounds
+        for place in places[np.all((places > low) & (places < high), axis=1)]:
+            margin = max(deepest, tolerance)
+            while outer.holds(place, margin):
+                deepest, margin = margin, 2.0 * margin
     return deepest
-
-
-def near_pairs(
-    one: Placed, two: Placed, margin: float = 0.0, way: Vector | None = None
-) -> Iterator[tuple[Piece, Piece]]:
-    """Pairs of pieces of two solids whose boxes overlap or are at most ``margin`` apart.
-
-    Parameters
-    ----------
-    one, two : Placed
-        The solids.
-    margin : float
-        Largest distance of the boxes of a pair [m].
-    way : Vector, optional
-        Translation of the first solid [m], shape [3]. The boxes of its pieces then contain the whole path.
-    """
-    path = np.zeros(3) if way is None else way
-    low, high = two.bounds
-    mine = one.bounds
-    swept = mine[0] + np.minimum(path, 0.0) - margin, mine[1] + np.maximum(path, 0.0) + margin
-    if np.any(swept[0] > high) or np.any(swept[1] < low):
-        return
-    for a in one.pieces(low - np.maximum(path, 0.0) - margin, high - np.minimum(path, 0.0) + margin):
-        extremes = [[float(a.support(sign * axis)[i]) for i, axis in enumerate(np.eye(3))] for sign in (-1.0, 1.0)]
-        box = extremes[0] + np.minimum(path, 0.0) - margin, extremes[1] + np.maximum(path, 0.0) + margin
-        if np.all(box[0] <= high) and np.all(box[1] >= low):
-            for b in two.pieces(*box):
-                yield a, b
-
-
-def _box(low: Vector, high: Vector, axes: Vector, place: Vector) -> tuple[Vector, Vector]:
-    """Corners of a box along the axes of one frame that contains a box along the axes of another frame."""
-    middle, half = place + axes @ (0.5 * (low + high)), np.abs(axes) @ (0.5 * (high - low))
-    return middle - half, middle + half

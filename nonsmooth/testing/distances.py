@@ -115,7 +115,7 @@ def _planes(backend: DistanceBackend) -> None:
     """The two planes perpendicular to the normal that touch the convex solids are as far apart as the solids."""
     for one in _answers(backend):
         first, second = one.shapes[0].solid, one.shapes[1].solid
-        if first is None or second is None or first.hollow or second.hollow:
+        if first is None or second is None or first.surface or second.surface:
             continue
         n, (place, axes), (other, turned) = one.found.normal, *one.places
         low = other + turned @ second.support(-turned.T @ n)

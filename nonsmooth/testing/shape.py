@@ -80,8 +80,8 @@ def _solid(shape: Shape) -> None:
             raise Broken(f"another point is farther along {n.tolist()}", "support", points[i].tolist())
         if abs(float(n @ solid.support(3.0 * n)) - reach[i, i]) > none * size:
             raise Broken("it must not depend on the length of the direction", "direction", n.tolist())
-        if np.min((points[i] - solid.inner) @ n) < -none * size:
-            raise Broken("a point inside must not lie beyond it", "inner", solid.inner.tolist())
+        if solid.surface is not None and np.min((points[i] - solid.surface.inner) @ n) < -none * size:
+            raise Broken("a point inside must not lie beyond it", "inner", solid.surface.inner.tolist())
     low, high = solid.bounds
     if np.any(points < low - none) or np.any(points > high + none):
         raise Broken("they must hold all its points", "bounds", (low.tolist(), high.tolist()))

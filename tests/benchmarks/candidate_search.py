@@ -20,10 +20,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bodies import Box, MeshMesh, MeshSwept, TriangleMesh, Triangles
-from nonsmooth.binding.call import pair_caller
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Shape
 from tests.bodies.meshes.parts import box, hills, torus
+from tests.contact_calls import pair_caller
 
 _POSES, _REACH = 40, 0.005
 

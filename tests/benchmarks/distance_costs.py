@@ -1,7 +1,7 @@
 """What a question for a distance costs: ``python -m tests.benchmarks.distance_costs`` prints the table of the docs.
 
-For two shapes of a centimetre: how the answer is found, what the first question takes, in which contacts are made and
-the trees of libraries built, and a later one, the least of several; of all ways that tell it.
+For two shapes of a centimetre: what the first question takes, in which search trees are built, and a later one, the
+least of several; and FCL.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def line(name: str, first: Shape, second: Shape, place: tuple[float, float, floa
     found = ShapePair(first, second).at(HERE, (np.array(place), np.eye(3)))
     made = 1e3 * (time.perf_counter() - began)
     ways = []
-    for by in ("planes", "fcl"):
+    for by in ("fcl",):
         try:
             ns.distance(first, second, at=(None, place), by=by)
         except (ns.InvalidInput, ns.NoDistance):
@@ -65,13 +65,13 @@ def line(name: str, first: Shape, second: Shape, place: tuple[float, float, floa
             continue
         ways.append(f"{_least(lambda by=by: ns.distance(first, second, at=(None, place), by=by)):.2f}")  # type: ignore[misc]
     later = _least(lambda: ns.distance(first, second, at=(None, place)))
-    cells = name, f"{1e3 * found.gap:.2f}", found.how, f"{found.error:.0e}", f"{made:.0f}", f"{later:.2f}", *ways
+    cells = name, f"{1e3 * found.gap:.2f}", f"{found.error:.0e}", f"{made:.0f}", f"{later:.2f}", *ways
     return "| " + " | ".join(cells) + " |"
 
 
 def main() -> None:
     """Print the table in Markdown."""
-    titles = "pair", "gap [mm]", "how", "error [m]", "first [ms]", "later [ms]", "planes [ms]", "FCL [ms]"
+    titles = "pair", "gap [mm]", "error [m]", "first [ms]", "later [ms]", "FCL [ms]"
     print("| " + " | ".join(titles) + " |")
     print("|---" * len(titles) + "|")
     # what is compiled once for a machine is none of the cost

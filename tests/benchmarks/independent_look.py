@@ -1,8 +1,8 @@
 """Do others find our gaps?  ``python -m tests.benchmarks.independent_look [PAIR] COUNT`` looks at COUNT poses a pair.
 
 For every pair of kinds of bodies, of half-sizes of 4 to 10 mm, at random places and turns, apart, near and far: the
-least gap of the contacts whose features face each other, beside planes that prove the distance by support functions
-alone, FCL, and coal where it is installed.  PAIR is one of them, or a kind, as "mesh", for its pairs with all others.
+least gap of the contacts whose features face each other, beside the distance of their convex parts, FCL, and coal where
+it is installed.  PAIR is one of them, or a kind, as "mesh", for its pairs with all others.
 
 Sharp edges and corners have contacts where their nearest features stay the nearest under small motions: a face and a
 corner, edges that cross.  Of a corner beside a corner or an edge there is none, as bodies that meet there meet by
@@ -33,6 +33,7 @@ from nonsmooth.queries.result import DistanceResult
 from nonsmooth.rotations import rotation
 from tests.benchmarks import touches
 from tests.benchmarks.contact_accuracy import NAMES
+from tests.benchmarks.contact_gaps import Contacts
 from tests.benchmarks.mesh_pairs import any_mesh
 from tests.benchmarks.swept_pairs import capsule, hull
 
@@ -111,9 +112,8 @@ class _Asked:
 
     def __init__(self, first: Shape, second: Shape) -> None:
         self.shapes = first, second
-        self.ours = ShapePair(first, second, "exact")
-        self._bounded = first.solid is not None and second.solid is not None
-        self._planes = ShapePair(first, second, "planes") if self._bounded else None
+        self.ours = Contacts(first, second)
+        self._pair = ShapePair(first, second)
         self.libraries: dict[str, ShapePair] = {}
         for name in ("fcl", "coal") if Coal().installed else ("fcl",):
             try:
@@ -122,16 +122,8 @@ class _Asked:
                 continue
 
     def proved(self, one: Place, two: Place) -> DistanceResult:
-        """Return the distance by support functions alone, over a plane the height of the lowest point."""
-        if self._planes is not None:
-            return self._planes.at(one, two)
-        plane, other = self.shapes
-        assert isinstance(plane, Plane)
-        assert other.solid is not None
-        n = one[1][:, 2]
-        lowest = two[0] + two[1] @ other.solid.support(-two[1].T @ n)
-        gap = float(n @ (lowest - one[0])) - plane.height
-        return DistanceResult(gap, gap, gap, lowest - gap * n, lowest, n, "planes")
+        """Return the distance by support functions alone."""
+        return self._pair.at(one, two)
 
 
 def _corners(shape: Shape, place: Place, point: Array) -> Callable[[Array], Array]:
@@ -205,10 +197,8 @@ def _poses(asked: _Asked, rng: Generator) -> Iterator[tuple[Place, Place, Distan
 
 def _look(asked: _Asked, one: Place, two: Place, found: DistanceResult, tally: Tally) -> None:
     tally.poses += 1
-    try:
-        ours = asked.ours.at(one, two).gap
-    except NoDistance:
-        ours = np.inf
+    facing = asked.ours.least(one, two)
+    ours = np.inf if facing is None else facing.gap
     slack = sum(shape.solid.set_back for shape in asked.shapes if shape.solid is not None) + WRONG
     if found.lower - slack <= ours <= found.upper + slack:
         tally.told += 1

@@ -18,7 +18,7 @@ import nonsmooth as ns
 from nonsmooth.errors import MissingPackagesError
 from tests.queries.shapes import SHAPES, Pose, pose
 
-WAYS = None, None, None, "exact", "planes", "fcl", "coal"
+WAYS = None, None, None, "pair", "fcl", "coal"
 _NONE = (np.full(3, np.nan), np.array([1.0, 0.0, 0.0, 0.0])), (np.zeros(3), np.array([1.0, 1.0, 0.0, 0.0]))
 
 

@@ -28,7 +28,6 @@ from bodies import (
 from bodies.contacts.mesh.apex_mesh import ApexMesh
 from bodies.contacts.surface import patch_near
 from bodies.contacts.surface.mesh_point import MeshPoint, PointMesh
-from nonsmooth.binding.call import pair_caller
 from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
@@ -38,6 +37,7 @@ from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, bracket, hills, torus
 from tests.bodies.polytopes import random_shapes
 from tests.bodies.surfaces import distances, is_inside, segment_distance
+from tests.contact_calls import pair_caller
 
 Array = NDArray[Any]
 BRACKET = TriangleMesh(Triangles(*bracket(), "bracket"), 2e-3, -1e-3, 3e-3, 0.8, 0.36, -0.48)

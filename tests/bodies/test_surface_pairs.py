@@ -33,15 +33,15 @@ from bodies.contacts.mesh.frustum_mesh import FrustumMesh
 from bodies.contacts.mesh.mesh_mesh import MeshMesh
 from bodies.contacts.mesh.mesh_swept import MeshSwept
 from bodies.contacts.surface import patch_near, surface_pairs
-from nonsmooth.binding.call import candidate_caller, pair_caller
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ConvexShape, Shape
-from nonsmooth.queries.exact import Contacts
+from tests.benchmarks.contact_gaps import Contacts
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import box, channel, hills, torus
+from tests.contact_calls import candidate_caller, pair_caller
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="compiled runs take seconds, plain ones minutes")
 

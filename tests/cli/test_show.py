@@ -107,8 +107,8 @@ def test_proximity_of_a_file(call: Call, tmp_path: Path) -> None:
     assert status == 0, errors
     assert errors == ""
     rows = [line.split() for line in output.splitlines()[3:]]
-    assert rows[0] == ["-0.001", "overlapping", "low", "and", "high", "planes", "none"]
-    assert rows[1] == ["0", "touching", "floor", "and", "low", "exact", "declared"]
+    assert rows[0] == ["-0.001", "overlapping", "low", "and", "high", "pair", "none"]
+    assert rows[1] == ["0", "touching", "floor", "and", "low", "pair", "declared"]
     assert "generalised and plate 1" in call("show", "woodpecker", "--proximity")[1]
     assert (
         call("show", "dice_throw", "--proximity")[1] == "dice_throw: no two bodies are near each other at the start.\n"

@@ -45,11 +45,10 @@ from nonsmooth.interfaces import Body, ContactKinematics, Shape
 from nonsmooth.model.assembly import lay
 from nonsmooth.plugins import registry
 from nonsmooth.queries.undeclared import UndeclaredContact
-from nonsmooth.solids.overlap import penetration
-from nonsmooth.solids.placed import Placed, near_pairs
-from nonsmooth.solids.separation import nearest
 from nonsmooth.solution.checks import contacts_without_body_check
 from nonsmooth.solution.solution import Solution
+from tests.solids.depth import penetration
+from tests.solids.separation import Piece, nearest, piece_of
 
 
 def _mesh(mesh: Any) -> Body:
@@ -255,16 +254,16 @@ def test_an_overlap_is_told_where_there_is_one_and_nowhere_else(kinds: tuple[str
     if kinds == ("ball", "ball"):
         assert n == 0
         return
-    solids = [body.frames[0][0].solid for body in system.bodies]
+    shapes = [body.frames[0][0] for body in system.bodies]
     y = memory[owners.Island.y][:14]
 
-    def at(distance: float, pose: tuple[np.ndarray, np.ndarray, np.ndarray]) -> tuple[Any, Any]:
+    def at(distance: float, pose: tuple[np.ndarray, np.ndarray, np.ndarray]) -> tuple[Piece, Piece]:
         y[:3], y[3:7], y[7:10], y[10:14] = 0.0, pose[0], distance * pose[2], pose[1]
         memory[owners.Island.time] = rng.uniform()
         model.list_contacts()
         model.evaluate()
-        placed = [Placed(solid, *place[0]) for solid, place in zip(solids, model.places(), strict=True)]  # type: ignore[arg-type]
-        return next(iter(near_pairs(placed[0], placed[1], 1.0)))
+        one, two = (piece_of(shape, *place[0]) for shape, place in zip(shapes, model.places(), strict=True))
+        return one, two
 
     for pose in _poses(rng, 4):
         low, high = 0.0, 0.3

@@ -43,9 +43,11 @@ from nonsmooth.errors import MissingPackagesError
 from nonsmooth.histories.distances import distances
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
+from nonsmooth.rotations import rotation
 from tests.bodies.given_shapes import EllipsoidSum, RoundedLens
 from tests.bodies.meshes.parts import bracket, hills
 from tests.queries.shapes import SHAPES, UNBOUNDED, Pose, pose
+from tests.solids.separation import nearest, piece_of
 
 PAIRS = [pair for pair in itertools.combinations_with_replacement(SHAPES, 2) if not set(pair) <= set(UNBOUNDED)]
 
@@ -64,14 +66,14 @@ def _turned(one: Pose, turn: Rotation, shift: np.ndarray) -> Pose:
 @pytest.mark.fast_cases(12)
 @pytest.mark.parametrize(("one", "two"), PAIRS)
 def test_every_pair_has_an_answer(one: str, two: str) -> None:
-    """Near, far and overlapping: it says how, lies between its bounds, and hangs on no order and no frame."""
+    """Near, far and overlapping: it says how, lies between its bounds, and depends on no order and no frame."""
     rng = np.random.default_rng([5, *f"{one}-{two}".encode()])
     first, second = SHAPES[one], SHAPES[two]
     turn, shift = Rotation.random(random_state=rng), rng.uniform(-0.1, 0.1, 3)
     for reach in (0.004, 0.012, 0.05):
         at = pose(rng, reach), pose(rng, reach)
         found = ns.distance(first, second, at=at)
-        assert found.how in ("exact", "planes", "fcl")
+        assert found.how == "pair"
         assert found.lower <= found.gap <= found.upper
         assert np.linalg.norm(found.normal) == pytest.approx(1.0, abs=1e-12)
         # what is told of a deep overlap lies between bounds, and what answers is the search's affair
@@ -141,22 +143,21 @@ def test_two_boxes_along_the_axes(one: Any, two: Any, place: Any) -> None:
 @pytest.mark.slow
 @given(st.tuples(numbers, numbers, numbers), st.tuples(lengths, lengths, lengths))
 def test_a_point_and_a_box(place: Any, halves: Any) -> None:
-    """A point has no contacts with spheres and cylinders; planes answer, here beside a closed form."""
+    """A point has no contacts with spheres and cylinders, but a distance."""
     over = np.abs(place) - np.array(halves)
     exact = np.linalg.norm(np.maximum(over, 0.0)) if np.any(over > 0.0) else np.max(over)
-    for by in (None, "planes"):
-        found = ns.distance(Point(*place), Box(*halves), by=by)
-        assert found.gap == pytest.approx(exact, abs=1e-13)
+    found = ns.distance(Point(*place), Box(*halves))
+    assert found.gap == pytest.approx(exact, abs=1e-13)
     assert ns.distance(Point(*place), Sphere(0.01)).gap == pytest.approx(math.hypot(*place) - 0.01, abs=1e-5)
 
 
 def test_ways_agree_where_each_tells() -> None:
-    """Contacts, planes and libraries, at a place where each of them answers."""
+    """Convex parts and libraries, at a place where each of them answers."""
     box, ellipsoid, at = Box(0.01, 0.02, 0.03), Ellipsoid(0.01, 0.01, 0.02), (None, (0.025, 0.005, 0.01))
     exact = ns.distance(box, ellipsoid, at=at)
-    assert exact.how == "exact"
-    assert exact.error <= 1e-15
-    ways = ["exact", "planes", "fcl", *(["coal"] if Coal().installed else [])]
+    assert exact.how == "pair"
+    assert exact.error <= 1e-13
+    ways = ["pair", "fcl", *(["coal"] if Coal().installed else [])]
     for by in ways:
         found = ns.distance(box, ellipsoid, at=at, by=by)
         assert found.how == by
@@ -174,17 +175,14 @@ def test_a_cylinder_on_its_feet_touches_a_surface(build: Any) -> None:
     history = distances(ns.simulate(system, 0.5, sample_interval=0.01), ground, cylinder)
     assert np.count_nonzero(history["gap"] < 1e-9) > 5
     assert np.min(history["gap"]) > -1e-9
-    assert set(history["how"].tolist()) == {"exact"}
+    assert set(history["how"].tolist()) == {"pair"}
 
 
-def test_what_faces_is_no_distance_where_corners_are_nearer() -> None:
-    """Of two cubes corner to corner no contact faces; turned a little, one faces that is farther than the corners."""
+def test_corners_may_be_nearest() -> None:
+    """Two cubes corner to corner, whose contacts do not face each other."""
     one, two = Box(0.01, 0.01, 0.01), Box(0.01, 0.01, 0.01)
     found = ns.distance(one, two, at=(None, (0.03, 0.04, 0.05)))
-    assert found.how == "planes"
     assert found.gap == pytest.approx(math.hypot(0.01, 0.02, 0.03), abs=1e-15)
-    with pytest.raises(ns.NoDistance, match="Box and Box cannot be told by 'exact': no features of theirs face"):
-        ns.distance(one, two, at=(None, (0.03, 0.04, 0.05)), by="exact")
 
 
 def test_crossed_bars_have_a_way_out_though_nothing_faces() -> None:
@@ -217,10 +215,11 @@ def test_bodies_and_their_shapes() -> None:
     assert ns.distance(Ball(0.01), first, at=((0.1, 0.0, 0.0), None)).shapes == (0, 1)
     two = DrivenBody(Rest(), (Box(0.01, 0.01, 0.01), Sphere(0.01, z=0.03)))
     corner = Box(0.01, 0.01, 0.01, x=0.03, y=0.03, z=0.03)
-    # of the boxes no features face each other, of the sphere one does
-    assert ns.distance(two, corner, by="exact").shapes == (1, 0)
-    with pytest.raises(ns.NoDistance, match="Box and Box cannot be told by 'exact'"):
-        ns.distance(DrivenBody(Rest(), (Box(0.01, 0.01, 0.01),)), corner, by="exact")
+    # the sphere reaches up to 0.04 m, but only beside the corner, and so is farther from it than the box
+    apart = [ns.distance(shape, corner).gap for shape in two.frames[0]]
+    found = ns.distance(two, corner)
+    assert found.gap == min(apart)
+    assert found.shapes == (apart.index(min(apart)), 0)
     wall = DrivenBody(Rest(position=(0.0, 0.0, -1.0)), (HalfSpace(),))
     assert ns.distance(wall, Ball(0.25)).gap == pytest.approx(0.75, abs=1e-15)
     assert ns.distance(wall, Ball(0.25), at=((0.0, 0.0, 0.0), None)).gap == pytest.approx(-0.25, abs=1e-15)
@@ -232,15 +231,17 @@ def test_bodies_and_their_shapes() -> None:
 
 @pytest.mark.slow
 def test_a_mesh_with_too_many_features_for_contacts() -> None:
-    """A library answers, and says to what error."""
+    """It has a distance all the same, that which a library finds."""
     import trimesh
 
     solid = trimesh.creation.icosphere(3, 0.01)
     ball = TriangleMesh(Triangles(solid.vertices, solid.faces, "ball"))
     found = ns.distance(ball, ball, at=(None, (0.03, 0.001, 0.002)))
-    assert found.how == "fcl"
+    assert found.how == "pair"
     assert math.hypot(0.03, 0.001, 0.002) - 0.02 <= found.gap <= math.hypot(0.03, 0.001, 0.002) - 0.0195
-    assert 0.0 < found.error < 1e-7
+    assert 0.0 <= found.error < 1e-7
+    library = ns.distance(ball, ball, at=(None, (0.03, 0.001, 0.002)), by="fcl")
+    assert library.lower <= found.gap <= library.upper
 
 
 WRONG: dict[str, tuple[Any, Any, dict[str, Any], str]] = {
@@ -254,10 +255,8 @@ WRONG: dict[str, tuple[Any, Any, dict[str, Any], str]] = {
     "nan quaternion": (Sphere(0.1), Sphere(0.1), {"at": (None, ((0, 0, 0), (math.nan, 0, 0, 0)))}, "4 finite numbers"),
     "two planes": (Plane(), HalfSpace(), {}, "Two planes have no nearest points"),
     "two plates": (Plate(), Plate(), {}, "Two planes have no nearest points"),
-    "unknown way": (Sphere(0.1), Sphere(0.1), {"by": "exakt"}, "Did you mean 'exact'"),
-    "planes of a plane": (Plane(), Sphere(0.1), {"by": "planes"}, "at least one is bounded"),
+    "unknown way": (Sphere(0.1), Sphere(0.1), {"by": "pairs"}, "Did you mean 'pair'"),
     "plane by a library": (Plane(), Sphere(0.1), {"by": "fcl"}, "must be asked of shapes that it has a kind for"),
-    "no contacts": (Point(), Sphere(0.1), {"by": "exact"}, "No contact kinematics is installed"),
 }
 
 
@@ -283,15 +282,15 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
 @pytest.mark.parametrize("shape", [EllipsoidSum(), RoundedLens(), Egg(), MovedShape(Egg(), x=2e-3)], ids=repr)
 @pytest.mark.parametrize("other", ["plane", "point", "box", "cylinder", "ellipsoid", "mesh"])
 def test_shapes_of_users(shape: ConvexShape, other: str) -> None:
-    """What has nothing but farthest points is asked like all others; what contacts say is what planes prove."""
+    """What has nothing but farthest points is asked like all others; a search in Python agrees."""
     rng = np.random.default_rng([9, *other.encode()])
     for reach in (0.01, 0.02, 0.05):
         at = pose(rng, reach), pose(rng, reach)
         found = ns.distance(shape, SHAPES[other], at=at)
         assert found.lower <= found.gap <= found.upper
-        if found.gap > 0.0 and other != "plane":
-            assert found.how == ("planes" if other == "point" else "exact")
-            assert found.gap == pytest.approx(ns.distance(shape, SHAPES[other], at=at, by="planes").gap, abs=1e-12)
+        if found.gap > 0.0 and other not in ("plane", "mesh"):
+            one, two = (piece_of(each, p, rotation(q)) for each, (p, q) in zip((shape, SHAPES[other]), at, strict=True))
+            assert found.gap == pytest.approx(nearest(one, two, 1e-15).lower, abs=1e-12)
 
 
 def test_aligned_boxes_on_a_grid() -> None:
@@ -321,6 +320,7 @@ _CODE = """
 import numpy as np
 import nonsmooth as ns
 from nonsmooth.histories.distances import distances
+from tests.solids.separation import nearest, piece_of
 from tests.queries.shapes import SHAPES, UNBOUNDED, pose
 from tests.benchmarks.random_queries import ask
 

@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from bodies import Box, Sphere
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.queries.exact import Contacts
 from nonsmooth.queries.result import DistanceResult
 from tests.benchmarks import independent_look as independent
+from tests.benchmarks.contact_gaps import Contacts
 from tests.benchmarks.independent_look import DRAWN, PAIRS, look, table_pairs
 
 

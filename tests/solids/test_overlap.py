@@ -11,29 +11,19 @@ from scipy.spatial.transform import Rotation
 from bodies import Box, Cone, Disc, Point, Sphere
 from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.interfaces.solid import Piece
-from nonsmooth.solids.overlap import depth
-from nonsmooth.solids.placed import Placed
-from nonsmooth.solids.placed import overlap as overlap_of
-from nonsmooth.solids.separation import separation
+from nonsmooth.solids.pieces import Pieces
+from nonsmooth.solids.placed import Placed, measured_hulls, overlap
+from tests.solids.depth import penetration
 from tests.solids.kinds import KINDS, angle
+from tests.solids.separation import nearest, piece_of
 
 CONVEX = sorted(set(KINDS) - {"angle"})
 
 
 def _placed(shape: Shape, position: object = (0.0, 0.0, 0.0), rotation: Vector | None = None) -> Placed:
-    assert shape.solid is not None
-    return Placed(shape.solid, np.array(position, dtype=float), np.eye(3) if rotation is None else rotation)
-
-
-def overlap(one: Placed, two: Placed, tolerance: float) -> float:
-    """Return the overlap, looked at first across a vector that is none."""
-    return overlap_of(one, two, tolerance, np.array([1.0, 0.0, 0.0]))
-
-
-def _piece(placed: Placed) -> Piece:
-    (piece,) = placed.pieces(*placed.bounds)
-    return piece
+    pieces = Pieces.of(shape)
+    assert pieces is not None
+    return Placed(pieces, np.array(position, dtype=float), np.eye(3) if rotation is None else rotation)
 
 
 @pytest.mark.fast_cases(4)
@@ -43,20 +33,25 @@ def test_one_of_two_proofs_holds(pair: tuple[str, str]) -> None:
     rng = np.random.default_rng(4)
     for distance in (0.0, 0.008, 0.014, 0.02, 0.05):
         turns, way = Rotation.random(2, random_state=rng).as_matrix(), rng.normal(size=3)
-        bodies = [KINDS[kind](rng) for kind in pair]
-        one = _piece(_placed(bodies[0].frames[0][0], rotation=turns[0]))
-        two = _piece(_placed(bodies[1].frames[0][0], distance * way / np.linalg.norm(way), turns[1]))
-        deep, (apart, normal) = depth(one, two, 1e-9), separation(one, two, np.zeros(3), 0.0, 1e-12)
+        shapes = [KINDS[kind](rng).frames[0][0] for kind in pair]
+        places = np.zeros(3), distance * way / np.linalg.norm(way)
+        one, two = (piece_of(*each) for each in zip(shapes, places, turns, strict=True))
+        found = measured_hulls(*(_placed(*each) for each in zip(shapes, places, turns, strict=True)))
+        deep, apart, normal = -found.upper, found.separation, found.normal
         assert (deep > 0.0) != (apart > 0.0)
+        between = float(normal @ (two.support(-normal) - one.support(normal)))
+        assert between == pytest.approx(apart, rel=1e-12)
+        ways = rng.normal(size=(200, 3))
         if apart > 0.0:
-            between = float(normal @ (two.support(-normal) - one.support(normal)))
-            assert between == pytest.approx(apart, rel=1e-12)
             # nowhere more: the distance along any other direction is less
-            ways = rng.normal(size=(200, 3))
             others = [float(n @ (two.support(-n) - one.support(n))) / np.linalg.norm(n) for n in ways]
-            assert max(others) <= apart * (1.0 + 2e-3)
+            assert max(others) <= apart * (1.0 + 1e-12)
+            assert apart == pytest.approx(nearest(one, two, 1e-14).lower, abs=1e-12)
         else:
-            ways = rng.normal(size=(200, 3))
+            # no worse than the expanding polytope in Python
+            reference = penetration(one, two, 1e-12)
+            assert reference is not None
+            assert reference.lower * (1.0 - 1e-9) <= -apart <= reference.upper * (1.0 + 1e-9)
             assert all(float(n @ (one.support(n) - two.support(-n))) >= deep * np.linalg.norm(n) for n in ways)
 
 

@@ -15,6 +15,7 @@ from nonsmooth.interfaces import Body
 from nonsmooth.model.overlaps import check_overlaps
 from nonsmooth.placing.line import Line
 from nonsmooth.placing.probe import Probe
+from tests.engine.test_pairs import CONVEX
 from tests.solids.kinds import KINDS, angle, random_turn
 
 KNOWN = sorted(set(KINDS))
@@ -92,7 +93,7 @@ def test_what_overlaps_goes_back_to_the_last_free_place(build: Any) -> None:
     mesh, ball = angle(0.02), Ball(0.004)
     inside = ns.System([mesh, ball])
     inside.contact(mesh, ball, **laws)
-    centre = mesh.frames[0][0].solid.inner[0]  # type: ignore[union-attr]
+    centre = mesh.frames[0][0].solid.surface.inner[0]  # type: ignore[union-attr]
     ns.touching(inside, ball, position=(centre[0], centre[1], 0.0))
     assert inside.start(ball)[0][2] == pytest.approx(0.014, abs=1e-14)
 
@@ -108,3 +109,26 @@ def test_a_ball_that_just_misses_passes(build: Any) -> None:
     assert system.start(two)[0][2] == pytest.approx(0.05, abs=2e-6)
     ns.touching(system, two, position=(0.02 * (1.0 + 1e-9), 0.0, 0.2))
     assert system.start(two)[0][2] == pytest.approx(0.01, abs=1e-14)
+
+
+@pytest.mark.fast_cases(6)
+@pytest.mark.parametrize("pair", list(itertools.combinations_with_replacement(CONVEX, 2)), ids="-".join)
+def test_bodies_that_were_made_to_touch_start_in_contact(build: Any, pair: tuple[str, str]) -> None:
+    """Aligned along x and z, and turned at random: the distance and the least gap are zero, and a run begins."""
+    rng = np.random.default_rng([8, *"-".join(pair).encode()])
+    for way in (np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0]), *rng.normal(size=(2, 3))):
+        is_aligned = np.count_nonzero(way) == 1
+        way /= np.linalg.norm(way)
+        one, two = (CONVEX[kind]() for kind in pair)
+        system = ns.System([one, two], gravity=0.0)
+        system.contact(one, two, **build.laws())
+        turn = (1.0, 0.0, 0.0, 0.0) if is_aligned else tuple(random_turn(rng))
+        aside = np.zeros(3) if is_aligned else rng.uniform(-0.01, 0.01, 3)
+        ns.touching(system, two, position=aside - 0.3 * way, orientation=turn, direction=way)
+        q = system.start(two)[0]
+        assert ns.distance(one, two, at=(None, (q[:3], q[3:]))).gap == pytest.approx(0.0, abs=1e-12)
+        solution = ns.simulate(system, 1e-4)
+        assert solution.status == "done"
+        gaps = solution.history("gap", times=0.0)["gap"]
+        # two vertices have no contact
+        assert np.nanmin(np.where(np.isfinite(gaps), gaps, np.nan)) >= -1e-12

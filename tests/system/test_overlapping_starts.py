@@ -57,7 +57,7 @@ def _system(build: Any, one: Body, two: Body, place: Any, turn: Any, **laws: Any
     system = ns.System([one, two], gravity=0.0)
     system.contact(one, two, **(laws or build.laws()))
     if isinstance(place, str):
-        place = one.frames[0][0].solid.inner[0]  # type: ignore[union-attr]
+        place = one.frames[0][0].solid.surface.inner[0]  # type: ignore[union-attr]
     orientation = np.array([1.0, 0.0, 0.0, 0.0]) if turn is None else np.array(turn) / np.linalg.norm(turn)
     system.place(two, position=place, orientation=orientation)
     return system

@@ -154,14 +154,26 @@ def store_direction(ws: Workspace, pair: Pair, n: Vector) -> None:
 
 
 @kernel("v3(ws, i8, v3)")
+def farthest_of_first(ws: Workspace, number: int, n: Vector) -> Vector:
+    """Support point of the first part of pair ``number`` along the unit vector ``n`` [m], both in the world."""
+    pair = ws.pairs[number]
+    return _farthest(ws.floats, pair.frame_a, pair.part_a, n)
+
+
+@kernel("v3(ws, i8, v3)")
+def farthest_of_second(ws: Workspace, number: int, n: Vector) -> Vector:
+    """Support point of the second part of pair ``number`` along the unit vector ``n`` [m], both in the world."""
+    pair = ws.pairs[number]
+    return _farthest(ws.floats, pair.frame_b, pair.part_b, n)
+
+
+@kernel("v3(ws, i8, v3)")
 def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
     """Vector from the support point of the first part of a pair along ``n`` to that of the second along -``n`` [m].
 
     The separation s(n) is its component along ``n``.
     """
-    pair = ws.pairs[number]
-    farthest_a = _farthest(ws.floats, pair.frame_a, pair.part_a, n)
-    return minus(_farthest(ws.floats, pair.frame_b, pair.part_b, opposite(n)), farthest_a)
+    return minus(farthest_of_second(ws, number, opposite(n)), farthest_of_first(ws, number, n))
 
 
 @kernel("v3(ws, Pair, b1, v3)")
@@ -181,22 +193,37 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
 def separates(ws: Workspace, group: int, n: Vector, near: float) -> bool:
     """True if parts of a pair of shapes are as far apart along ``n`` as along their direction, up to ``near`` [m].
 
-    The normal of a contact that touches has this property: along any other direction the parts overlap. ``group`` is
-    the first pair of the shapes. A pair of shapes that is not guarded leaves the decision to its contacts.
+    The normal of a contact that touches has this property: along any other direction the parts overlap. ``n`` points
+    from the first body of the contact to the second, and ``group`` is the first pair of its shapes. A pair of shapes
+    that is not guarded leaves the decision to its contacts.
     """
     number = group
     while number < ws.model.n_pairs and ws.pairs[number].group == group:
         pair = ws.pairs[number]
-        known = known_direction(ws, pair)
+        known, along = known_direction(ws, pair), opposite(n) if pair.is_swapped else n
         if not ws.pairs[group].is_guarded or dot(known, known) == 0.0:
             return True
         largest = separation_along(ws, number, known)
         # feet may extend beyond the parts by the clearance
         allowed = near + pair.clearance
-        if largest <= allowed and separation_along(ws, number, n) >= min(largest, 0.0) - allowed:
+        if largest <= allowed and separation_along(ws, number, along) >= min(largest, 0.0) - allowed:
             return True
         number += 1
     return False
+
+
+@kernel("b1(ws, i8)")
+def has_half_space(ws: Workspace, number: int) -> bool:
+    """True if the first part of pair ``number`` is a half-space."""
+    # its number of circles is -1
+    return bool(part_at(ws.floats, ws.pairs[number].part_a).rings < 0.0)
+
+
+@kernel("v3(ws, i8)")
+def normal_of_plane(ws: Workspace, number: int) -> Vector:
+    """Unit normal of the half-space that is the first part of pair ``number``: the third axis of its frame."""
+    frame = frame_at(ws.floats, ws.pairs[number].frame_a)
+    return frame.rotation[2], frame.rotation[5], frame.rotation[8]
 
 
 @kernel("f8(ws, i8)")
@@ -205,8 +232,6 @@ def height_above_plane(ws: Workspace, number: int) -> float:
 
     The half-space is below the plane through the origin of that part, normal to the third axis of its frame.
     """
-    pair = ws.pairs[number]
-    frame = frame_at(ws.floats, pair.frame_a)
-    up = frame.rotation[2], frame.rotation[5], frame.rotation[8]
-    lowest = _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(up))
+    pair, up = ws.pairs[number], normal_of_plane(ws, number)
+    lowest = farthest_of_second(ws, number, opposite(up))
     return dot(up, minus(lowest, middle_of(ws.floats, pair.frame_a, pair.part_a)))

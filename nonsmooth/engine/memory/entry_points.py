@@ -42,6 +42,7 @@ ENTRY_POINTS = (
     "list_contacts",
     "list_touching",
     "check_pairs",
+    "measure_pair",
     "write_contact_problem",
     "find_doubtful",
     "first_closing",
@@ -60,3 +61,5 @@ ENTRY_POINTS = (
     "begin_sample",
 )
 """Functions of the engine that are called by address (:func:`nonsmooth.engine.native.kernel.entry_point`)."""
+MODULES = ("nonsmooth.engine.events.event_loop", "nonsmooth.engine.pairs.measure")
+"""Modules whose import defines all entry points."""

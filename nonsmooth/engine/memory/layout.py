@@ -49,3 +49,7 @@ SINGULAR = 1e-10
 """Size of a pivot or of a remaining column, relative to the largest one, up to which it is treated as zero."""
 NO_PAIR = -1
 """Index of the checked pair of shapes of a contact, if the overlap of its shapes is not checked."""
+MOST_POINTS = 200
+"""Most points of the polytope that proves the depth of an overlap. Concentric balls end with an error of 1 %."""
+MOST_FACES = 2 * MOST_POINTS
+"""Most faces of that polytope: a closed surface of triangles has twice as many faces as points, less four."""

@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 import numba
 
 from nonsmooth.engine.memory.declare import Singleton
-from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS, MODULES
 from nonsmooth.engine.native.address_calls import by_address
 from nonsmooth.engine.native.callees import KERNELS, Kernel, callees_of
 from nonsmooth.engine.native.code_files import read, written
@@ -125,8 +125,9 @@ def _step_address(function: Callable[..., Any], typed: Any, signature: str, fing
 
 def compile_entry(name: str) -> tuple[str, int]:
     """Compile an entry point in this process and write its file; returns its signature and its address."""
-    # this module imports all modules that define entry points
-    importlib.import_module("nonsmooth.engine.events.event_loop")
+    # these modules import all modules that define entry points
+    for module in MODULES:
+        importlib.import_module(module)
     function, signature = SOURCES[name]
     with _uncollected():
         return signature, entry_address(function, signature_of(signature), signature, name)

@@ -67,6 +67,8 @@ prototype_of: Callable[[str], Any] = _calls.prototype_of
 """Type of the C function of an entry point, for :mod:`ctypes`."""
 call_entry: Callable[..., Any] = _calls.call_entry
 """``call_entry(name, memory, *numbers)``: call an entry point, or the step of an engine, from Python."""
+call_alone: Callable[..., Any] = _calls.call_alone
+"""``call_alone(name, memory, *numbers)``: the same for an entry point that calls no other one: only it is compiled."""
 at: Callable[[Floats, int], Floats] = _calls.at
 """``at(floats, offset)``: the floats from an offset on, for kernels and for the functions of plug-ins."""
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _calls.call_support

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.native.code_files import read
+from nonsmooth.engine.native.code_files import MachineCode, read
 from nonsmooth.engine.native.entries import known
 from nonsmooth.engine.native.forms import C_TYPES, FORMS
 from nonsmooth.engine.native.loader import load
@@ -63,13 +63,16 @@ def entry_addresses() -> tuple[int, ...]:
     if missing := tuple(name for name, code in codes.items() if code is None):
         _compiler().compile_apart(missing)
         codes |= {name: read(name) for name in missing}
-    addresses: list[int] = []
-    for name, code in codes.items():
-        # entry points that no other process could compile and write are compiled here
+    # entry points that no other process could compile and write are compiled here
+    return tuple(_loaded(name, code) for name, code in codes.items())
+
+
+def _loaded(name: str, code: MachineCode | None) -> int:
+    """Address of an entry point, whose machine code is loaded, or compiled without one. Code is loaded once."""
+    if name not in ENTRIES:
         signature, address = (code.signature, load(code)) if code else _compiler().compile_entry(name)
-        add_entry(name, EntryPoint(signature, lambda address=address: address))  # type: ignore[misc]
-        addresses.append(address)
-    return tuple(addresses)
+        add_entry(name, EntryPoint(signature, lambda: address))
+    return ENTRIES[name].address()
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
@@ -84,6 +87,14 @@ def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
         If no entry point and no step has the name.
     """
     return _callable(name)(*memory.addresses, *arguments)
+
+
+def call_alone(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call an entry point that calls no other one, as :func:`call_entry` does. Only this one is compiled or loaded."""
+    if name not in _callables:
+        address = _loaded(name, read(name))
+        _callables[name] = _prototype(ENTRIES[name].signature)(address)
+    return _callables[name](*memory.addresses, *arguments)
 
 
 def _callable(name: str) -> Callable[..., Any]:
@@ -104,8 +115,13 @@ def prototype_of(name: str) -> Any:
     """
     # all entry points are compiled or loaded first, as each may call others by their addresses
     entry_addresses()
+    return _prototype(known(ENTRIES, name).signature)
+
+
+def _prototype(signature: str) -> Any:
+    """Type of the C function of a signature."""
     # "f8(ws, i8)": the type of the result, then those of the arguments, the first of which is ws
-    result, _, names = known(ENTRIES, name).signature.partition("(")
+    result, _, names = signature.partition("(")
     # a name that C_TYPES lacks is the name of an enumeration, whose members are integers
     returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
     return ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.support import (
+    has_half_space,
     height_above_plane,
     known_direction,
     middle_of,
@@ -27,7 +28,7 @@ from nonsmooth.engine.bodies.support import (
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, frame_at, kernel, part_at
-from nonsmooth.engine.numerics.vectors import distance, dot
+from nonsmooth.engine.numerics.vectors import distance, dot, opposite
 from nonsmooth.engine.pairs.discs import crossing_overlap
 from nonsmooth.engine.pairs.separation import best_direction, separating_direction
 
@@ -49,7 +50,8 @@ def _write_depths_of_contacts(ws: Workspace) -> None:
             continue
         pair = ws.pairs[contact.pair]
         if not pair.is_closed or contact.gap_at_end < pair.deepest:
-            pair.is_closed, pair.deepest, pair.normal = True, min(0.0, contact.gap_at_end), contact.normal
+            pair.is_closed, pair.deepest = True, min(0.0, contact.gap_at_end)
+            pair.normal = opposite(contact.normal) if pair.is_swapped else contact.normal
 
 
 @kernel()
@@ -90,7 +92,7 @@ def known_separation(ws: Workspace, number: int) -> float:
     Of a half-space it is exact. Else it is that of the bounding spheres, or along the last direction if they overlap.
     """
     pair = ws.pairs[number]
-    if _has_half_space(ws, pair):
+    if has_half_space(ws, number):
         return height_above_plane(ws, number)
     between = distance(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     apart = between - part_at(ws.floats, pair.part_a).radius - part_at(ws.floats, pair.part_b).radius
@@ -101,13 +103,6 @@ def known_separation(ws: Workspace, number: int) -> float:
     return float(separation_along(ws, number, n))
 
 
-@kernel("b1(ws, Pair)")
-def _has_half_space(ws: Workspace, pair: Pair) -> bool:
-    """True if the first part of a pair is a half-space."""
-    # its number of circles is -1
-    return bool(part_at(ws.floats, pair.part_a).rings < 0.0)
-
-
 @kernel("f8(ws, i8, f8)")
 def _separation(ws: Workspace, number: int, enough: float) -> float:
     """Largest separation that is found of pair ``number`` [m], negative in an overlap. Writes its direction.
@@ -115,14 +110,15 @@ def _separation(ws: Workspace, number: int, enough: float) -> float:
     The search stops at a value of ``enough`` [m] or more. The normal of its deepest closed contact is tried first.
     """
     pair = ws.pairs[number]
-    if _has_half_space(ws, pair):
+    if has_half_space(ws, number):
         return height_above_plane(ws, number)
     # the first pair of the same two shapes has their contact
     group = ws.pairs[pair.group]
     if group.is_closed:
-        found = separation_along(ws, number, group.normal)
+        normal = opposite(group.normal) if pair.is_swapped != group.is_swapped else group.normal
+        found = separation_along(ws, number, normal)
         if found >= enough:
-            store_direction(ws, pair, group.normal)
+            store_direction(ws, pair, normal)
             return float(found)
     n = best_direction(ws, number, known_direction(ws, pair), enough)
     store_direction(ws, pair, n)
@@ -172,7 +168,7 @@ def _depth(ws: Workspace, pair: Pair) -> float:
     number = pair.index
     apart = known_separation(ws, number)
     # the separation from a half-space is exact
-    if apart < -pair.allowed and not _has_half_space(ws, pair):
+    if apart < -pair.allowed and not has_half_space(ws, number):
         n = separating_direction(ws, number, known_direction(ws, pair))
         store_direction(ws, pair, n)
         apart = separation_along(ws, number, n)

@@ -16,30 +16,30 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.support import closest_difference, middle_of, separation_along
+from nonsmooth.engine.bodies.support import farthest_of_first, farthest_of_second, middle_of, separation_along
 from nonsmooth.engine.native.kernel import Floats, Workspace, frame_at, kernel
-from nonsmooth.engine.numerics.vectors import Vector, dot, minus, scaled
+from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite, scaled
 from nonsmooth.engine.pairs.simplex import corner, nearest_point, put_corner, reduce_to_nearest
 
 _MOST_STEPS = 100
 """Most steps of a search. Flat ellipsoids take about sixty."""
 _MOST_SHIFTS = 8
 """Most shifts of the second part. Each at least doubles the correct digits of an angle."""
-_SHIFT = 1e-3
+SHIFT = 1e-3
 """Least shift of the second part, relative to the size of the pair."""
-_ROUND_OFF = 1e-13
+ROUND_OFF = 1e-13
 """Difference of two separations that is round-off, relative to the size of the pair."""
 
 
 @kernel("v3(v3, v3)")
-def _unit(v: Vector, other: Vector) -> Vector:
+def unit(v: Vector, other: Vector) -> Vector:
     """Vector divided by its length, or ``other`` if its length is zero."""
     size = math.sqrt(dot(v, v))
     return scaled(1.0 / size, v) if size > 0.0 else other
 
 
 @kernel("v3(ws, i8, v3, v3, f8)")
-def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: float) -> Vector:
+def search(ws: Workspace, number: int, start: Vector, shift: Vector, size: float) -> Vector:
     """Unit vector along which the parts of pair ``number`` are farthest apart if the second is moved by ``shift`` [m].
 
     It is the algorithm of Gilbert, Johnson and Keerthi, from the unit vector ``start``. The simplex holds points of the
@@ -49,7 +49,8 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
     n = best = start
     lower, upper, n_corners, far = -math.inf, math.inf, 0, 0.0
     for _ in range(_MOST_STEPS):
-        x, y, z = closest_difference(ws, number, n)
+        of_first = farthest_of_first(ws, number, n)
+        x, y, z = minus(farthest_of_second(ws, number, opposite(n)), of_first)
         # a point of the difference of the parts; its height along n is s(n)
         found = x + shift[0], y + shift[1], z + shift[2]
         height = dot(n, found)
@@ -58,9 +59,9 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
         # size of the simplex, to which round-off is relative
         far = max(far, abs(found[0]) + abs(found[1]) + abs(found[2]))
         # no new point, or both bounds agree
-        if _is_corner(ws, n_corners, found) or upper - lower <= _ROUND_OFF * size:
+        if _is_corner(ws, n_corners, found) or upper - lower <= ROUND_OFF * size:
             break
-        put_corner(ws, n_corners, found)
+        put_corner(ws, n_corners, found, of_first)
         n_corners = reduce_to_nearest(ws, n_corners + 1, far)
         # the origin is inside: the parts overlap
         if n_corners == 0:
@@ -85,7 +86,7 @@ def _is_corner(ws: Workspace, n_corners: int, point: Vector) -> bool:
 
 
 @kernel("v3(ws, i8, v3, f8)")
-def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
+def climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
     """Unit vector of a local maximum of the separation s(n), from ``start`` on. ``size`` [m] is that of the pair.
 
     The second part is shifted away along n, so that the parts are apart and a search is accurate. The direction that it
@@ -94,10 +95,10 @@ def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
     n, best = start, separation_along(ws, number, start)
     for _ in range(_MOST_SHIFTS):
         # twice the overlap, or a small part of the size if the parts are close
-        shift = scaled(max(-2.0 * best, _SHIFT * size), n)
-        other = _search(ws, number, n, shift, size)
+        shift = scaled(max(-2.0 * best, SHIFT * size), n)
+        other = search(ws, number, n, shift, size)
         found = separation_along(ws, number, other)
-        if found <= best + _ROUND_OFF * size:
+        if found <= best + ROUND_OFF * size:
             break
         n, best = other, found
     return n
@@ -116,7 +117,7 @@ def _between_middles(ws: Workspace, number: int) -> Vector:
     """Unit vector from the middle of the first part of pair ``number`` to that of the second, or z if they coincide."""
     pair = ws.pairs[number]
     between = minus(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
-    return _unit(between, (0.0, 0.0, 1.0))
+    return unit(between, (0.0, 0.0, 1.0))
 
 
 @kernel("v3(ws, i8, v3)")
@@ -124,7 +125,7 @@ def separating_direction(ws: Workspace, number: int, known: Vector) -> Vector:
     """Unit vector along which a pair is farthest apart, by one search from ``known``. Parts that overlap need more."""
     # a direction of length 0 means that none is known: the search starts from the direction between the middles
     pair = ws.pairs[number]
-    return _search(ws, number, _unit(known, _between_middles(ws, number)), (0.0, 0.0, 0.0), pair.size)
+    return search(ws, number, unit(known, _between_middles(ws, number)), (0.0, 0.0, 0.0), pair.size)
 
 
 @kernel("v3(ws, i8, v3)")
@@ -134,7 +135,7 @@ def accurate_direction(ws: Workspace, number: int, known: Vector) -> Vector:
     Of parts that overlap, it need not be the direction of least overlap.
     """
     n, size = separating_direction(ws, number, known), ws.pairs[number].size
-    return _climb(ws, number, n, size) if separation_along(ws, number, n) < _SHIFT * size else n
+    return climb(ws, number, n, size) if separation_along(ws, number, n) < SHIFT * size else n
 
 
 @kernel("v3(ws, i8, v3, f8)")
@@ -145,7 +146,7 @@ def best_direction(ws: Workspace, number: int, known: Vector, enough: float) -> 
     tried only as long as the separation is less than ``enough``.
     """
     pair, between = ws.pairs[number], _between_middles(ws, number)
-    start = _unit(known, between)
+    start = unit(known, between)
     n = separating_direction(ws, number, known)
     best = separation_along(ws, number, n)
     # starts: the known direction, the best so far, that between the middles, and six axes of either frame
@@ -157,7 +158,7 @@ def best_direction(ws: Workspace, number: int, known: Vector, enough: float) -> 
             begin = between
         elif trial > 2:
             begin = _axis_of_frame(ws.floats, pair.frame_a if trial < 9 else pair.frame_b, (trial - 3) % 6)
-        other = _climb(ws, number, begin, pair.size)
+        other = climb(ws, number, begin, pair.size)
         found = separation_along(ws, number, other)
         if found > best:
             best, n = found, other

@@ -1,8 +1,10 @@
 """Point of a simplex of up to four corners that is nearest to the origin, by its faces and edges in turn.
 
 ``problem.simplex`` holds the corners, three numbers each, and behind them their weights: the nearest point is the
-weighted sum of the corners. All faces are tested by their own projections. The recursion of Johnson is faster, but it
-loses all digits for flat simplices.
+weighted sum of the corners. A corner is the difference of a point of the second part and one of the first. The points
+of the first part come last: their sum with the same weights is the point of the first part that is nearest to the
+second. All faces are tested by their own projections. The recursion of Johnson is faster, but it loses all digits for
+flat simplices.
 """
 
 from __future__ import annotations
@@ -16,6 +18,8 @@ CORNERS = 4
 """Most corners of a simplex in space."""
 WEIGHTS = 3 * CORNERS
 """Where the weights of the corners begin."""
+FIRST_POINTS = WEIGHTS + CORNERS
+"""Where the points of the first part begin."""
 _FLAT_TRIANGLE = 1e-24
 """Square of the sine between two edges below which a triangle is treated as its edges."""
 _FLAT_TETRAHEDRON = 1e-15
@@ -29,11 +33,20 @@ def corner(ws: Workspace, i: int) -> Vector:
     return ws.floats[first], ws.floats[first + 1], ws.floats[first + 2]
 
 
-@kernel("void(ws, i8, v3)")
-def put_corner(ws: Workspace, i: int, point: Vector) -> None:
-    """Make ``point`` [m] corner ``i`` of the simplex."""
+@kernel("v3(ws, i8)")
+def first_point(ws: Workspace, i: int) -> Vector:
+    """Point of the first part that belongs to corner ``i`` of the simplex [m]."""
+    first = ws.problem.simplex.start + FIRST_POINTS + 3 * i
+    return ws.floats[first], ws.floats[first + 1], ws.floats[first + 2]
+
+
+@kernel("void(ws, i8, v3, v3)")
+def put_corner(ws: Workspace, i: int, point: Vector, of_first: Vector) -> None:
+    """Make ``point`` [m] corner ``i`` of the simplex. ``of_first`` [m] is its point of the first part."""
     first = ws.problem.simplex.start + 3 * i
     ws.floats[first], ws.floats[first + 1], ws.floats[first + 2] = point
+    first += FIRST_POINTS
+    ws.floats[first], ws.floats[first + 1], ws.floats[first + 2] = of_first
 
 
 @kernel()
@@ -143,9 +156,11 @@ def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
     n_kept = 0
     for i in range(n):
         if ws.floats[parts + i] > 0.0:
-            put_corner(ws, n_kept, corner(ws, i))
+            put_corner(ws, n_kept, corner(ws, i), first_point(ws, i))
             ws.floats[parts + n_kept] = ws.floats[parts + i]
             n_kept += 1
+    for i in range(n_kept, n):
+        ws.floats[parts + i] = 0.0
     return n_kept
 
 
@@ -157,4 +172,37 @@ def nearest_point(ws: Workspace, n: int) -> Vector:
         a = corner(ws, i)
         part = ws.problem.simplex[WEIGHTS + i]
         x, y, z = x + part * a[0], y + part * a[1], z + part * a[2]
+    return x, y, z
+
+
+@kernel("b1(ws)")
+def has_nearest_point(ws: Workspace) -> bool:
+    """True if the simplex has a nearest point. It has none if the origin is inside, so that all weights are 0."""
+    total = 0.0
+    for i in range(CORNERS):
+        total += ws.problem.simplex[WEIGHTS + i]
+    return total > 0.0
+
+
+@kernel("v3(ws)")
+def nearest_of_first(ws: Workspace) -> Vector:
+    """Point of the first part that belongs to the nearest point of the simplex [m]: the same weighted sum."""
+    x, y, z = 0.0, 0.0, 0.0
+    for i in range(CORNERS):
+        part = ws.problem.simplex[WEIGHTS + i]
+        if part > 0.0:
+            a = first_point(ws, i)
+            x, y, z = x + part * a[0], y + part * a[1], z + part * a[2]
+    return x, y, z
+
+
+@kernel("v3(ws)")
+def nearest_of_second(ws: Workspace) -> Vector:
+    """Point of the second part that belongs to the nearest point of the simplex [m]."""
+    x, y, z = nearest_of_first(ws)
+    for i in range(CORNERS):
+        part = ws.problem.simplex[WEIGHTS + i]
+        if part > 0.0:
+            a = corner(ws, i)
+            x, y, z = x + part * a[0], y + part * a[1], z + part * a[2]
     return x, y, z

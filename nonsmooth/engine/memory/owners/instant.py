@@ -16,7 +16,7 @@ from nonsmooth.engine.memory.declare import (
     real,
     whole,
 )
-from nonsmooth.engine.memory.layout import IMPACT_STATE, N_STAGES
+from nonsmooth.engine.memory.layout import IMPACT_STATE, MOST_FACES, MOST_POINTS, N_STAGES
 from nonsmooth.engine.memory.modes import Truncation
 from nonsmooth.engine.memory.sizes import (
     ends,
@@ -133,4 +133,16 @@ class Problem(Singleton, key="problem"):
     lemke_corner: IntegerRow = integers(_SOLUTION, per(6, "n_pivoted"), "Friction pyramid's edge of each variable.")
     lemke_row: IntegerRow = integers(_SOLUTION, per(6, "n_pivoted"), "Variable of each row.")
     lemke_column: IntegerRow = integers(_SOLUTION, lemke_columns, "Variable of each column.")
-    simplex: FloatRow = floats(_SOLUTION, fixed(16), "m", "Simplex in search of a pair's separation.", is_late=True)
+    simplex: FloatRow = floats(_SOLUTION, fixed(28), "m", "Simplex in search of a pair's separation.", is_late=True)
+    polytope: FloatRow = floats(
+        _SOLUTION, fixed(3 * MOST_POINTS), "m", "Points of the polytope in proof of a pair's depth.", is_late=True
+    )
+    faces: FloatRow = floats(
+        _SOLUTION, fixed(4 * MOST_FACES), "", "Heights and outward normals of the faces of the polytope.", is_late=True
+    )
+    face_points: IntegerRow = integers(
+        _SOLUTION, fixed(3 * MOST_FACES), "Points of the faces of the polytope.", is_late=True
+    )
+    rim: IntegerRow = integers(
+        _SOLUTION, fixed(2 * MOST_FACES), "Edges around the faces that a new point of the polytope sees.", is_late=True
+    )

@@ -64,6 +64,7 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     contact: int = whole(_PARAMETER, "First declared contact of the pair.")
     is_guarded: bool = question(_PARAMETER, "The separation of its shapes decides whether they meet.")
     is_apart: bool = question(Life.STATE, "Its shapes are apart, and their contacts are not listed.")
+    is_swapped: bool = question(_PARAMETER, "Its first part belongs to the second body of the contacts.")
     are_both_flat: bool = question(_PARAMETER, "Both parts are discs without thickness.")
     allowed: float = real(_PARAMETER, "m", "Overlap that the laws of the pair allow.")
     size: float = real(_PARAMETER, "m", "Size of the smaller part.")
@@ -80,6 +81,11 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     searched: float = real(Life.STEP, "s", "Time within the step at which the direction was searched.")
     clearance: float = real(_PARAMETER, "m", "Separation at which contacts of the shapes may close.")
     normal: Vector3 = vector(Life.STEP, 3, "1", "Normal of the deepest closed contact.")
+    measured: Vector3 = vector(Life.SOLUTION, 3, "1", "Direction of largest separation that a measurement found.")
+    separation: float = real(Life.SOLUTION, "m", "Separation along it, a lower bound of the distance.")
+    shallowest: float = real(Life.SOLUTION, "m", "Upper bound of the separation, negative if an overlap is proved.")
+    first: Vector3 = vector(Life.SOLUTION, 3, "m", "Point of the first part that is nearest to the second.")
+    second: Vector3 = vector(Life.SOLUTION, 3, "m", "Point of the second part that is nearest to the first.")
     between: Vector3 = vector(
         _REUSED, 3, "m", "Centre of the second disc along the axes of the first, if both are flat."
     )

@@ -1,4 +1,4 @@
-"""Compute the least gap of two shapes: call the compiled kinematics of all their contacts, and take the least gap."""
+"""Least gap of the contacts of two shapes at any place, to compare it with their distance."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.binding.call import candidate_caller, pair_caller
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import PluginError
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
-from nonsmooth.queries.result import EXACT, DistanceResult
+from nonsmooth.queries.result import DistanceResult
 from nonsmooth.system.pairing import installed_pair
+from tests.contact_calls import candidate_caller, pair_caller
 
 _HALVINGS = 40
 """Largest number of halvings of the distance within which near features are searched for.  The distance is halved as
@@ -116,5 +116,5 @@ class Contacts:
         if best is None:
             return None
         gap = float(best[0])
-        found = DistanceResult(gap, gap, gap, best[7:10], best[10:13], best[1:4], EXACT)
+        found = DistanceResult(gap, gap, gap, best[7:10], best[10:13], best[1:4], "contacts")
         return found if self._in_order else found.exchanged()

@@ -7,13 +7,41 @@ The search for this point is that of E. Gilbert, D. Johnson and S. Keerthi, IEEE
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces.solid import Piece, Vector
+from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.solid import Vector
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A convex set, known by its support points in Python: a reference for the compiled search.
+
+    Attributes
+    ----------
+    support : callable
+        Returns a point of the set farthest along a direction of any length [m], both of shape [3].
+    place : Vector
+        A point of the set [m], shape [3].
+    """
+
+    support: Callable[[Vector], Vector]
+    place: Vector
+
+
+def piece_of(shape: Shape, position: Vector, rotation: Vector) -> Piece:
+    """Return the solid of a convex shape, with its frame at a place."""
+    solid = shape.solid
+    assert solid is not None
+    return Piece(
+        lambda n: np.asarray(position + rotation @ solid.support(n @ rotation)),
+        position + rotation @ np.mean(solid.bounds, axis=0),
+    )
+
 
 _MOST = 200
 Point = tuple[float, float, float]

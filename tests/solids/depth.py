@@ -16,14 +16,11 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces.solid import Piece, Vector
-from nonsmooth.solids.separation import Point, as_point, combined, cross, dot, minus
+from nonsmooth.interfaces.solid import Vector
+from tests.solids.separation import Piece, Point, as_point, combined, cross, dot, minus
 
-_EXACT, _CLOSE = 0.1, 1e-3
-"""Largest relative errors of the computed depth, in :func:`depth` and in :func:`penetration`, respectively.
-
-The error in :func:`depth` is larger, because its result is only a lower bound.
-"""
+_CLOSE = 1e-3
+"""Largest relative error of the computed depth."""
 _ROUND_OFF = 1e-14
 _MOST = 400
 """Largest number of steps of a search for the depth of an overlap. If the search ends at this number, the lower bound
@@ -57,36 +54,6 @@ class Penetration:
     normal: Vector
     first: Vector
     second: Vector
-
-
-def depth(one: Piece, two: Piece, tolerance: float) -> float:
-    """Lower bound of the length of the shortest translation that separates two convex sets [m].
-
-    The bound is at most 10 % below the length.  It is 0 if the sets overlap by at most ``tolerance``.
-
-    Parameters
-    ----------
-    one, two : Piece
-        The sets, in the same axes.
-    tolerance : float
-        Largest overlap that is treated as touching [m].
-    """
-
-    def farthest(direction: Vector) -> Vector:
-        return one.support(direction) - two.support(-direction)
-
-    def parted(direction: Vector) -> bool:
-        return float(direction @ farthest(direction)) <= tolerance
-
-    apart = two.place - one.place
-    away = float(np.linalg.norm(apart))
-    if away > 0.0 and parted(apart / away):
-        return 0.0
-    for normal in (*one.normals, *two.normals):
-        if parted(normal) or parted(-normal):
-            return 0.0
-    points = _tetrahedron(farthest, tolerance)
-    return _expanded(points, farthest, tolerance, _EXACT)[0] if points else 0.0
 
 
 def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
