@@ -21,6 +21,7 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.model.assembly import lay
+from nonsmooth.model.declared import DeclaredContacts, remember, searched
 from nonsmooth.model.laid_out import LaidOut
 
 if TYPE_CHECKING:
@@ -259,19 +260,19 @@ class StateReplay:
         contact = owners.ContactRecord
         listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
         numbers, kept = events.listed[listed], events.listed_memory[listed]
-        modes, averaged = memory.declared(contact.mode), memory.declared(contact.mode_after_averaging)
-        modes[:] = averaged[:] = Mode.OPEN
-        modes[numbers] = _MODES[events.codes[listed] >> AFTER & CODE]
-        averaged[numbers] = kept[:, _AVERAGED]
-        memory.declared(contact.direction)[numbers] = kept[:, _DIRECTION:_RATE]
-        memory.declared(contact.closing_rate)[numbers] = kept[:, _RATE]
+        states = {
+            contact.mode: _MODES[events.codes[listed] >> AFTER & CODE],
+            contact.mode_after_averaging: kept[:, _AVERAGED],
+            contact.direction: kept[:, _DIRECTION:_RATE],
+            contact.closing_rate: kept[:, _RATE],
+        }
         # zeros make a contact search for its features again; closed contacts get back their features at the event
-        places = memory.declared(contact.features)
-        memory.floats[places[places > 0]] = 0.0
-        for number, features in zip(numbers.tolist(), kept[:, _FEATURES:], strict=True):
-            if places[number] > 0:
-                memory.floats[places[number] : places[number] + len(features)] = features
-        memory[owners.Island.n_contacts] = 0
+        memory.floats[searched(memory)[1]] = 0.0
+        places = DeclaredContacts.of(memory, numbers)[contact.features]
+        for place, features in zip(places.tolist(), kept[:, _FEATURES:], strict=True):
+            if place > 0:
+                memory.floats[place : place + len(features)] = features
+        remember(memory, numbers, states)
         self.laid.list_contacts()
         slots = int(memory[owners.Island.n_contacts])
         facing = np.ones(n)

@@ -17,18 +17,17 @@ from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
-from nonsmooth.interfaces import Engine, ImpactMap
+from nonsmooth.interfaces import Engine, ImpactLaw, ImpactMap
 from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
-from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
 from nonsmooth.model.feature_searches import lay_searches
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import ArticulationLayout, articulations, lay_bodies, lay_guards, lay_joints, lay_loads
-from nonsmooth.model.laying_contacts import Kinds, by_kind, initial_state, lay_contacts
+from nonsmooth.model.laying_contacts import Groups, groups_of, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
-from nonsmooth.system.contact import Contact
+from nonsmooth.model.row_table import RowTable
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
@@ -42,9 +41,9 @@ _SAMPLES = 4096
 class _Parts(NamedTuple):
     """The parts of a system, found before the memory is allocated."""
 
-    kinds: Kinds
+    groups: Groups
     articulations: Sequence[ArticulationLayout]
-    table: ContactTable
+    table: RowTable
     broad_phase: BroadPhase
     pairs: Sequence[PartPair]
 
@@ -52,9 +51,9 @@ class _Parts(NamedTuple):
     def of(cls, system: System) -> _Parts:
         """Find the kinds of contacts, articulations, bounding spheres and pairs of convex parts of a system."""
         bodies, contacts = system.bodies, system.contacts
-        table = ContactTable.of(bodies, contacts)
+        table = RowTable.of(bodies, contacts)
         return cls(
-            by_kind(contacts),
+            groups_of(contacts),
             articulations(system),
             table,
             find_broad_phase(contacts, table, bodies),
@@ -117,7 +116,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     bodies = lay_bodies(system, memory, blocks, parts.articulations)
     lay_joints(memory, blocks, parts.articulations, bodies)
     lay_loads(system, memory, blocks, bodies)
-    lay_contacts(memory, blocks, contacts, parts.table, parts.kinds, bodies)
+    lay_contacts(memory, blocks, contacts, parts.table, parts.groups, bodies)
     # offset of each frame, by the numbers of body and frame
     frames = {(body.number, frame): at for body in bodies.values() for frame, at in enumerate(body.frames)}
     lay_broad_phase(memory, parts.broad_phase, frames)
@@ -143,13 +142,15 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
     contacts, n_slots = system.contacts, parts.broad_phase.n_slots
     n_q = sum(body.n_q for body in system.bodies)
     n_u = sum(body.n_u for body in system.bodies)
-    # the contacts of a kind have the same laws, so that the first one stands for all
-    n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in parts.kinds)
+    n_states = sum(len(row) * len(initial_state(row.laws.friction)) for row in contacts.rows)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     counts = {
         "n_bodies": len(system.bodies),
         "n_slots": n_slots,
         "n_declared": len(contacts),
+        "n_rows": len(contacts.rows),
+        # the rows of a group have the same kinds
+        "n_kinds": sum(len(contacts.rows[rows[0]]) for rows in parts.groups),
         **parts.broad_phase.lengths,
         "n_pairs": len(parts.pairs),
         "n_carriers": len(carriers_of(parts.pairs)),
@@ -161,7 +162,7 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
         "n_u": n_u,
         "n_y": n_y,
         "n_states": n_states,
-        "map_width": _map_width([contacts[numbers[0]] for numbers in parts.kinds]),
+        "map_width": _map_width([contacts.rows[rows[0]].laws.impact for rows in parts.groups]),
         "event_floats": _length_of_events(EVENT_HEAD + n_u + n_y + BOOKED, LISTED, n_slots),
         "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
         "sample_capacity": _SAMPLES,
@@ -171,12 +172,12 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
     return {**counts, **others, **counts_of(engine, n_slots, others)}
 
 
-def _map_width(contacts: Sequence[Contact]) -> int:
+def _map_width(laws: Sequence[ImpactLaw | None]) -> int:
     """Number of parameters per contact of an impact map (a law that maps velocities), 1 without one.
 
     An impact map gets the parameters of all contacts as one matrix, so all contacts have the same map.
     """
-    maps = (contact.impact for contact in contacts if isinstance(contact.impact, ImpactMap))
+    maps = (law for law in laws if isinstance(law, ImpactMap))
     return next((len(parameter_names(law.impulses, "map")) for law in maps), 1)
 
 

@@ -18,10 +18,13 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import joints_in_order, place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
+
+_CONTACT = owners.ContactRecord
 
 
 class PluginBlock(NamedTuple):
@@ -103,18 +106,19 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[PluginBlock]:
     for tie, out in zip(joints_in_order(model.system), memory[owners.JointRecord.out].tolist(), strict=True):
         assert isinstance(tie.component, Joint)
         yield _block(tie, tie.component.evaluator, out, JOINT_ROW * tie.component.n_rows)
-    traction, rates = (
-        memory.declared(out) for out in (owners.ContactRecord.traction_out, owners.ContactRecord.rates_out)
-    )
-    # an offset of 0: the contact has neither inner states nor a traction law
-    for i in np.flatnonzero(traction).tolist():
-        law = contacts[i].friction
-        if isinstance(law, TractionLaw):
-            # a traction law writes the rates of its inner states behind force and moment
-            yield _block(contacts[i], law.traction, int(traction[i]), FORCE_AND_MOMENT + len(law.initial_state))
-        else:
-            assert isinstance(law, StatefulFrictionLaw)
-            yield _block(contacts[i], law.rates, int(rates[i]), len(law.initial_state))
+    for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
+        law = row.laws.friction
+        if not isinstance(law, (TractionLaw, StatefulFrictionLaw)):
+            continue
+        declared = DeclaredContacts.of(memory, range(start, start + len(row)))
+        for index in range(len(row)):
+            if isinstance(law, TractionLaw):
+                # a traction law writes the rates of its inner states behind force and moment
+                place, size = int(declared[_CONTACT.traction_out][index]), FORCE_AND_MOMENT + len(law.initial_state)
+                yield _block(row.contact(index), law.traction, place, size)
+            else:
+                place = int(declared[_CONTACT.rates_out][index])
+                yield _block(row.contact(index), law.rates, place, len(law.initial_state))
 
 
 def _blocks_of_searches(model: LaidOut) -> Iterator[PluginBlock]:

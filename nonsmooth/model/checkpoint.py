@@ -27,6 +27,7 @@ from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, OWNERS, SCALARS
 from nonsmooth.errors import InvalidInput
+from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
@@ -86,13 +87,6 @@ class Checkpoint:
         # the parts are scalars, floats, integers and blocks
         part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[2]
         return view_of(declared, self.record, self._counts, part)
-
-    def declared(self, declared: Any) -> np.ndarray:
-        """A view of a field of all declared contacts, such as the mode.
-
-        Of a contact on the neighbour list it may be out of date: its record as an active contact is newer.
-        """
-        return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
 
     def put(self, memory: Memory) -> None:
         """Write this content into a memory of the same model.
@@ -208,9 +202,10 @@ def _copy_parameters(memory: Memory) -> None:
     Fields that are views (``inside``) of another field are copied with it.
     """
     active = _active(memory)
-    for name, one in declarations(owners.DeclaredContact).items():
-        if one.life is Life.PARAMETER and not one.inside[0]:
-            memory[getattr(owners.ContactRecord, name)][: len(active)] = memory[one][active]
+    contacts = DeclaredContacts.of(memory, active)
+    for one in declarations(owners.ContactRecord).values():
+        if one.life is Life.PARAMETER and not (one.inside[0] or one.is_of_slot):
+            memory[one][: len(active)] = contacts[one]
 
 
 def _check_values(memory: Memory) -> None:

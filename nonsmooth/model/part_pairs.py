@@ -17,8 +17,8 @@ from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import ConvexPart
-from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record
+from nonsmooth.model.row_table import RowTable
 from nonsmooth.system.contacts import Contacts
 
 _ALLOWED = 1e-7
@@ -53,8 +53,10 @@ class PartPair(NamedTuple):
     ----------
     group : int
         Number of the first pair of the same shapes.
-    contacts : sequence of int
-        Numbers of the contacts of the shapes.
+    rows : list of int
+        Numbers of the rows of contacts of the shapes.
+    contact : int
+        Number of the first of these contacts.
     sides : tuple of PairSide
         The parts. A half-space comes first, and the larger one of two discs.
     size : float
@@ -62,12 +64,13 @@ class PartPair(NamedTuple):
     """
 
     group: int
-    contacts: Sequence[int]
+    rows: list[int]
+    contact: int
     sides: tuple[PairSide, PairSide]
     size: float
 
 
-def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
+def find_part_pairs(contacts: Contacts, table: RowTable) -> list[PartPair]:
     """The pairs of convex parts of shapes with contacts that need a check for overlap.
 
     Each part of a shape is paired with each part of the other shape. A half-space, or the larger of two discs, becomes
@@ -78,7 +81,7 @@ def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
     for rows in by_shapes(contacts, range(len(contacts.rows))):
         row, group, numbers = contacts.rows[rows[0]], len(found), numbers_of_rows(contacts, rows)
         choices: list[list[PairSide]] = []
-        for shape, body, frame in zip(row.shapes, table.bodies[numbers[0]], table.frames[numbers[0]], strict=True):
+        for shape, body, frame in zip(row.shapes, table.bodies[rows[0]], table.frames[rows[0]], strict=True):
             # the parts of a shape are computed once
             if id(shape) not in parts_of:
                 parts_of[id(shape)] = shape.parts
@@ -89,7 +92,7 @@ def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
             if needs_overlap_check(one, two, len(numbers)):
                 is_larger = one.is_disc and two.is_disc and two.radius > one.radius
                 sides = (second, first) if two.is_half_space or is_larger else (first, second)
-                found.append(PartPair(group, numbers, sides, row.size))
+                found.append(PartPair(group, rows, numbers[0], sides, row.size))
     return found
 
 
@@ -175,13 +178,13 @@ def numbers_of(part: ConvexPart) -> list[float]:
 def lay_part_pairs(
     memory: Memory, blocks: Heap, pairs: Sequence[PartPair], frames: Mapping[tuple[int, int], int]
 ) -> None:
-    """Write the pairs of convex parts, the frames that carry them, and the first pair of each contact.
+    """Write the pairs of convex parts, the frames that carry them, and the first pair of each row of contacts.
 
     ``frames`` has the place of each frame in the memory, by the numbers of body and frame. A part that belongs to
     several pairs is stored once.
     """
-    of_contact = memory.declared(owners.ContactRecord.pair)
-    of_contact[:] = NO_PAIR
+    of_row = memory[owners.RowRecord.pair]
+    of_row[:] = NO_PAIR
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
     memory[owners.Carrier.frame] = [frames[side] for side in carriers]
@@ -193,7 +196,7 @@ def lay_part_pairs(
                 starts[side.key] = blocks.store(numbers_of(side.part))
         fields: dict[str, float] = {
             "group": pair.group,
-            "contact": pair.contacts[0],
+            "contact": pair.contact,
             "are_both_flat": all(side.part.is_flat for side in pair.sides),
             "allowed": _ALLOWED * pair.size,
             "size": pair.size,
@@ -204,4 +207,4 @@ def lay_part_pairs(
         write_record(memory, owners.Pair, number, fields)
         # once for all pairs of the same shapes
         if number == pair.group:
-            of_contact[np.array(pair.contacts)] = number
+            of_row[pair.rows] = number

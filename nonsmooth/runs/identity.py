@@ -13,7 +13,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNERS, SCALARS
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying_contacts import by_kind
+from nonsmooth.model.laying_contacts import groups_of
 from nonsmooth.parameters import rules
 
 _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,))).encode()).digest()
@@ -71,12 +71,11 @@ def _classes(model: LaidOut) -> bytes:
     # classes are numbered in the order in which they are met
     known: dict[type, int] = {}
     numbers = [known.setdefault(type(part), len(known)) for part in parts]
-    contacts = system.contacts
-    rows = np.zeros((len(contacts), 4), np.int64)
-    # many contacts share their laws, so they are treated kind by kind
-    for same in by_kind(contacts):
-        one = contacts[same[0]]
-        laws = one.kinematics, one.normal, one.friction, one.impact
-        rows[same] = [known.setdefault(type(part), len(known)) for part in laws]
+    # the kind of each contact is a parameter
+    kinds: list[list[int]] = []
+    for same in groups_of(system.contacts):
+        row = system.contacts.rows[same[0]]
+        laws = row.laws.normal, row.laws.friction, row.laws.impact
+        kinds += [[known.setdefault(type(part), len(known)) for part in (one, *laws)] for one in row.kinematics]
     names = repr([(kind.__module__, kind.__qualname__) for kind in known]).encode()
-    return names + np.array(numbers).tobytes() + rows.tobytes()
+    return names + np.array(numbers).tobytes() + np.array(kinds, np.int64).tobytes()

@@ -24,7 +24,7 @@ from nonsmooth.model.assembly import lay
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.laid_out import LaidOut, copied
-from nonsmooth.model.laying_contacts import lay_laws
+from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
@@ -181,10 +181,7 @@ class Model:
             If anything else differs, the start is not valid, or the model runs.
         """
         check_kind("with_laws_of: system", system, System, "Make it by nonsmooth.with_laws(model.system, ...).")
-        laid = lay_laws(self._blank_copy(), system)
-        # what the engine writes before any run may depend on the laws
-        self._engine.prepare(laid)
-        made = Model(laid, self._engine, State.at(system))
+        made = Model(lay_laws(self._blank_copy(), system, self._engine), self._engine, State.at(system))
         made._check_start()
         return made
 

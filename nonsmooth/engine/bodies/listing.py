@@ -13,10 +13,11 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.candidates import are_near, find_candidates, has_no_features
+from nonsmooth.engine.bodies.declared import store_histories, write_history, write_parameters
 from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
 from nonsmooth.engine.memory.blocks import PAIR
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.native.kernel import Floats, Workspace, copy_fields, entry_point, frame_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Workspace, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 
 _SPENT = 0.6
@@ -27,20 +28,20 @@ _ACCELERATION = 2.0
 """By how much a unit is taken to speed up within a step; the step is checked afterwards."""
 
 
-@kernel("b1(ws, i8)")
-def _enter(ws: Workspace, declared: int) -> bool:
-    """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
-    if has_no_features(ws, declared):
+@kernel("b1(ws, i8, i8)")
+def _enter(ws: Workspace, row: int, declared: int) -> bool:
+    """Put a declared contact of a row into the next slot, unless it is empty; return 0 if there is no slot."""
+    if has_no_features(ws, row, declared):
         return True
     if ws.island.n_contacts == ws.model.n_slots:
         return False
     c = ws.island.n_contacts
     contact = ws.contacts[c]
-    copy_fields(ws.declared_contacts[declared], contact)
+    write_parameters(ws, row, declared, contact)
+    write_history(ws, contact)
     contact.facing = 1
     contact.is_touching = False
     contact.version_a = NOT_EVALUATED
-    contact.declared = declared
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
     for i in range(PAIR):
         contact.geometry[i] = 0.0
@@ -54,12 +55,13 @@ def _enter(ws: Workspace, declared: int) -> bool:
     return True
 
 
-@kernel()
-def _leave(ws: Workspace) -> None:
-    """Empty all slots; modes, and what the last event left of the contacts, go back to the catalogue."""
-    for contact in ws.contacts:
-        copy_fields(contact, ws.declared_contacts[contact.declared])
-    ws.island.n_contacts = 0
+@kernel("b1(ws, i8)")
+def _enter_row(ws: Workspace, row: int) -> bool:
+    """Enter all contacts of a row; return 0 if there is no slot."""
+    for declared in range(ws.rows[row].first_contact, ws.rows[row].end_contact):
+        if not _enter(ws, row, declared):
+            return False
+    return True
 
 
 @kernel("b1(ws, i8, i8)")
@@ -76,8 +78,8 @@ def _enter_pair(ws: Workspace, one: int, two: int) -> bool:
             high = middle
     if low == end or ws.model.partner[low] != two:
         return True
-    for i in range(ws.model.partner_contact[low], ws.model.partner_contact[low + 1]):
-        if not _enter(ws, ws.model.paired_contact[i]):
+    for i in range(ws.model.partner_row[low], ws.model.partner_row[low + 1]):
+        if not _enter_row(ws, ws.model.paired_row[i]):
             return False
     return True
 
@@ -140,12 +142,13 @@ def _widest_axis(ws: Workspace) -> int:
 @entry_point("Status(ws)")
 def list_contacts(ws: Workspace) -> Status:
     """Fill the slots for the present state; return the status."""
-    _leave(ws)
+    store_histories(ws)
     ws.island.follows_a_step = False
     ws.totals.n_listings += 1
     if ws.model.n_spheres == 0:
-        for declared in range(ws.model.n_declared):
-            _enter(ws, declared)
+        for row in range(ws.model.n_rows):
+            _enter_row(ws, row)
+        ws.island.n_histories = 0
         return Status.RUNNING
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for unit in ws.spheres:
@@ -167,7 +170,7 @@ def list_contacts(ws: Workspace) -> Status:
         if wall.frame != frame:
             frame, still = wall.frame, _is_still(ws.floats, wall.frame)
         clear = still == 1 and wall.is_steady and _is_clear(ws, i)
-        if not clear and not _enter(ws, wall.contact):
+        if not clear and not _enter_row(ws, wall.row):
             return Status.NO_SLOT
     axis = _widest_axis(ws)
     _sort_units(ws, axis)
@@ -181,6 +184,7 @@ def list_contacts(ws: Workspace) -> Status:
                 break
             if are_near(ws, one, two) and not _enter_pair(ws, min(one, two), max(one, two)):
                 return Status.NO_SLOT
+    ws.island.n_histories = 0
     return Status.RUNNING
 
 

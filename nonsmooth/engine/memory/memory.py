@@ -13,7 +13,7 @@ import numpy as np
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.blocks import GUARD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.declare import Declaration, Singleton
-from nonsmooth.engine.memory.owners.contact import ContactRecord, DeclaredContact
+from nonsmooth.engine.memory.owners.contact import ContactRecord
 from nonsmooth.engine.memory.owners.model import Coefficients, ModelNumbers
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
@@ -203,11 +203,6 @@ class Memory:
     def start(self, declared: Any) -> int:
         """Offset of an array among all floats or integers."""
         return int(self.record[declared.key])
-
-    def declared(self, declared: Any) -> np.ndarray:
-        """View of a field, such as ``ContactRecord.mode``, with one entry for each declared contact, in their order."""
-        # memory[ContactRecord.mode] has entries for contacts on the neighbour list only, with their newest values
-        return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:
         """View of an array. It is made once and kept, because that takes longer than reading it."""

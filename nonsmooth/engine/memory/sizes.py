@@ -58,6 +58,11 @@ def all_guards(n: Counts) -> int:
     return 3 * n["n_slots"] + n["n_own_guards"]
 
 
+def history_entries(n: Counts) -> int:
+    """Number of places of the hash table of histories: twice as many as there are histories, so that few collide."""
+    return 2 * n["n_slots"] + 1
+
+
 def coordinates_and_velocities(n: Counts) -> int:
     """Number of coordinates and velocities of all bodies."""
     return n["n_q"] + n["n_u"]
