@@ -150,10 +150,9 @@ class StateReplay:
         found = self._y[rows]
         between = np.flatnonzero(self._time[rows] < times)
         if len(between) > 0:
-            y = self.laid.memory[owners.Island.y][: self.laid.n_y]
 
             def keep(i: int) -> None:
-                found[between[i]] = y
+                found[between[i]] = self.laid.memory[owners.Island.y][: self.laid.n_y]
 
             self.visit(times[between], keep, forces=False)
         return found
@@ -202,13 +201,12 @@ class StateReplay:
         ``look(i)`` reads the model at ``times[i]``.  ``states`` is the result of :meth:`states` at the times.
         """
         memory = self.laid.memory
-        y = memory[owners.Island.y][: self.laid.n_y]
         with self._alone:
             # `_put_event` is the event whose modes the model has. Neighbour list and modes are set anew for each time
             # here. With -2 (no event), the next `_put` sets the modes again
             self._put_event = -2
             for i, row in enumerate(self._row(times).tolist()):
-                memory[owners.Island.time], y[:] = times[i], states[i]
+                memory[owners.Island.time], memory[owners.Island.y] = times[i], states[i]
                 self._put_modes(int(self._event[row]))
                 self.laid.evaluate()
                 look(i)
@@ -272,6 +270,7 @@ class StateReplay:
         for place, features in zip(places.tolist(), kept[:, _FEATURES:], strict=True):
             if place > 0:
                 memory.floats[place : place + len(features)] = features
+        self.laid.reserve(len(numbers))
         remember(memory, numbers, states)
         self.laid.list_contacts()
         slots = int(memory[owners.Island.n_contacts])

@@ -134,14 +134,13 @@ def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int
 
 
 def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
-    """Places of the marks behind blocks among the floats of a memory on which no plug-in was called yet.
+    """Places of the marks behind blocks of the assembly in a memory on which no plug-in was called yet.
 
     All marks still have the value ``UNTOUCHED``, which no other number has. A mark that changes later shows that a
     plug-in wrote past its block.
     """
-    # geometry blocks are among the arrays, the others behind them
-    arrays, _, blocks = memory.early
-    return np.concatenate([np.flatnonzero(arrays == UNTOUCHED), memory.blocks + np.flatnonzero(blocks == UNTOUCHED)])
+    # the marks of geometry blocks, of which there is one for each slot, are read apart
+    return memory.blocks + np.flatnonzero(memory.floats[memory.blocks : memory.slots] == UNTOUCHED)
 
 
 def block_overrun(model: LaidOut) -> str:
@@ -150,10 +149,10 @@ def block_overrun(model: LaidOut) -> str:
     # an impact map has marks of its own, which the engine checks at each impact. This is the number of contacts of the
     # impact in which one had changed, or 0
     n_past_map = int(memory[owners.Run.n_past_map])
-    if np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
-        return ""
     # indices in the neighbour list of geometry blocks that are overrun
     overrun = np.flatnonzero(np.any(memory[owners.ContactRecord.geometry][:, PAIR:] != UNTOUCHED, axis=1)).tolist()
+    if not overrun and np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
+        return ""
     for block in (
         *_blocks_of_bodies(model),
         *(_block_of_contact(model, index) for index in overrun if index < len(model.active)),

@@ -25,9 +25,7 @@ from nonsmooth.types import Array
 SMALL = 64
 """Largest number of declared contacts that need no broad phase. To evaluate so many costs less than it does."""
 _CONTACTS_PER_SPHERE = 16
-"""Least number of active contacts per sphere that the memory can hold. Contacts need little memory."""
-_NEIGHBOURS = 6
-"""Number of pairs per sphere whose contacts the memory can hold: in a dense packing a sphere has 12 neighbours."""
+"""Number of active contacts per sphere that the memory has slots for at first: a sphere has up to 12 neighbours."""
 _MARGIN = 0.5
 """Margin of the neighbour list, in least radii of spheres. The list lasts while bodies move by about so far."""
 
@@ -78,7 +76,7 @@ class BroadPhase:
     searches : list of FeatureSearch
         Searches for candidate features.
     n_slots : int
-        Largest number of active contacts, those of bodies near each other, that the memory has places for.
+        Number of active contacts, those of bodies near each other, that the memory has slots for at first. It grows.
     """
 
     frames: dict[tuple[int, int], int]
@@ -134,11 +132,9 @@ def find_broad_phase(contacts: Contacts, table: RowTable, bodies: Sequence[Body]
     pairs = np.column_stack([one, two])[order[first]]
     unbounded = np.flatnonzero(~is_bounded).tolist()
     half_spaces = [_half_space(contacts.rows[i], i, table, bodies, frames, radii) for i in unbounded]
-    # contacts with a half-space may all be active; of the others as many as the contacts of six neighbours a sphere
-    of_rows = contacts.counts[numbers[order]]
-    largest = int(np.add.reduceat(of_rows, first).max()) if len(first) > 0 else 0
-    per_sphere = max(_CONTACTS_PER_SPHERE, _NEIGHBOURS * largest)
-    n_slots = int(contacts.counts[~is_bounded].sum()) + min(int(of_rows.sum()), per_sphere * len(frames))
+    # contacts with a half-space are always active, unless it is steady; without spheres all are
+    always = sum(len(contacts.rows[one.row]) for one in half_spaces if not one.is_steady)
+    n_slots = min(len(contacts), always + _CONTACTS_PER_SPHERE * len(frames))
     return BroadPhase(frames, radii, pairs, counts, numbers[order], half_spaces, searches, n_slots)
 
 

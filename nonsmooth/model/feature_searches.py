@@ -16,7 +16,8 @@ from nonsmooth.binding.compile import bind, parameter_place
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.memory import Heap, Memory
+from nonsmooth.engine.memory.heap import Heap
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
 from nonsmooth.model.laying import write_record

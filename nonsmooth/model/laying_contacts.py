@@ -20,7 +20,8 @@ from nonsmooth.binding.compile import bind, parameter_names, parameter_place, ve
 from nonsmooth.binding.law_functions import LawFunction, law_functions
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
-from nonsmooth.engine.memory.memory import Heap, Memory, output_block
+from nonsmooth.engine.memory.heap import Heap, output_block
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import AnisotropicFrictionLaw, CompliantNormalLaw, ImpactMap, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.laying import BodyLayouts
@@ -99,7 +100,7 @@ class Kind:
 def lay_contacts(
     memory: Memory, blocks: Heap, contacts: Contacts, table: RowTable, groups: Groups, bodies: BodyLayouts
 ) -> None:
-    """Write the rows and kinds of declared contacts, and reserve Jacobians for as many as can be active at once.
+    """Write the rows and kinds of declared contacts.
 
     The contacts of a kind have the same geometry and laws, so they share the fields of its record, and parameters that
     nothing writes. Kinds with the same kinematics share its parameters, too: these are most of the numbers of a kind.
@@ -127,12 +128,7 @@ def lay_contacts(
             number += 1
     memory[owners.RowRecord.first_contact] = contacts.starts
     lay_states(memory, contacts)
-    # three rows of a Jacobian over the velocities of the largest articulation (a group of bodies tied by joints)
-    size = 3 * _lay_sides(memory, table, bodies)
-    n_slots = int(memory[owners.ModelNumbers.n_slots])
-    # each place of the neighbour list has Jacobians of its own
-    for place in (_CONTACT.jacobian_a, _CONTACT.jacobian_b, _CONTACT.response_a, _CONTACT.response_b):
-        memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
+    _lay_sides(memory, table, bodies)
 
 
 def write_fields(memory: Memory, kind: int, fields: Mapping[Any, float]) -> None:
@@ -184,15 +180,14 @@ def lay_states(memory: Memory, contacts: Contacts) -> None:
     memory[owners.Step.y_scale][:n_y][n_y - len(scales) :] = scales
 
 
-def _lay_sides(memory: Memory, table: RowTable, bodies: BodyLayouts) -> int:
-    """Write bodies and frames of each row; the result is the largest number of velocities of an articulation.
+def _lay_sides(memory: Memory, table: RowTable, bodies: BodyLayouts) -> None:
+    """Write sizes, bodies and frames of each row.
 
-    An articulation is a group of bodies tied by joints. The frames of a body follow each other, each with its motion
-    and a Jacobian of 6 rows.
+    The frames of a body follow each other, each with its motion and a Jacobian of 6 rows.
     """
     # a mechanism without contacts may have no frame
-    rows = [(next(iter(b.frames), 0), b.n_u, b.column, b.articulation, b.articulation_n_u) for b in bodies.values()]
-    first_frame, n_u, column, articulation, n_u_together = np.array(rows, np.int64).reshape(-1, 5).T
+    rows = [(next(iter(b.frames), 0), b.n_u, b.column, b.articulation) for b in bodies.values()]
+    first_frame, n_u, column, articulation = np.array(rows, np.int64).reshape(-1, 4).T
     fields: dict[str, np.ndarray] = {"size": table.extents.min(axis=1), "spin_axis": table.revolutions}
     for number, side in enumerate("ab"):
         body = table.bodies[:, number]
@@ -206,7 +201,6 @@ def _lay_sides(memory: Memory, table: RowTable, bodies: BodyLayouts) -> int:
         }
     for name, values in fields.items():
         memory[getattr(owners.RowRecord, name)] = values
-    return int(n_u_together[table.bodies].max(initial=0))
 
 
 def initial_state(law: Any) -> tuple[float, ...]:

@@ -14,8 +14,9 @@ import numpy as np
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
+from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.layout import NO_PAIR
-from nonsmooth.engine.memory.memory import Heap, Memory
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.laying import write_record
 from nonsmooth.model.row_table import RowTable

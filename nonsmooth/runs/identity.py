@@ -10,7 +10,7 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Declaration, Life, declarations
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNERS, SCALARS
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNERS, SCALARS, SLOT_COUNTS
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import groups_of
@@ -39,21 +39,24 @@ def _parameters(memory: Memory) -> Iterator[np.ndarray]:
     for owner in (*OWNERS, *memory.own):
         # a view of another array is that array, and addresses of functions are others in each process
         for one in declarations(owner).values():
-            if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_copied(one):
+            if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_of_slots(one):
                 yield np.atleast_1d(np.asarray(memory[one]))
-    blocks = memory.floats[memory.blocks : memory.tables].copy()
+    blocks = memory.floats[memory.blocks : memory.slots].copy()
     # what a run writes
     blocks[memory.written] = 0.0
     # numbers that refer to tables: in the memory of a copy they are other distances
     blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
     yield blocks
     # the tables, which a copy of a model reads in the memory of the original
-    yield (memory.owner or memory).floats[memory.tables :]
+    yield memory.table_numbers
 
 
-def _is_copied(one: Declaration) -> bool:
-    """True for a number that an active contact copies from its declared contact. It follows from that of the latter."""
-    return one.owner is owners.ContactRecord and not one.is_of_slot
+def _is_of_slots(one: Declaration) -> bool:
+    """True for a number that depends on the number of slots for active contacts, or that a slot has a copy of.
+
+    The number of slots grows in a run, and does not change its results.
+    """
+    return one.owner is owners.ContactRecord or (one.owner is owners.ModelNumbers and one.name in SLOT_COUNTS)
 
 
 def _options(engine: Engine) -> bytes:

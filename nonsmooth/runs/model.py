@@ -355,7 +355,7 @@ class Model:
         """
         with self._reserved("copy"):
             self._blank.put(self._laid.memory)
-            return replace(self._laid, memory=copied(self._laid.memory))
+            return copied(self._laid)
 
     def _continues(self, state: State) -> bool:
         """True if a state was left by a run of this model or of an equal one, so that a run from there continues it."""

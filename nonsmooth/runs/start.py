@@ -81,7 +81,12 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     continuation, memory = state.continuation, model.memory
     assert continuation is not None
     # a state has the difference of the checkpoint from the blank memory
+    n_slots, most = continuation.difference.n_slots, len(model.system.contacts)
+    if not 0 <= n_slots <= most:
+        rule = f"must be from 0 to {most}, the number of contacts"
+        raise InvalidInput("State.continuation: n_slots", rule, n_slots, "It is damaged: take another.")
     blank.put(memory)
+    model.resize(n_slots)
     continuation.difference.put(memory)
     check_candidates(model)
     t, n_known_events = float(memory[owners.Island.time]), continuation.n_known_events
@@ -135,6 +140,7 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
     states = {contact.mode: modes, contact.closing_rate: state.closing_rates, contact.direction: state.slip_directions}
     turns = np.any(state.slip_directions != (1.0, 0.0), axis=1)
     remembered = np.flatnonzero((modes != Mode.OPEN) | (state.closing_rates != 0.0) | turns)
+    model.reserve(len(remembered))
     remember(memory, remembered, {one: values[remembered] for one, values in states.items()})
     model.list_contacts()
 

@@ -139,9 +139,21 @@ def _widest_axis(ws: Workspace) -> int:
     return best
 
 
+@kernel("Status(ws, f8)")
+def _full(ws: Workspace, margin: float) -> Status:
+    """Undo a list for which there are too few slots, so that it can be made again, from the former ``margin``."""
+    ws.island.n_contacts = 0
+    ws.island.list_margin = margin
+    ws.totals.n_listings -= 1
+    return Status.LIST_FULL
+
+
 @entry_point("Status(ws)")
 def list_contacts(ws: Workspace) -> Status:
-    """Fill the slots for the present state; return the status."""
+    """Fill the slots for the present state; return the status.
+
+    With the status ``LIST_FULL`` the histories are kept, and the call can be repeated in a memory with more slots.
+    """
     store_histories(ws)
     ws.island.follows_a_step = False
     ws.totals.n_listings += 1
@@ -156,6 +168,7 @@ def list_contacts(ws: Workspace) -> Status:
         unit.place = frame.origin
         for i in range(9):
             unit.axes[i] = frame.rotation[i]
+    margin = ws.island.list_margin
     ws.island.list_margin = min(ws.options.widest_margin, 2.0 * ws.island.list_margin)
     status = find_candidates(ws)
     while status == Status.NO_SLOT and ws.island.list_margin > _NARROWEST * ws.options.widest_margin:
@@ -171,7 +184,7 @@ def list_contacts(ws: Workspace) -> Status:
             frame, still = wall.frame, _is_still(ws.floats, wall.frame)
         clear = still == 1 and wall.is_steady and _is_clear(ws, i)
         if not clear and not _enter_row(ws, wall.row):
-            return Status.NO_SLOT
+            return _full(ws, margin)
     axis = _widest_axis(ws)
     _sort_units(ws, axis)
     for i in range(ws.model.n_spheres):
@@ -183,7 +196,7 @@ def list_contacts(ws: Workspace) -> Status:
             if _begin(ws, two, axis) > end:
                 break
             if are_near(ws, one, two) and not _enter_pair(ws, min(one, two), max(one, two)):
-                return Status.NO_SLOT
+                return _full(ws, margin)
     ws.island.n_histories = 0
     return Status.RUNNING
 

@@ -25,6 +25,7 @@ from nonsmooth.engine.memory.sizes import (
     delassus_numbers,
     ends,
     history_entries,
+    jacobian_numbers,
     per,
     spans,
     step_part_numbers,
@@ -88,6 +89,7 @@ class Island(Singleton, key="island"):
         _DERIVED, delassus_blocks, "Active contact that each Delassus block couples with.", is_late=True
     )
     delassus: FloatRow = floats(_REUSED, delassus_numbers, "1/kg", "Delassus blocks, rows n, t1, t2.", is_late=True)
+    jacobians: FloatRow = floats(_REUSED, jacobian_numbers, "", "Jacobians and responses, contact after contact.")
     n_integrated: int = whole(_DERIVED, "Number of bodies that the integrator steps.")
     integrated: IntegerRow = integers(_DERIVED, per(1, "n_bodies"), "Bodies that the integrator steps.")
     n_ballistic: int = whole(_DERIVED, "Number of bodies in ballistic motion.")

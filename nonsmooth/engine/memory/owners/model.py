@@ -52,6 +52,7 @@ class ModelNumbers(Singleton, key="model"):
     n_u: int = whole(_PARAMETER, "Number of velocities of all bodies.")
     n_y: int = whole(_PARAMETER, "Length of the integrated state: q, u, energy accounts, inner states of laws.")
     n_states: int = whole(_PARAMETER, "Number of inner states of all laws.")
+    most_velocities: int = whole(_PARAMETER, "Largest number of velocities of an articulation with contacts.")
     n_pivoted: int = whole(_PARAMETER, "Largest number of contacts that Lemke's method solves together.")
     map_width: int = whole(_PARAMETER, "Numbers that an impact law which maps velocities takes of a contact.")
     event_floats: int = whole(_PARAMETER, "Length of the buffer of floats of events.")
