@@ -18,7 +18,6 @@ from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ConvexPart
-from nonsmooth.model.laying import write_record
 from nonsmooth.model.row_table import RowTable
 from nonsmooth.system.contacts import Contacts
 
@@ -103,10 +102,12 @@ def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
     With this distance the engine bounds how far the parts move if the frame turns.
     """
     radii: dict[tuple[int, int], float] = {}
-    for side in itertools.chain.from_iterable(pair.sides for pair in pairs):
+    # the carriers of each part in the order of the pairs; a part belongs to many pairs
+    parts = {(side.carrier, side.key): side.part for pair in pairs for side in pair.sides}
+    for (carrier, _), part in parts.items():
         # a part is within a ball about its own origin
-        reach = _UNBOUNDED if side.part.is_half_space else math.hypot(*side.part.place) + side.part.radius
-        radii[side.carrier] = max(reach, radii.get(side.carrier, 0.0))
+        reach = _UNBOUNDED if part.is_half_space else math.hypot(*part.place) + part.radius
+        radii[carrier] = max(reach, radii.get(carrier, 0.0))
     return radii
 
 
@@ -191,21 +192,22 @@ def lay_part_pairs(
     memory[owners.Carrier.frame] = [frames[side] for side in carriers]
     memory[owners.Carrier.radius] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
+    flat: dict[tuple[int, int], bool] = {}
     for number, pair in enumerate(pairs):
         for side in pair.sides:
             if side.key not in starts:
-                starts[side.key] = blocks.store(numbers_of(side.part))
-        fields: dict[str, float] = {
-            "group": pair.group,
-            "contact": pair.contact,
-            "are_both_flat": all(side.part.is_flat for side in pair.sides),
-            "allowed": _ALLOWED * pair.size,
-            "size": pair.size,
-        }
-        for name, side in zip("ab", pair.sides, strict=True):
-            fields |= {f"carrier_{name}": numbers[side.carrier], f"frame_{name}": frames[side.carrier]}
-            fields[f"part_{name}"] = starts[side.key]
-        write_record(memory, owners.Pair, number, fields)
+                starts[side.key], flat[side.key] = blocks.store(numbers_of(side.part)), side.part.is_flat
         # once for all pairs of the same shapes
         if number == pair.group:
             of_row[pair.rows] = number
+    record = owners.Pair
+    memory[record.group], memory[record.contact] = [pair.group for pair in pairs], [pair.contact for pair in pairs]
+    memory[record.are_both_flat] = [all(flat[side.key] for side in pair.sides) for pair in pairs]
+    memory[record.size] = [pair.size for pair in pairs]
+    memory[record.allowed] = _ALLOWED * memory[record.size]
+    for i, (carrier, frame, part) in enumerate(
+        ((record.carrier_a, record.frame_a, record.part_a), (record.carrier_b, record.frame_b, record.part_b))
+    ):
+        memory[carrier] = [numbers[pair.sides[i].carrier] for pair in pairs]
+        memory[frame] = [frames[pair.sides[i].carrier] for pair in pairs]
+        memory[part] = [starts[pair.sides[i].key] for pair in pairs]
