@@ -26,6 +26,8 @@ SMALL = 64
 """Largest number of declared contacts that need no broad phase. To evaluate so many costs less than it does."""
 CONTACTS_PER_SPHERE = 16
 """Number of active contacts per sphere that the memory has slots for at first: a sphere has up to 12 neighbours."""
+LEAST_SLOTS = 1024
+"""Number of active contacts that any memory has slots for at first, if so many are declared. They take 4 MB."""
 _MARGIN = 0.5
 """Margin of the neighbour list, in least radii of spheres. The list lasts while bodies move by about so far."""
 
@@ -134,7 +136,7 @@ def find_broad_phase(contacts: Contacts, table: RowTable, bodies: Sequence[Body]
     half_spaces = [_half_space(contacts.rows[i], i, table, bodies, frames, radii) for i in unbounded]
     # contacts with a half-space are always active, unless it is steady; without spheres all are
     always = sum(len(contacts.rows[one.row]) for one in half_spaces if not one.is_steady)
-    n_slots = min(len(contacts), always + CONTACTS_PER_SPHERE * len(frames))
+    n_slots = min(len(contacts), always + max(LEAST_SLOTS, CONTACTS_PER_SPHERE * len(frames)))
     return BroadPhase(frames, radii, pairs, counts, numbers[order], half_spaces, searches, n_slots)
 
 

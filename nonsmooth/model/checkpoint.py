@@ -35,6 +35,7 @@ from nonsmooth.engine.memory.tables import (
     Group,
     group_of,
     storage_of,
+    variable_scalars,
 )
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.declared import DeclaredContacts
@@ -107,16 +108,24 @@ class Checkpoint:
         return view_of(declared, self.record, self._counts, part.view(np.float64) if is_float else part, first)
 
     def put(self, memory: Memory) -> None:
-        """Write this content into a memory of the same model, which gets as many slots as that of the checkpoint.
+        """Write this content into a memory of the same model. The memory grows if it has fewer slots.
 
         The parameters of active contacts, which are not part of it, are copied anew if the neighbour list differs.
         """
-        active = _active(memory).copy()
-        if memory[owners.ModelNumbers.n_slots] != self.n_slots:
+        active, n_slots = _active(memory).copy(), int(memory[owners.ModelNumbers.n_slots])
+        if n_slots < self.n_slots:
             memory.resize(self._counts)
-        for numbers, kept in zip(memory.kept, self.parts, strict=True):
-            numbers[:] = kept
-        if not np.array_equal(active, _active(memory)):
+        if n_slots > self.n_slots:
+            varies = variable_scalars(memory.own)
+            memory.kept[0][varies] = self.parts[0][varies]
+            for numbers, kept in zip(memory.kept[1:FIXED_PARTS], self.parts[1:FIXED_PARTS], strict=True):
+                numbers[:] = kept
+            memory.put_slots(self.parts[0], *self.parts[FIXED_PARTS:])
+        else:
+            for numbers, kept in zip(memory.kept, self.parts, strict=True):
+                numbers[:] = kept
+        # a memory that has grown has lost the parameters
+        if n_slots < self.n_slots or not np.array_equal(active, _active(memory)):
             _copy_parameters(memory)
 
 

@@ -11,20 +11,24 @@ import numpy as np
 
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.blocks import PAIR, UNTOUCHED
-from nonsmooth.engine.memory.declare import Declaration, Singleton
+from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
 from nonsmooth.engine.memory.layout import BOOKED, JACOBIANS
-from nonsmooth.engine.memory.owners.contact import ContactRecord
+from nonsmooth.engine.memory.owners.contact import ContactRecord, HistoryRecord
 from nonsmooth.engine.memory.owners.island import Island
 from nonsmooth.engine.memory.owners.model import Coefficients, ModelNumbers
 from nonsmooth.engine.memory.owners.run import OutputNumbers
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
     COUNTS,
+    FIRST_SLOT_FLOATS,
+    FIRST_SLOT_INTEGERS,
     OWNERS,
     SLOT_COUNTS,
     Group,
     arrays_of,
     ends_of,
+    group_of,
+    has_array,
     kept_scalars,
     length_of,
     record_with,
@@ -205,8 +209,8 @@ class Memory:
     def resize(self, counts: Counts) -> None:
         """Change the number of slots for active contacts, and what follows from it, in place.
 
-        The content stays as far as there is space for it. ``counts`` are all counts; only ``SLOT_COUNTS`` may differ.
-        Earlier views of floats and integers show the former content.
+        What outlives a step stays, as far as there is space for it. ``counts`` are all counts; only ``SLOT_COUNTS`` may
+        differ. Earlier views of floats and integers show the former content.
         """
         old = replace(self, scalars=self.scalars.copy())
         tables = self.table_numbers if self.foreign_tables is None else np.zeros(0)
@@ -223,7 +227,8 @@ class Memory:
     def fill(self, old: Memory, counts: Counts, blocks: np.ndarray, tables: np.ndarray) -> None:
         """Make new floats and integers, with the content of another memory of the same system.
 
-        Late arrays are left out, except records that Python has not read yet.
+        Late arrays are left out, except records that Python has not read yet. Of slots for active contacts, a memory
+        with another number of them leaves out what no later step reads, except histories.
 
         Parameters
         ----------
@@ -235,12 +240,17 @@ class Memory:
             The blocks, and the tables that the new floats are to hold.
         """
         self._write_layout(counts)
-        (float_ends, integer_ends), slots = self._ends, slot_arrays(self._owners)
+        float_ends, integer_ends = self._ends
         self.floats, self.integers = np.zeros(self.tables + len(tables)), np.zeros(max(integer_ends[-1], 1), np.int64)
         self.floats[: float_ends[Group.SHORT]] = old.floats[: float_ends[Group.SHORT]]
         self.integers[: integer_ends[Group.SHORT]] = old.integers[: integer_ends[Group.SHORT]]
         self.floats[self.blocks : self.slots], self.floats[self.tables :] = blocks, tables
-        lengths: dict[Any, int] = {one: length_of(one, old.counts) for one in slots if not one.is_late}
+        last = Group.SLOTS_SHORT if counts["n_slots"] == old.counts["n_slots"] else Group.SLOTS_KEPT
+        lengths: dict[Any, int] = {
+            one: length_of(one, old.counts) for one in slot_arrays(self._owners) if group_of(one) <= last
+        }
+        histories = filter(has_array, declarations(HistoryRecord).values())
+        lengths |= {one: one.numbers * old[Island.n_histories] for one in histories}
         samples = old[OutputNumbers.n_samples] * (1 + old[ModelNumbers.n_y] + BOOKED)
         lengths |= {
             OutputNumbers.samples: samples,
@@ -278,6 +288,21 @@ class Memory:
         firsts = self.start(Island.jacobians) + JACOBIANS * size * np.arange(self[ModelNumbers.n_slots])
         for i, place in enumerate(_JACOBIANS):
             self[place] = firsts + i * size
+
+    def put_slots(self, scalars: np.ndarray, floats: np.ndarray, integers: np.ndarray) -> None:
+        """Write the slots for active contacts of a checkpoint, which may have fewer of them; the others are reset.
+
+        ``scalars``, ``floats`` and ``integers`` are parts of a checkpoint (:attr:`kept`).
+        """
+        self.clear_slots()
+        record = scalars.view(record_with(self.own))[0]
+        counts = counts_in(record)
+        for one in slot_arrays(self._owners):
+            if group_of(one) is Group.SLOTS_KEPT:
+                key, source = (FIRST_SLOT_FLOATS, floats) if one.is_float else (FIRST_SLOT_INTEGERS, integers)
+                target, n = self.kept[FIXED_PARTS + (not one.is_float)], length_of(one, counts)
+                here, there = (int(scalar[one.key] - scalar[key]) for scalar in (self.record, record))
+                target[here : here + n] = source[there : there + n]
 
     def clear_slots(self) -> None:
         """Reset all slots for active contacts to their content before any run."""

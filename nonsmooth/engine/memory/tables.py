@@ -90,7 +90,8 @@ def group_of(declared: Declaration) -> Group:
     return Group(group + Group.SLOTS_KEPT) if depends else group
 
 
-def slot_arrays(owners: Iterable[type]) -> list[Declaration]:
+@functools.cache
+def slot_arrays(owners: tuple[type, ...]) -> list[Declaration]:
     """Arrays of some owners whose length depends on the number of slots."""
     return [one for one in _all(owners) if has_array(one) and group_of(one) >= Group.SLOTS_KEPT]
 
@@ -150,6 +151,16 @@ def kept_scalars(own: Iterable[type[Singleton]]) -> NDArray[np.bool_]:
     """For each entry of the record of scalars, with the parts ``own`` of an engine, True if it outlives a step."""
     kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and one.is_scalar}
     return np.array([name in kept for name in record_with(own).names or ()])
+
+
+@functools.cache
+def variable_scalars(own: tuple[type[Singleton], ...]) -> NDArray[np.bool_]:
+    """For each entry of the record of scalars, with the parts ``own`` of an engine, False for a count or an offset."""
+    fixed = {
+        *(f"{ModelNumbers.key}.{name}" for name in COUNTS),
+        *(one.key for one in _all((*OWNERS, *own)) if has_array(one)),
+    }
+    return np.array([name not in fixed for name in record_with(own).names or ()])
 
 
 def record_with(own: Iterable[type[Singleton]]) -> np.dtype[np.void]:
