@@ -35,7 +35,7 @@ class FeatureSearch:
     candidates : CandidateSearch
         The function of the search and its parameters.
     row : int
-        Number of the row of the contacts.
+        Number of the row of the first contact; the others are in this row or the next ones.
     contacts : range
         Numbers of the contacts.
     owner : str
@@ -57,7 +57,7 @@ class FeatureSearch:
 def find_searches(contacts: Contacts) -> list[FeatureSearch]:
     """The searches for candidate features, in the order of their contacts.
 
-    The contacts of a search are consecutive, those of one row, and have the same :class:`CandidateSearch`.
+    The contacts of a search are consecutive, and have the same :class:`CandidateSearch`.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
             if search is None:
                 continue
             last = found[-1] if found else None
-            if last and last.row == place and last.candidates is search and last.contacts.stop == number:
+            if last and last.candidates is search and last.contacts.stop == number:
                 found[-1] = replace(last, contacts=range(last.contacts.start, number + 1))
                 continue
             contact = row.contact(index)

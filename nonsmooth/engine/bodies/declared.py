@@ -21,8 +21,11 @@ def _moved(offset: int, distance: int) -> int:
 
 
 @kernel("i8(ws, i8, i8)")
-def features_of(ws: Workspace, number: int, declared: int) -> int:
-    """Offset of the pair of features of a declared contact in row ``number``; 0 if its features are fixed."""
+def features_of(ws: Workspace, first: int, declared: int) -> int:
+    """Offset of the pair of features of a declared contact in row ``first`` or behind; 0 if its features are fixed."""
+    number = first
+    while ws.rows[number].end_contact <= declared:
+        number += 1
     row = ws.rows[number]
     kind = ws.kinds[row.first_kind + declared - row.first_contact]
     return int(_moved(kind.features, row.rank * kind.geometry_stride))

@@ -44,7 +44,7 @@ class Search(Record, key="searches", capacity="n_searches", length="model.n_sear
     function: int = address(_PARAMETER, "Address of the function that finds pairs of features.")
     parameters: int = whole(_PARAMETER, "Offset of the parameters of that function.")
     out: int = whole(_PARAMETER, "Offset at which the function writes.")
-    row: int = whole(_PARAMETER, "Row of the declared contacts that hold the pairs.")
+    row: int = whole(_PARAMETER, "Row of the first of the declared contacts that hold the pairs.")
     first_contact: int = whole(_PARAMETER, "First of the declared contacts that hold the pairs.")
     n_contacts: int = whole(_PARAMETER, "Number of these contacts.")
     sphere_a: int = whole(_PARAMETER, "Bounding sphere of the first shape.")
