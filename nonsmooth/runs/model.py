@@ -167,7 +167,9 @@ class Model:
         return Model(self._blank_copy(), self._engine, self._start, self._key)
 
     def with_laws_of(self, system: System) -> Model:
-        """Model of a system that differs in its laws only, without assembling it.
+        """Model of a system that differs in its laws only.
+
+        It is not assembled if the same contacts share their laws as before, which saves most of the time.
 
         Parameters
         ----------
