@@ -95,7 +95,7 @@ class LaidOut:
         """
         status = call_entry("list_contacts", self.memory)
         while status == Status.LIST_FULL:
-            self.reserve(2 * int(self.memory[owners.ModelNumbers.n_slots]))
+            self.reserve(2 * int(self.memory[owners.ModelNumbers.n_slots]) + 1)
             status = call_entry("list_contacts", self.memory)
         if status == Status.NOT_FINITE:
             raise PluginError(failed_search(self.memory, self.system.contacts))
