@@ -77,8 +77,8 @@ class EventDriven(Engine):
     def counts(self, n_slots: int) -> Mapping[str, int]:
         """Return the number of contacts that Lemke's method may solve together, as ``{"n_pivoted": number}``.
 
-        The workspace holds a tableau of this size. ``n_slots`` is the number of contacts that may be near each other at
-        one time.
+        The workspace holds a tableau of this size. ``n_slots`` is the number of contacts near each other for which the
+        memory is laid out.
         """
         return {"n_pivoted": pivoted_contacts(solver_of(self.solver), n_slots)}
 

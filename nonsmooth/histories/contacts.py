@@ -177,20 +177,20 @@ class _ClosedReader:
     none = np.zeros((0, 2), dtype=np.int64), np.zeros((0, 20))
 
     def __init__(self, laid: LaidOut) -> None:
-        self._memory, self._n = laid.memory, int(laid.memory[owners.ModelNumbers.n_slots])
+        self._memory = laid.memory
 
     def __call__(self) -> tuple[Integers, Floats]:
         """Number and mode of each closed contact, shape [m, 2], and its floats, shape [m, 20], by ascending number.
 
         The floats are gap, points, normal, normal force, friction force, friction moment and slip velocity.
         """
-        memory, contact, n = self._memory, owners.ContactRecord, self._n
+        memory, contact = self._memory, owners.ContactRecord
         slots = memory[owners.Island.grouped][: int(memory[owners.Island.n_grouped])]
         if len(slots) == 0:
             return self.none
         slots = slots[np.argsort(memory[contact.declared][slots])]
         blocks, forces = memory[contact.geometry][slots], memory[contact.force][slots]
-        axes = memory[contact.axes][:n].reshape(n, 3, 3)[slots]
+        axes = memory[contact.axes].reshape(-1, 3, 3)[slots]
         normal, tangent, slip = blocks[:, NORMAL : NORMAL + 3], blocks[:, TANGENT : TANGENT + 3], _slips(memory, slots)
         floats = np.empty((len(slots), 20))
         floats[:, 0], floats[:, 1:7], floats[:, 7:10] = blocks[:, GAP], blocks[:, POINT_A : POINT_A + 6], normal

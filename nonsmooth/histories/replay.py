@@ -21,6 +21,7 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.model.assembly import lay
+from nonsmooth.model.declared import DeclaredContacts, remember, searched
 from nonsmooth.model.laid_out import LaidOut
 
 if TYPE_CHECKING:
@@ -149,10 +150,9 @@ class StateReplay:
         found = self._y[rows]
         between = np.flatnonzero(self._time[rows] < times)
         if len(between) > 0:
-            y = self.laid.memory[owners.Island.y][: self.laid.n_y]
 
             def keep(i: int) -> None:
-                found[between[i]] = y
+                found[between[i]] = self.laid.memory[owners.Island.y][: self.laid.n_y]
 
             self.visit(times[between], keep, forces=False)
         return found
@@ -201,13 +201,12 @@ class StateReplay:
         ``look(i)`` reads the model at ``times[i]``.  ``states`` is the result of :meth:`states` at the times.
         """
         memory = self.laid.memory
-        y = memory[owners.Island.y][: self.laid.n_y]
         with self._alone:
             # `_put_event` is the event whose modes the model has. Neighbour list and modes are set anew for each time
             # here. With -2 (no event), the next `_put` sets the modes again
             self._put_event = -2
             for i, row in enumerate(self._row(times).tolist()):
-                memory[owners.Island.time], y[:] = times[i], states[i]
+                memory[owners.Island.time], memory[owners.Island.y] = times[i], states[i]
                 self._put_modes(int(self._event[row]))
                 self.laid.evaluate()
                 look(i)
@@ -259,19 +258,20 @@ class StateReplay:
         contact = owners.ContactRecord
         listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
         numbers, kept = events.listed[listed], events.listed_memory[listed]
-        modes, averaged = memory.declared(contact.mode), memory.declared(contact.mode_after_averaging)
-        modes[:] = averaged[:] = Mode.OPEN
-        modes[numbers] = _MODES[events.codes[listed] >> AFTER & CODE]
-        averaged[numbers] = kept[:, _AVERAGED]
-        memory.declared(contact.direction)[numbers] = kept[:, _DIRECTION:_RATE]
-        memory.declared(contact.closing_rate)[numbers] = kept[:, _RATE]
+        states = {
+            contact.mode: _MODES[events.codes[listed] >> AFTER & CODE],
+            contact.mode_after_averaging: kept[:, _AVERAGED],
+            contact.direction: kept[:, _DIRECTION:_RATE],
+            contact.closing_rate: kept[:, _RATE],
+        }
         # zeros make a contact search for its features again; closed contacts get back their features at the event
-        places = memory.declared(contact.features)
-        memory.floats[places[places > 0]] = 0.0
-        for number, features in zip(numbers.tolist(), kept[:, _FEATURES:], strict=True):
-            if places[number] > 0:
-                memory.floats[places[number] : places[number] + len(features)] = features
-        memory[owners.Island.n_contacts] = 0
+        memory.floats[searched(memory)[1]] = 0.0
+        places = DeclaredContacts.of(memory, numbers)[contact.features]
+        for place, features in zip(places.tolist(), kept[:, _FEATURES:], strict=True):
+            if place > 0:
+                memory.floats[place : place + len(features)] = features
+        self.laid.reserve(len(numbers))
+        remember(memory, numbers, states)
         self.laid.list_contacts()
         slots = int(memory[owners.Island.n_contacts])
         facing = np.ones(n)

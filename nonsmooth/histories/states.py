@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import AXIS, FRAME, JOINT_ROW, MOMENT, POINT_B, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.replay import check_recorded
@@ -253,28 +254,33 @@ class Joints:
 @final
 @dataclass(frozen=True)
 class _JointReader:
-    """Reader of one joint: views of its second body's frame, its rows (constraints) and the forces along the rows."""
+    """Reader of one joint: offsets of its second body's frame, its rows (constraints) and the forces along the rows."""
 
-    origin: Floats
-    rows: Floats
-    along: Floats
+    memory: Memory
+    origin: int
+    rows: int
+    along: int
+    n_rows: int
 
     def __call__(self) -> tuple[Floats, Floats, Floats]:
         """Point of action of the joint [m], and its force [N] and moment about this point [N m] on the second body.
 
         All of them are in world axes, shape [3] each.
         """
-        axes, moments, points = (self.rows[:, at : at + 3] for at in (AXIS, MOMENT, POINT_B))
+        floats = self.memory.floats
+        rows = floats[self.rows :][: JOINT_ROW * self.n_rows].reshape(self.n_rows, JOINT_ROW)
+        along, origin = floats[self.along :][: self.n_rows], floats[self.origin :][:3]
+        axes, moments, points = (rows[:, at : at + 3] for at in (AXIS, MOMENT, POINT_B))
         # a row that constrains a rotation has a zero axis and no point of action. So the point of the first row that
         # constrains a translation is used
         holding = np.flatnonzero(np.any(axes != 0.0, axis=1))
-        point = points[holding[0]] if len(holding) > 0 else self.origin
-        return point, self.along @ axes, self.along @ (moments + np.cross(points - point, axes))
+        point = points[holding[0]] if len(holding) > 0 else origin
+        return point, along @ axes, along @ (moments + np.cross(points - point, axes))
 
 
 def _readers(laid: LaidOut) -> list[_JointReader]:
     """Readers of the joints in the order of the system; the engine stores them articulation by articulation."""
-    memory, floats, joint = laid.memory, laid.memory.floats, owners.JointRecord
+    memory, joint = laid.memory, owners.JointRecord
     found: dict[int, _JointReader] = {}
     number = 0
     for index, articulation in enumerate(articulations(laid.system)):
@@ -283,7 +289,6 @@ def _readers(laid: LaidOut) -> list[_JointReader]:
             origin, out, first, n = (
                 int(memory[one][number]) for one in (joint.frame_b, joint.out, joint.first_row, joint.n_rows)
             )
-            rows = floats[out : out + JOINT_ROW * n].reshape(n, JOINT_ROW)
-            found[id(tie)] = _JointReader(floats[origin : origin + 3], rows, floats[along + first : along + first + n])
+            found[id(tie)] = _JointReader(memory, origin, out, along + first, n)
             number += 1
     return [found[id(tie)] for tie in laid.system.joints]

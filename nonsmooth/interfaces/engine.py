@@ -150,7 +150,8 @@ class Engine(Component, ABC):
         Parameters
         ----------
         n_slots : int
-            Contacts that may be near each other at one time.
+            Number of contacts near each other for which the memory is laid out. It grows when a run needs more, and the
+            method is called again. The arrays of the engine must not depend on it in any other way.
         """
 
     @abstractmethod

@@ -5,6 +5,7 @@ All sizes are known before the memory is allocated: first the parts of the syste
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -13,22 +14,22 @@ import numpy as np
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
+from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
-from nonsmooth.engine.memory.memory import Heap, allocate
-from nonsmooth.engine.memory.tables import COUNTS
+from nonsmooth.engine.memory.memory import allocate
+from nonsmooth.engine.memory.tables import SLOT_COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
-from nonsmooth.interfaces import Engine, ImpactMap
+from nonsmooth.interfaces import Engine, ImpactLaw, ImpactMap
 from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
-from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
 from nonsmooth.model.feature_searches import lay_searches
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import ArticulationLayout, articulations, lay_bodies, lay_guards, lay_joints, lay_loads
-from nonsmooth.model.laying_contacts import Kinds, by_kind, initial_state, lay_contacts
+from nonsmooth.model.laying_contacts import Groups, groups_of, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
-from nonsmooth.system.contact import Contact
+from nonsmooth.model.row_table import RowTable
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
@@ -42,9 +43,9 @@ _SAMPLES = 4096
 class _Parts(NamedTuple):
     """The parts of a system, found before the memory is allocated."""
 
-    kinds: Kinds
+    groups: Groups
     articulations: Sequence[ArticulationLayout]
-    table: ContactTable
+    table: RowTable
     broad_phase: BroadPhase
     pairs: Sequence[PartPair]
 
@@ -52,9 +53,9 @@ class _Parts(NamedTuple):
     def of(cls, system: System) -> _Parts:
         """Find the kinds of contacts, articulations, bounding spheres and pairs of convex parts of a system."""
         bodies, contacts = system.bodies, system.contacts
-        table = ContactTable.of(bodies, contacts)
+        table = RowTable.of(bodies, contacts)
         return cls(
-            by_kind(contacts),
+            groups_of(contacts),
             articulations(system),
             table,
             find_broad_phase(contacts, table, bodies),
@@ -83,7 +84,7 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
     Raises
     ------
     InvalidInput
-        If too many contacts are near each other.
+        If a search finds more features near each other than there are contacts for them.
     """
     model = lay(system, engine)
     # coordinates, then velocities; energy accounts and inner states follow, and begin at zero
@@ -108,7 +109,9 @@ def lay(system: System, engine: Engine) -> LaidOut:
     # t = 0 s, where each system starts
     check_guards(system, 0.0, *system.starts())
     contacts, parts = system.contacts, _Parts.of(system)
-    counts = _counts(system, engine, parts)
+    counts = _counts(system, parts)
+    slot_counts = functools.partial(_slot_counts, engine, counts["n_u"], counts["n_y"])
+    counts |= slot_counts(parts.broad_phase.n_slots)
     settings = settings_of(engine, system.time_scale)
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
@@ -117,7 +120,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     bodies = lay_bodies(system, memory, blocks, parts.articulations)
     lay_joints(memory, blocks, parts.articulations, bodies)
     lay_loads(system, memory, blocks, bodies)
-    lay_contacts(memory, blocks, contacts, parts.table, parts.kinds, bodies)
+    lay_contacts(memory, blocks, contacts, parts.table, parts.groups, bodies)
     # offset of each frame, by the numbers of body and frame
     frames = {(body.number, frame): at for body in bodies.values() for frame, at in enumerate(body.frames)}
     lay_broad_phase(memory, parts.broad_phase, frames)
@@ -126,7 +129,8 @@ def lay(system: System, engine: Engine) -> LaidOut:
     lay_guards(system, memory, blocks)
     # the arrays move to make room for the blocks behind them: views of the old memory are no longer valid
     memory = blocks.close()
-    model = LaidOut(system, memory, counts["n_q"], counts["n_u"], counts["n_states"], marks_behind_blocks(memory))
+    marks = marks_behind_blocks(memory)
+    model = LaidOut(system, memory, slot_counts, counts["n_q"], counts["n_u"], counts["n_states"], marks)
     for scalar, value in settings.items():
         memory[scalar] = value
     # the engine evaluates numbers of its own that no run changes
@@ -134,22 +138,21 @@ def lay(system: System, engine: Engine) -> LaidOut:
     return model
 
 
-def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
-    """All counts that the memory is allocated for, by name: those of the system, then those that the engine decides.
-
-    An event in the buffers has a head with the velocities before, the state after and the accounted energies, and
-    ``LISTED`` floats and two integers (number and code) for each active contact.
-    """
-    contacts, n_slots = system.contacts, parts.broad_phase.n_slots
+def _counts(system: System, parts: _Parts) -> dict[str, int]:
+    """Counts of a system that the memory is allocated for, by name, without those that follow from slots."""
+    contacts = system.contacts
+    # number of velocities of the articulation of each body
+    together = np.array([sum(body.n_u for body in one.bodies) for one in parts.articulations for _ in one.bodies])
     n_q = sum(body.n_q for body in system.bodies)
     n_u = sum(body.n_u for body in system.bodies)
-    # the contacts of a kind have the same laws, so that the first one stands for all
-    n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in parts.kinds)
+    n_states = sum(len(row) * len(initial_state(row.laws.friction)) for row in contacts.rows)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
-    counts = {
+    return {
         "n_bodies": len(system.bodies),
-        "n_slots": n_slots,
         "n_declared": len(contacts),
+        "n_rows": len(contacts.rows),
+        # the rows of a group have the same kinds
+        "n_kinds": sum(len(contacts.rows[rows[0]]) for rows in parts.groups),
         **parts.broad_phase.lengths,
         "n_pairs": len(parts.pairs),
         "n_carriers": len(carriers_of(parts.pairs)),
@@ -161,22 +164,34 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
         "n_u": n_u,
         "n_y": n_y,
         "n_states": n_states,
-        "map_width": _map_width([contacts[numbers[0]] for numbers in parts.kinds]),
-        "event_floats": _length_of_events(EVENT_HEAD + n_u + n_y + BOOKED, LISTED, n_slots),
-        "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
+        "map_width": _map_width([contacts.rows[rows[0]].laws.impact for rows in parts.groups]),
+        "most_velocities": int(together[parts.table.bodies].max(initial=0)),
         "sample_capacity": _SAMPLES,
     }
+
+
+def _slot_counts(engine: Engine, n_u: int, n_y: int, n_slots: int) -> dict[str, int]:
+    """Counts that follow from the number of slots for active contacts, in a system with ``n_u`` and ``n_y`` numbers.
+
+    An event in the buffers has a head with the velocities before, the state after and the accounted energies, and
+    ``LISTED`` floats and two integers (number and code) for each active contact.
+    """
+    found = {
+        "n_slots": n_slots,
+        "event_floats": _length_of_events(EVENT_HEAD + n_u + n_y + BOOKED, LISTED, n_slots),
+        "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
+    }
     # the engine decides the others; those that it leaves out are zero
-    others = dict.fromkeys((name for name in COUNTS if name not in counts), 0)
-    return {**counts, **others, **counts_of(engine, n_slots, others)}
+    others = dict.fromkeys((name for name in SLOT_COUNTS if name not in found), 0)
+    return {**found, **others, **counts_of(engine, n_slots, others)}
 
 
-def _map_width(contacts: Sequence[Contact]) -> int:
+def _map_width(laws: Sequence[ImpactLaw | None]) -> int:
     """Number of parameters per contact of an impact map (a law that maps velocities), 1 without one.
 
     An impact map gets the parameters of all contacts as one matrix, so all contacts have the same map.
     """
-    maps = (contact.impact for contact in contacts if isinstance(contact.impact, ImpactMap))
+    maps = (law for law in laws if isinstance(law, ImpactMap))
     return next((len(parameter_names(law.impulses, "map")) for law in maps), 1)
 
 

@@ -18,10 +18,13 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import joints_in_order, place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
+
+_CONTACT = owners.ContactRecord
 
 
 class PluginBlock(NamedTuple):
@@ -103,18 +106,19 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[PluginBlock]:
     for tie, out in zip(joints_in_order(model.system), memory[owners.JointRecord.out].tolist(), strict=True):
         assert isinstance(tie.component, Joint)
         yield _block(tie, tie.component.evaluator, out, JOINT_ROW * tie.component.n_rows)
-    traction, rates = (
-        memory.declared(out) for out in (owners.ContactRecord.traction_out, owners.ContactRecord.rates_out)
-    )
-    # an offset of 0: the contact has neither inner states nor a traction law
-    for i in np.flatnonzero(traction).tolist():
-        law = contacts[i].friction
-        if isinstance(law, TractionLaw):
-            # a traction law writes the rates of its inner states behind force and moment
-            yield _block(contacts[i], law.traction, int(traction[i]), FORCE_AND_MOMENT + len(law.initial_state))
-        else:
-            assert isinstance(law, StatefulFrictionLaw)
-            yield _block(contacts[i], law.rates, int(rates[i]), len(law.initial_state))
+    for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
+        law = row.laws.friction
+        if not isinstance(law, (TractionLaw, StatefulFrictionLaw)):
+            continue
+        declared = DeclaredContacts.of(memory, range(start, start + len(row)))
+        for index in range(len(row)):
+            if isinstance(law, TractionLaw):
+                # a traction law writes the rates of its inner states behind force and moment
+                place, size = int(declared[_CONTACT.traction_out][index]), FORCE_AND_MOMENT + len(law.initial_state)
+                yield _block(row.contact(index), law.traction, place, size)
+            else:
+                place = int(declared[_CONTACT.rates_out][index])
+                yield _block(row.contact(index), law.rates, place, len(law.initial_state))
 
 
 def _blocks_of_searches(model: LaidOut) -> Iterator[PluginBlock]:
@@ -130,14 +134,13 @@ def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int
 
 
 def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
-    """Places of the marks behind blocks among the floats of a memory on which no plug-in was called yet.
+    """Places of the marks behind blocks of the assembly in a memory on which no plug-in was called yet.
 
     All marks still have the value ``UNTOUCHED``, which no other number has. A mark that changes later shows that a
     plug-in wrote past its block.
     """
-    # geometry blocks are among the arrays, the others behind them
-    arrays, _, blocks = memory.early
-    return np.concatenate([np.flatnonzero(arrays == UNTOUCHED), memory.blocks + np.flatnonzero(blocks == UNTOUCHED)])
+    # the marks of geometry blocks, of which there is one for each slot, are read apart
+    return memory.blocks + np.flatnonzero(memory.floats[memory.blocks : memory.slots] == UNTOUCHED)
 
 
 def block_overrun(model: LaidOut) -> str:
@@ -146,10 +149,10 @@ def block_overrun(model: LaidOut) -> str:
     # an impact map has marks of its own, which the engine checks at each impact. This is the number of contacts of the
     # impact in which one had changed, or 0
     n_past_map = int(memory[owners.Run.n_past_map])
-    if np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
-        return ""
     # indices in the neighbour list of geometry blocks that are overrun
     overrun = np.flatnonzero(np.any(memory[owners.ContactRecord.geometry][:, PAIR:] != UNTOUCHED, axis=1)).tolist()
+    if not overrun and np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
+        return ""
     for block in (
         *_blocks_of_bodies(model),
         *(_block_of_contact(model, index) for index in overrun if index < len(model.active)),

@@ -23,10 +23,22 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Declaration, Life, Singleton, declarations
-from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
+from nonsmooth.engine.memory.memory import FIXED_PARTS, Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, OWNERS, SCALARS
+from nonsmooth.engine.memory.tables import (
+    FIRST_SLOT_FLOATS,
+    FIRST_SLOT_INTEGERS,
+    FLOAT_ARRAYS,
+    N_SCALARS,
+    OWNERS,
+    SCALARS,
+    Group,
+    group_of,
+    storage_of,
+    variable_scalars,
+)
 from nonsmooth.errors import InvalidInput
+from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
@@ -69,6 +81,11 @@ class Checkpoint:
         """Counts of bodies, contacts, ... in the record, which give the lengths of the arrays."""
         return counts_in(self.record)
 
+    @property
+    def n_slots(self) -> int:
+        """Number of slots for active contacts in the memory."""
+        return int(self[owners.ModelNumbers.n_slots])
+
     @functools.cached_property
     def size(self) -> int:
         """Size [bytes]."""
@@ -83,26 +100,32 @@ class Checkpoint:
         """A scalar, or a view of an array that outlives a step, as the memory gives it."""
         if declared.size is None and issubclass(declared.owner, Singleton):
             return self.record[declared.key].item()
-        # the parts are scalars, floats, integers and blocks
-        part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[2]
-        return view_of(declared, self.record, self._counts, part)
-
-    def declared(self, declared: Any) -> np.ndarray:
-        """A view of a field of all declared contacts, such as the mode.
-
-        Of a contact on the neighbour list it may be out of date: its record as an active contact is newer.
-        """
-        return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
+        # the parts are scalars, floats, integers, blocks, and floats and integers that grow with the number of slots
+        is_float = declared.key in FLOAT_ARRAYS
+        grows = group_of(storage_of(declared)) >= Group.SLOTS_KEPT
+        part = self.parts[(4 if is_float else 5) if grows else (1 if is_float else 2)]
+        first = int(self.record[FIRST_SLOT_FLOATS if is_float else FIRST_SLOT_INTEGERS]) if grows else 0
+        return view_of(declared, self.record, self._counts, part.view(np.float64) if is_float else part, first)
 
     def put(self, memory: Memory) -> None:
-        """Write this content into a memory of the same model.
+        """Write this content into a memory of the same model. The memory grows if it has fewer slots.
 
         The parameters of active contacts, which are not part of it, are copied anew if the neighbour list differs.
         """
-        active = _active(memory).copy()
-        for numbers, kept in zip(memory.kept, self.parts, strict=True):
-            numbers[:] = kept
-        if not np.array_equal(active, _active(memory)):
+        active, n_slots = _active(memory).copy(), int(memory[owners.ModelNumbers.n_slots])
+        if n_slots < self.n_slots:
+            memory.resize(self._counts)
+        if n_slots > self.n_slots:
+            varies = variable_scalars(memory.own)
+            memory.kept[0][varies] = self.parts[0][varies]
+            for numbers, kept in zip(memory.kept[1:FIXED_PARTS], self.parts[1:FIXED_PARTS], strict=True):
+                numbers[:] = kept
+            memory.put_slots(self.parts[0], *self.parts[FIXED_PARTS:])
+        else:
+            for numbers, kept in zip(memory.kept, self.parts, strict=True):
+                numbers[:] = kept
+        # a memory that has grown has lost the parameters
+        if n_slots < self.n_slots or not np.array_equal(active, _active(memory)):
             _copy_parameters(memory)
 
 
@@ -115,10 +138,13 @@ class Difference:
     ----------
     places, bits : tuple of array
         Places of the numbers that differ, and their bits, one array for each part.
+    n_slots : int
+        Number of slots for active contacts in the memory of the checkpoint.
     """
 
     places: tuple[Integers, ...]
     bits: tuple[Integers, ...]
+    n_slots: int
 
     def __reduce__(self) -> tuple[Callable[[bytes], Difference], tuple[bytes]]:
         """Pickled as the packed difference, which takes less memory than its arrays."""
@@ -128,19 +154,23 @@ class Difference:
     def between(cls, blank: Checkpoint, checkpoint: Checkpoint, changing: tuple[Booleans, ...]) -> Difference:
         """Difference of a checkpoint from a blank one, in the numbers that a run may change.
 
-        ``changing`` is True for these, one array per part. The parts are integers, so that NaN equals itself.
+        ``changing`` is True for these, one array per part that does not depend on the number of slots. The other parts
+        are compared with zeros. The parts are integers, so that NaN equals itself.
         """
-        triples = zip(blank.parts, checkpoint.parts, changing, strict=True)
-        places = tuple(np.flatnonzero((new != old) & may_change) for old, new, may_change in triples)
-        return cls(places, tuple(part[at] for part, at in zip(checkpoint.parts, places, strict=True)))
+        fixed = checkpoint.parts[:FIXED_PARTS]
+        triples = zip(blank.parts[:FIXED_PARTS], fixed, changing[:FIXED_PARTS], strict=True)
+        places = [np.flatnonzero((new != old) & may_change) for old, new, may_change in triples]
+        places += map(np.flatnonzero, checkpoint.parts[FIXED_PARTS:])
+        bits = tuple(part[at] for part, at in zip(checkpoint.parts, places, strict=True))
+        return cls(tuple(places), bits, checkpoint.n_slots)
 
     def packed(self) -> bytes:
         """The difference as compressed bytes of little-endian integers, the same on all machines.
 
-        They are the number of parts, the number of places of each, the places, and the bits. Places are stored as
-        distances from one to the next, most of which are 1 and so compress well.
+        They are the number of slots, the number of parts, the number of places of each, the places, and the bits.
+        Places are stored as distances from one to the next, most of which are 1 and so compress well.
         """
-        sizes = np.array([len(self.places), *map(len, self.places)])
+        sizes = np.array([self.n_slots, len(self.places), *map(len, self.places)])
         steps = [np.diff(places, prepend=0) for places in self.places]
         return zlib.compress(np.concatenate([sizes, *steps, *self.bits]).astype("<i8").tobytes(), level=1)
 
@@ -154,14 +184,14 @@ class Difference:
             If the bytes are damaged.
         """
         numbers = np.frombuffer(zlib.decompress(content), "<i8").astype(np.int64)
-        n = int(numbers[0])
-        sizes = numbers[1 : n + 1]
+        n_slots, n = numbers[:2].tolist()
+        sizes = numbers[2 : n + 2]
         # the places of all parts, then the bits of all parts
-        parts = np.split(numbers[n + 1 :], np.cumsum([*sizes, *sizes])[:-1])
-        return cls(tuple(np.cumsum(steps) for steps in parts[:n]), tuple(parts[n:]))
+        parts = np.split(numbers[n + 2 :], np.cumsum([*sizes, *sizes])[:-1])
+        return cls(tuple(np.cumsum(steps) for steps in parts[:n]), tuple(parts[n:]), n_slots)
 
     def put(self, memory: Memory) -> None:
-        """Write the difference into a memory that holds the blank checkpoint. It may come from a foreign file.
+        """Write the difference into a memory with the blank checkpoint and its slots. It may come from a foreign file.
 
         Places are checked before anything is written, values afterwards, where their fields are known. Parameters of
         active contacts are no part of it, and are copied anew.
@@ -172,6 +202,7 @@ class Difference:
             If it does not fit the memory, or a number is outside of its range.
         """
         self._check(memory)
+        memory.clear_slots()
         for numbers, places, bits in zip(memory.kept, self.places, self.bits, strict=True):
             numbers[places] = bits
         _check_values(memory)
@@ -208,9 +239,10 @@ def _copy_parameters(memory: Memory) -> None:
     Fields that are views (``inside``) of another field are copied with it.
     """
     active = _active(memory)
-    for name, one in declarations(owners.DeclaredContact).items():
-        if one.life is Life.PARAMETER and not one.inside[0]:
-            memory[getattr(owners.ContactRecord, name)][: len(active)] = memory[one][active]
+    contacts = DeclaredContacts.of(memory, active)
+    for one in declarations(owners.ContactRecord).values():
+        if one.life is Life.PARAMETER and not (one.inside[0] or one.is_of_slot):
+            memory[one][: len(active)] = contacts[one]
 
 
 def _check_values(memory: Memory) -> None:

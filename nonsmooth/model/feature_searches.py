@@ -16,11 +16,12 @@ from nonsmooth.binding.compile import bind, parameter_place
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.memory import Heap, Memory
+from nonsmooth.engine.memory.heap import Heap
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
-from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import write_record
+from nonsmooth.model.row_table import RowTable
 from nonsmooth.parameters import SharedNumbers
 from nonsmooth.system.contacts import Contacts
 
@@ -33,6 +34,8 @@ class FeatureSearch:
     ----------
     candidates : CandidateSearch
         The function of the search and its parameters.
+    row : int
+        Number of the row of the first contact; the others are in this row or the next ones.
     contacts : range
         Numbers of the contacts.
     owner : str
@@ -40,6 +43,7 @@ class FeatureSearch:
     """
 
     candidates: CandidateSearch
+    row: int
     contacts: range
     owner: str
 
@@ -66,15 +70,16 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
         id(kinematics): any(one.candidates is not None for one in kinematics)
         for kinematics in {id(row.kinematics): row.kinematics for row in contacts.rows}.values()
     }
-    for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
+    for place, (row, start) in enumerate(zip(contacts.rows, contacts.starts.tolist(), strict=False)):
         if not needs_search[id(row.kinematics)]:
             continue
         for index, kinematics in enumerate(row.kinematics):
             search, number = kinematics.candidates, start + index
             if search is None:
                 continue
-            if found and found[-1].candidates is search and found[-1].contacts.stop == number:
-                found[-1] = replace(found[-1], contacts=range(found[-1].contacts.start, number + 1))
+            last = found[-1] if found else None
+            if last and last.candidates is search and last.contacts.stop == number:
+                found[-1] = replace(last, contacts=range(last.contacts.start, number + 1))
                 continue
             contact = row.contact(index)
             for shape, extent in zip(row.shapes, row.extents, strict=True):
@@ -86,7 +91,7 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
                         "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                     )
             owner = f"{type(kinematics).__name__} ({contact})"
-            found.append(FeatureSearch(search, range(number, number + 1), owner))
+            found.append(FeatureSearch(search, place, range(number, number + 1), owner))
     return found
 
 
@@ -94,7 +99,7 @@ def lay_searches(
     memory: Memory,
     blocks: Heap,
     searches: Sequence[FeatureSearch],
-    table: ContactTable,
+    table: RowTable,
     spheres: Mapping[tuple[int, int], int],
 ) -> None:
     """Write the searches. ``spheres`` has the bounding sphere of each frame, by the numbers of body and frame.
@@ -104,12 +109,10 @@ def lay_searches(
     """
     for number, search in enumerate(searches):
         fields = _lay_function(blocks, search)
-        # all contacts of a search have the same two frames
-        first = search.contacts.start
         # body and frame of both sides
-        sides = zip(table.bodies[first].tolist(), table.frames[first].tolist(), strict=True)
+        sides = zip(table.bodies[search.row].tolist(), table.frames[search.row].tolist(), strict=True)
         sphere_a, sphere_b = (spheres[side] for side in sides)
-        fields |= {"first_contact": first, "n_contacts": len(search.contacts)}
+        fields |= {"row": search.row, "first_contact": search.contacts.start, "n_contacts": len(search.contacts)}
         fields |= {"sphere_a": sphere_a, "sphere_b": sphere_b}
         write_record(memory, owners.Search, number, fields)
         for sphere in (sphere_a, sphere_b):

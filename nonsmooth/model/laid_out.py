@@ -6,6 +6,7 @@ An active contact is a declared contact on the neighbour list. The others belong
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import cast
 
@@ -37,6 +38,8 @@ class LaidOut:
         The system.
     memory : Memory
         The workspace of the engine.
+    slot_counts : callable
+        Gives the counts that follow from a number of slots for active contacts, by name.
     n_q, n_u, n_states : int
         Numbers of coordinates and velocities of all bodies, and of inner states of laws.
     marks : array
@@ -45,6 +48,7 @@ class LaidOut:
 
     system: System
     memory: Memory
+    slot_counts: Callable[[int], Mapping[str, int]]
     n_q: int
     n_u: int
     n_states: int
@@ -77,26 +81,48 @@ class LaidOut:
         """Numbers of the contacts of shapes without convex parts, whose bodies the engine cannot check for overlap."""
         return contacts_without_parts(self.system.contacts)
 
-    def list_contacts(self) -> None:
+    def list_contacts(self, of_all: bool = True) -> None:
         """Make the neighbour list at the current state: the active contacts, those of bodies near each other.
+
+        The memory grows if it has too few slots for them.
+
+        Parameters
+        ----------
+        of_all : bool
+            False to leave out the contacts of convex shapes that are apart, as the engine does in a run.
 
         Raises
         ------
         InvalidInput
-            If there are more than the memory can hold.
+            If a search finds more features near each other than there are contacts for them.
         PluginError
             If a search for features fails.
         """
-        status = call_entry("list_contacts", self.memory)
+        name = "list_near" if of_all else "list_touching"
+        status = call_entry(name, self.memory)
+        while status == Status.LIST_FULL:
+            self.reserve(2 * int(self.memory[owners.ModelNumbers.n_slots]) + 1)
+            status = call_entry(name, self.memory)
         if status == Status.NOT_FINITE:
             raise PluginError(failed_search(self.memory, self.system.contacts))
         if status != Status.RUNNING:
             raise InvalidInput(
                 "contacts of the system",
-                f"must have at most {int(self.memory[owners.ModelNumbers.n_slots])} near each other",
-                "more of them",
+                "must be enough for the pairs of features that are near each other",
+                "more pairs",
                 "Place the bodies farther apart, or take coarser meshes.",
             )
+
+    def reserve(self, n_slots: int) -> None:
+        """Enlarge the memory to slots for ``n_slots`` active contacts, at most all declared ones, if it has fewer."""
+        n = min(n_slots, len(self.system.contacts))
+        if n > self.memory[owners.ModelNumbers.n_slots]:
+            self.resize(n)
+
+    def resize(self, n_slots: int) -> None:
+        """Set the number of slots for active contacts. Former views of the memory do not show the new one."""
+        if n_slots != self.memory[owners.ModelNumbers.n_slots]:
+            self.memory.resize({**self.memory.counts, **self.slot_counts(n_slots)})
 
     def evaluate(self) -> None:
         """Evaluate bodies and active contacts at the current state, and write their blocks in the memory."""
@@ -162,32 +188,11 @@ def energies(bodies: tuple[Body, ...], rates: np.ndarray, numbers: np.ndarray) -
     return kinetic, potential
 
 
-def copied(memory: Memory) -> Memory:
-    """Memory with the same content, for another thread. Buffers of output are empty, tables of functions are shared.
+def copied(model: LaidOut) -> LaidOut:
+    """Layout with the same content in a memory of its own, for another thread.
 
-    Only the first memory (``owner``) holds tables, and every copy keeps it alive. A function finds its table by a
-    distance [floats] from the start of its parameters. In a copy this distance leads into the first memory, because
-    pointers in compiled code have no bounds. Without compiled code (``PLAIN``) arrays with bounds replace the pointers,
-    so the tables are copied.
+    Tables of functions are shared. A function finds its table by a distance [floats] from the start of its parameters.
+    In a copy this distance leads into the memory with the tables, because pointers in compiled code have no bounds.
+    Without compiled code (``PLAIN``) arrays with bounds replace the pointers, so the tables are copied.
     """
-    # the memory to be copied may itself share the tables of another one
-    owner = memory if memory.owner is None else memory.owner
-    # the tables are the last of the floats, from memory.tables on
-    floats = np.zeros(len(owner.floats) if PLAIN else memory.tables)
-    made = replace(
-        memory,
-        scalars=memory.scalars.copy(),
-        floats=floats,
-        integers=np.zeros_like(memory.integers),
-        owner=None if PLAIN else owner,
-    )
-    # copy all arrays and blocks, except the late arrays, which are buffers and work space, and the tables
-    for new, old in zip(made.early, memory.early, strict=True):
-        new[:] = old
-    # copy the tables if nothing is compiled (PLAIN); otherwise this range is empty
-    floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
-    distance = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
-    # write into each function's parameters the distance [floats] from the start of the parameters to their table
-    for place, start, table in memory.references:
-        floats[place] = table - start + distance
-    return made
+    return replace(model, memory=model.memory.copied(shares_tables=not PLAIN))

@@ -10,7 +10,8 @@ from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import bind
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, JOINT_ROW, LOAD
-from nonsmooth.engine.memory.memory import Heap, Memory
+from nonsmooth.engine.memory.heap import Heap
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import Body, Joint, Load
 from nonsmooth.parameters import Component, Value
 from nonsmooth.system.contact import Tie

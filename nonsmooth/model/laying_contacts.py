@@ -1,7 +1,7 @@
 """Writes contacts and their laws into the memory.
 
 Contacts with the same geometry and laws form a kind. Functions are compiled and parameters read once for each kind.
-Each contact gets a copy of the block of its laws; contacts with the same kinematics share its parameters.
+Its contacts share all numbers that nothing writes.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -20,26 +20,24 @@ from nonsmooth.binding.compile import bind, parameter_names, parameter_place, ve
 from nonsmooth.binding.law_functions import LawFunction, law_functions
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
-from nonsmooth.engine.memory.memory import Heap, Memory, output_block
-from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.heap import Heap, output_block
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import AnisotropicFrictionLaw, CompliantNormalLaw, ImpactMap, StatefulFrictionLaw, TractionLaw
-from nonsmooth.model.contact_table import ContactTable
-from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import BodyLayouts
+from nonsmooth.model.row_table import RowTable
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.contacts import Contacts
-from nonsmooth.system.system import System
 
 _CONTACT = owners.ContactRecord
-Kinds: TypeAlias = Sequence[NDArray[np.int64]]
-"""Indices of the contacts of each kind."""
+Groups: TypeAlias = Sequence[NDArray[np.int64]]
+"""Indices of the rows of contacts with the same kinds."""
 
 
 @dataclass
 class Block:
-    """Numbers of a contact behind the arrays of the memory, the same for all contacts of a kind at the start.
+    """Numbers of a kind behind the arrays of the memory, the same for all contacts of a kind at the start.
 
     Attributes
     ----------
@@ -82,153 +80,131 @@ class Block:
 
 @dataclass
 class Kind:
-    """Fields and blocks of a contact, the same for all contacts with the same geometry and laws.
+    """Fields and blocks of contacts, the same for all contacts with the same geometry and laws.
 
     Attributes
     ----------
     fields : dict
-        Fields of the declared contact, by their declarations.
+        Fields of the record of the kind, by their declarations in the record of active contacts.
     geometry : Block
         Parameters of the kinematics. Nothing writes them, except those of a search for features.
     laws : Block
         Parameters and outputs of the laws.
     """
 
-    fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: Mode.OPEN})
+    fields: dict[Any, float] = field(default_factory=dict)
     geometry: Block = field(default_factory=Block)
     laws: Block = field(default_factory=Block)
 
 
 def lay_contacts(
-    memory: Memory, blocks: Heap, contacts: Contacts, table: ContactTable, kinds: Kinds, bodies: BodyLayouts
+    memory: Memory, blocks: Heap, contacts: Contacts, table: RowTable, groups: Groups, bodies: BodyLayouts
 ) -> None:
-    """Write the declared contacts, and reserve Jacobians for as many as the neighbour list can hold.
+    """Write the rows and kinds of declared contacts.
 
-    Contacts of a kind have the same geometry and laws, so they get the same fields and equal blocks. Contacts with the
-    same kinematics share its parameters if nothing writes them: these are most of the numbers of a contact.
+    The contacts of a kind have the same geometry and laws, so they share the fields of its record, and parameters that
+    nothing writes. Kinds with the same kinematics share its parameters, too: these are most of the numbers of a kind.
     """
     # functions with large tables that were tried out, which takes long
     tried = set[tuple[Any, ...]]()
     # where the parameters of a kinematics are, by its identity
     known: dict[int, int] = {}
-    for numbers in kinds:
-        contact = contacts[numbers[0]]
-        kind = kind_of(memory, contact, tried)
-        for declared, value in kind.fields.items():
-            memory.declared(declared)[numbers] = value
-        _lay_block(memory, blocks, kind.laws, numbers)
-        if kind.geometry.written:
-            _lay_block(memory, blocks, kind.geometry, numbers)
-        elif (start := known.get(id(contact.kinematics))) is not None:
-            for declared, offset in kind.geometry.offsets.items():
-                memory.declared(declared)[numbers] = start + offset
-        else:
-            known[id(contact.kinematics)] = _lay_block(memory, blocks, kind.geometry, numbers, is_shared=True)
-    lay_states(memory, contacts, kinds)
-    # three rows of a Jacobian over the velocities of the largest articulation (a group of bodies tied by joints)
-    size = 3 * _lay_sides(memory, table, bodies)
-    # any unit vector, until a slip has a direction
-    memory.declared(_CONTACT.direction)[:, 0] = 1.0
-    # the first of both sides from which anisotropic friction may be opposed
-    memory.declared(_CONTACT.facing)[:] = 1
-    memory.declared(_CONTACT.size)[:] = table.extents.min(axis=1)
-    memory.declared(_CONTACT.spin_axis)[:] = table.revolutions
-    lay_law_floats(memory, contacts, kinds)
-    n_slots = int(memory[owners.ModelNumbers.n_slots])
-    # each place of the neighbour list has Jacobians of its own
-    for place in (_CONTACT.jacobian_a, _CONTACT.jacobian_b, _CONTACT.response_a, _CONTACT.response_b):
-        memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
+    number = 0
+    for group in groups:
+        row, times = contacts.rows[group[0]], len(group)
+        memory[owners.RowRecord.first_kind][group], memory[owners.RowRecord.rank][group] = number, np.arange(times)
+        for contact in map(row.contact, range(len(row))):
+            kind = kind_of(memory, contact, tried)
+            write_fields(memory, number, kind.fields)
+            _lay_block(memory, blocks, kind.laws, number, times, owners.KindRecord.law_stride)
+            if kind.geometry.written:
+                _lay_block(memory, blocks, kind.geometry, number, times, owners.KindRecord.geometry_stride)
+            elif (start := known.get(id(contact.kinematics))) is not None:
+                write_fields(memory, number, {one: start + offset for one, offset in kind.geometry.offsets.items()})
+            else:
+                known[id(contact.kinematics)] = _lay_block(
+                    memory, blocks, kind.geometry, number, times, owners.KindRecord.geometry_stride
+                )
+            number += 1
+    memory[owners.RowRecord.first_contact] = contacts.starts
+    lay_states(memory, contacts)
+    _lay_sides(memory, table, bodies)
 
 
-def _lay_block(memory: Memory, blocks: Heap, block: Block, numbers: NDArray[np.int64], is_shared: bool = False) -> int:
-    """Write a block for each of the contacts ``numbers``, or one for all of them; return the offset of the first."""
-    times = 1 if is_shared else len(numbers)
-    # the copies of the block follow each other
+def write_fields(memory: Memory, kind: int, fields: Mapping[Any, float]) -> None:
+    """Write fields of the record of a kind, by their declarations in the record of active contacts."""
+    for declared, value in fields.items():
+        memory[getattr(owners.KindRecord, declared.name)][kind] = value
+
+
+def _lay_block(memory: Memory, blocks: Heap, block: Block, kind: int, n_rows: int, stride: Any) -> int:
+    """Write the block of a kind, once if nothing writes it, else for each of its ``n_rows`` contacts.
+
+    The copies follow one another; their distance becomes the field ``stride`` of the kind. The result is the offset of
+    the first.
+    """
+    times, size = (n_rows, len(block.numbers)) if block.written else (1, 0)
     first = blocks.repeat(block.numbers, times)
-    starts = first + len(block.numbers) * np.arange(times)
-    for place, size in block.written:
-        blocks.write(starts + place, size)
-    for declared, offset in block.offsets.items():
-        memory.declared(declared)[numbers] = offset + starts
+    starts = first + size * np.arange(times)
+    for place, length in block.written:
+        blocks.write(starts + place, length)
+    memory[stride][kind] = size
+    write_fields(memory, kind, {declared: first + offset for declared, offset in block.offsets.items()})
     for place, start, shared in block.tables:
         for begin in starts.tolist():
             blocks.refer(begin + place, begin + start, shared)
     return first
 
 
-def by_kind(contacts: Contacts) -> Kinds:
-    """Indices of the contacts of each kind. A kind shares the very same objects for geometry and laws."""
-    # rows with the same kinematics and laws: their first contacts are of one kind, their second ones of another
+def groups_of(contacts: Contacts) -> Groups:
+    """Indices of the rows with the same kinds: the very same objects for the geometries of their contacts, and laws."""
     same = defaultdict[tuple[int, ...], list[int]](list)
-    for row, start in zip(contacts.rows, contacts.starts.tolist(), strict=False):
+    for number, row in enumerate(contacts.rows):
         laws = row.laws.normal, row.laws.friction, row.laws.impact
-        same[tuple(map(id, (row.kinematics if len(row) > 1 else row.kinematics[0], *laws)))].append(start)
-    counts = dict(zip(contacts.starts.tolist(), contacts.counts.tolist(), strict=False))
-    return [np.array(starts) + index for starts in same.values() for index in range(counts[starts[0]])]
+        same[tuple(map(id, (row.kinematics if len(row) > 1 else row.kinematics[0], *laws)))].append(number)
+    return [np.array(rows) for rows in same.values()]
 
 
-def lay_states(memory: Memory, contacts: Contacts, kinds: Kinds) -> None:
-    """Write the first place of each contact's inner states, and their scales for the error of a step.
+def lay_states(memory: Memory, contacts: Contacts) -> None:
+    """Write the first place of the inner states of each row, and their scales for the error of a step.
 
     The inner states of friction laws come last in the state, in the order of the contacts.
     """
-    laws = {
-        number: law
-        for numbers in kinds
-        if isinstance(law := contacts[numbers[0]].friction, (TractionLaw, StatefulFrictionLaw))
-        for number in numbers.tolist()
-    }
     scales: list[float] = []
-    for number in sorted(laws):
-        memory.declared(_CONTACT.inner_states)[number] = len(scales)
-        scales += laws[number].state_scale
+    for number, row in enumerate(contacts.rows):
+        if isinstance(law := row.laws.friction, (TractionLaw, StatefulFrictionLaw)):
+            memory[owners.RowRecord.inner_states][number] = len(scales)
+            scales += len(row) * [*law.state_scale]
     n_y = int(memory[owners.ModelNumbers.n_y])
     # not [-len:], which would be all numbers if there are no scales
     memory[owners.Step.y_scale][:n_y][n_y - len(scales) :] = scales
 
 
-def _lay_sides(memory: Memory, table: ContactTable, bodies: BodyLayouts) -> int:
-    """Write bodies and frames of each contact; the result is the largest number of velocities of an articulation.
+def _lay_sides(memory: Memory, table: RowTable, bodies: BodyLayouts) -> None:
+    """Write sizes, bodies and frames of each row.
 
-    An articulation is a group of bodies tied by joints. The frames of a body follow each other, each with its motion
-    and a Jacobian of 6 rows.
+    The frames of a body follow each other, each with its motion and a Jacobian of 6 rows.
     """
     # a mechanism without contacts may have no frame
-    rows = [(next(iter(b.frames), 0), b.n_u, b.column, b.articulation, b.articulation_n_u) for b in bodies.values()]
-    first_frame, n_u, column, articulation, n_u_together = np.array(rows, np.int64).reshape(-1, 5).T
+    rows = [(next(iter(b.frames), 0), b.n_u, b.column, b.articulation) for b in bodies.values()]
+    first_frame, n_u, column, articulation = np.array(rows, np.int64).reshape(-1, 4).T
+    fields: dict[str, np.ndarray] = {"size": table.extents.min(axis=1), "spin_axis": table.revolutions}
     for number, side in enumerate("ab"):
         body = table.bodies[:, number]
-        fields = {
-            "body": body,
-            "frame": first_frame[body] + (FRAME + 6 * n_u[body]) * table.frames[:, number],
-            "n_u": n_u[body],
-            "column": column[body],
-            "articulation": articulation[body],
-            "support_radius": table.support_radii[:, number],
+        fields |= {
+            f"body_{side}": body,
+            f"frame_{side}": first_frame[body] + (FRAME + 6 * n_u[body]) * table.frames[:, number],
+            f"n_u_{side}": n_u[body],
+            f"column_{side}": column[body],
+            f"articulation_{side}": articulation[body],
+            f"support_radius_{side}": table.support_radii[:, number],
         }
-        for name, values in fields.items():
-            memory.declared(getattr(_CONTACT, f"{name}_{side}"))[:] = values
-    return int(n_u_together[table.bodies].max(initial=0))
+    for name, values in fields.items():
+        memory[getattr(owners.RowRecord, name)] = values
 
 
-def lay_law_floats(memory: Memory, contacts: Contacts, kinds: Kinds) -> None:
-    """Write the times [s] and distances [m] of the laws, which are fields of a declared contact.
-
-    These are the contact time of an impact, 0 without an impact law, and the reach: the gap up to which a compliant law
-    acts, 0 for a rigid contact. The time of the last try to leave the time-stepping fallback begins as
-    minus infinity.
-    """
-    for numbers in kinds:
-        normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
-        memory.declared(_CONTACT.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
-        # time of the last try to leave the time-stepping fallback, which averages forces: never
-        memory.declared(_CONTACT.mean_forces_asked)[numbers] = -math.inf
-        memory.declared(_CONTACT.reach)[numbers] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
-
-
-def initial_state(contact: Contact) -> tuple[float, ...]:
-    """Inner states of the friction law of a contact at the start of a run; none for a law without them."""
-    law = contact.friction
+def initial_state(law: Any) -> tuple[float, ...]:
+    """Inner states of a friction law at the start of a run; none for a law without them."""
     return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
 
@@ -240,12 +216,15 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     written into the memory, because all contacts share it.
     """
     made, law, impact, kinematics = Kind(), contact.friction, contact.impact, contact.kinematics
+    # duration of an impact [s], and gap up to which a compliant contact acts [m]
+    made.fields[_CONTACT.contact_time] = 0.0 if impact is None else impact.contact_time
+    made.fields[_CONTACT.reach] = contact.normal.reach if isinstance(contact.normal, CompliantNormalLaw) else 0.0
     geometry = LawFunction(
         _CONTACT.geometry_function, _CONTACT.geometry_parameters, kinematics, kinematics.evaluator, "pair"
     )
     for part in (geometry, *law_functions(law, impact, contact.normal)):
         _add_function(made, contact, part, tried)
-    start = initial_state(contact)
+    start = initial_state(contact.friction)
     # a law with inner states writes their rates; a traction law also force and moment
     if start or isinstance(law, TractionLaw):
         made.fields[_CONTACT.n_inner_states] = len(start)
@@ -307,7 +286,7 @@ def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) 
 
     Functions of other forms return a number and write nothing, so they need no trial.
     """
-    start = initial_state(contact)
+    start = initial_state(contact.friction)
     # by form: size of the block, and any valid arguments before the parameters. These are
     # pair: two frames; traction: normal force, slip with spin, inner states; rates: slip speed, inner states
     trials: Mapping[str, tuple[int, Sequence[float | Sequence[float]]]] = {
@@ -368,75 +347,3 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
     memory[owners.Options.impact_map] = address
     # without the coefficient
     return values[1:]
-
-
-def lay_laws(model: LaidOut, system: System) -> LaidOut:
-    """Lay out ``system``, which differs from ``model.system`` in its laws only, in the memory of ``model``.
-
-    No run may be in progress in this memory. Addresses and parameters of the laws are overwritten in place, so
-    ``model`` must not be used any more. The geometry does not change.
-
-    Raises
-    ------
-    InvalidInput
-        If bodies or contacts differ, or the laws need blocks of other sizes.
-    """
-    _check_same(model.system, system)
-    memory, contacts, former = model.memory, system.contacts, model.system.contacts
-    kinds = by_kind(contacts)
-    former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers.tolist()}
-    for numbers in kinds:
-        # the contacts `numbers` have equal laws and geometry now, but their former laws may differ: take one contact
-        # for each combination of former laws and geometry
-        examples = {former_kind[number]: number for number in numbers.tolist()}.values()
-        before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
-        for number, one in zip(examples, before, strict=True):
-            # the new parameters must fit in the places of the old ones, within blocks of the same length
-            if (one.laws.offsets, len(one.laws.numbers)) != (after.laws.offsets, len(after.laws.numbers)):
-                _refuse(contacts[number], former[number])
-        for declared, value in after.fields.items():
-            memory.declared(declared)[numbers] = value
-        # any field with an offset in the block of the laws shows where this block begins for each contact
-        for declared, offset in [*after.laws.offsets.items()][:1]:
-            starts = memory.declared(declared)[numbers] - offset
-            memory.floats[starts[:, None] + np.arange(len(after.laws.numbers))] = after.laws.numbers
-    lay_states(memory, contacts, kinds)
-    lay_law_floats(memory, contacts, kinds)
-    return replace(model, system=system)
-
-
-def _check_same(one: System, other: System) -> None:
-    """Check that two systems differ in their laws only.
-
-    Bodies, joints, loads and guards must be the very same objects. Contacts must have equal bodies, frames and
-    geometry, one by one.
-
-    Raises
-    ------
-    InvalidInput
-        If bodies, gravity, joints, loads, guards or contacts differ.
-    """
-    remedy = "Make it by nonsmooth.with_laws(model.system, ...), or assemble it."
-    if list(map(id, one.bodies)) != list(map(id, other.bodies)) or one.gravity != other.gravity:
-        raise InvalidInput("with_laws_of", "needs a system of the same bodies", other, remedy)
-    ties = ([tie.component for tie in (*two.joints, *two.loads)] + list(two.guards) for two in (one, other))
-    if len({tuple(map(id, parts)) for parts in ties}) > 1 or len(one.contacts) != len(other.contacts):
-        raise InvalidInput("with_laws_of", "needs the same joints, loads, guards and contacts", other, remedy)
-    for first, second in zip(one.contacts, other.contacts, strict=True):
-        has_same_bodies = first.first is second.first and first.second is second.second
-        if not has_same_bodies or first.frames != second.frames or first.kinematics != second.kinematics:
-            raise InvalidInput("with_laws_of", "needs the same contacts", second.name, remedy)
-
-
-def _refuse(after: Contact, before: Contact) -> None:
-    """Raise InvalidInput: the new laws of a contact need another layout of parameters than its former laws.
-
-    The system must then be assembled anew. ``before`` and ``after`` are the contact with the former and the new laws.
-    """
-    laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
-    raise InvalidInput(
-        f"with_laws_of: the laws of the {after}",
-        f"must be of the kinds of {laws[0]}",
-        laws[1],
-        "Laws of other kinds need blocks of other sizes: assemble the system.",
-    )

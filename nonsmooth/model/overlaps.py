@@ -16,6 +16,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.model.part_pairs import by_shapes, numbers_of_rows
 from nonsmooth.solids.pieces import Pieces
 from nonsmooth.solids.placed import Placed, overlap
@@ -147,8 +148,6 @@ def placed_pairs(
 
 def frames_of(model: LaidOut, number: int) -> tuple[Vector, Vector]:
     """Position [m] and rotation matrix, row by row, of both frames of a contact, shape [12] each."""
-    floats, declared = model.memory.floats, model.memory.declared
-    first, second = (
-        int(declared(frame)[number]) for frame in (owners.ContactRecord.frame_a, owners.ContactRecord.frame_b)
-    )
+    floats, declared = model.memory.floats, DeclaredContacts.of(model.memory, [number])
+    first, second = (int(declared[frame][0]) for frame in (owners.ContactRecord.frame_a, owners.ContactRecord.frame_b))
     return floats[first : first + _POSE], floats[second : second + _POSE]

@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.layout import NO_PAIR
-from nonsmooth.engine.memory.memory import Heap, Memory
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ConvexPart
-from nonsmooth.model.contact_table import ContactTable
-from nonsmooth.model.laying import write_record
+from nonsmooth.model.row_table import RowTable
 from nonsmooth.solids.measure import numbers_of
 from nonsmooth.system.contacts import Contacts
 
@@ -53,8 +53,10 @@ class PartPair(NamedTuple):
     ----------
     group : int
         Number of the first pair of the same shapes.
-    contacts : sequence of int
-        Numbers of the contacts of the shapes.
+    rows : list of int
+        Numbers of the rows of contacts of the shapes.
+    contact : int
+        Number of the first of these contacts.
     sides : tuple of PairSide
         The parts. A half-space comes first, and the larger one of two discs.
     is_swapped : bool
@@ -68,7 +70,8 @@ class PartPair(NamedTuple):
     """
 
     group: int
-    contacts: Sequence[int]
+    rows: list[int]
+    contact: int
     sides: tuple[PairSide, PairSide]
     is_swapped: bool
     size: float
@@ -76,7 +79,7 @@ class PartPair(NamedTuple):
     clearance: float
 
 
-def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
+def find_part_pairs(contacts: Contacts, table: RowTable) -> list[PartPair]:
     """The pairs of convex parts of shapes with contacts that need a check for overlap.
 
     Each part of a shape is paired with each part of the other shape. A half-space, or the larger of two discs, becomes
@@ -87,7 +90,7 @@ def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
     for rows in by_shapes(contacts, range(len(contacts.rows))):
         row, group, numbers = contacts.rows[rows[0]], len(found), numbers_of_rows(contacts, rows)
         choices: list[list[PairSide]] = []
-        for shape, body, frame in zip(row.shapes, table.bodies[numbers[0]], table.frames[numbers[0]], strict=True):
+        for shape, body, frame in zip(row.shapes, table.bodies[rows[0]], table.frames[rows[0]], strict=True):
             # the parts of a shape are computed once
             if id(shape) not in parts_of:
                 parts_of[id(shape)] = shape.parts
@@ -103,7 +106,7 @@ def find_part_pairs(contacts: Contacts, table: ContactTable) -> list[PartPair]:
                 sizes = [part.radius if one.is_disc and two.is_disc else _reach(part) for part in (one, two)]
                 is_swapped = sizes[1] > sizes[0]
                 sides = (second, first) if is_swapped else (first, second)
-                found.append(PartPair(group, numbers, sides, is_swapped, row.size, guarded, clearance))
+                found.append(PartPair(group, rows, numbers[0], sides, is_swapped, row.size, guarded, clearance))
     return found
 
 
@@ -113,8 +116,10 @@ def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
     With this distance the engine bounds how far the parts move if the frame turns.
     """
     radii: dict[tuple[int, int], float] = {}
-    for side in itertools.chain.from_iterable(pair.sides for pair in pairs):
-        radii[side.carrier] = max(_reach(side.part), radii.get(side.carrier, 0.0))
+    # the carriers of each part in the order of the pairs; a part belongs to many pairs
+    parts = {(side.carrier, side.key): side.part for pair in pairs for side in pair.sides}
+    for (carrier, _), part in parts.items():
+        radii[carrier] = max(_reach(part), radii.get(carrier, 0.0))
     return radii
 
 
@@ -194,37 +199,38 @@ def numbers_of_rows(contacts: Contacts, rows: Sequence[int]) -> Sequence[int]:
 def lay_part_pairs(
     memory: Memory, blocks: Heap, pairs: Sequence[PartPair], frames: Mapping[tuple[int, int], int]
 ) -> None:
-    """Write the pairs of convex parts, the frames that carry them, and the first pair of each contact.
+    """Write the pairs of convex parts, the frames that carry them, and the first pair of each row of contacts.
 
     ``frames`` has the place of each frame in the memory, by the numbers of body and frame. A part that belongs to
     several pairs is stored once.
     """
-    of_contact = memory.declared(owners.ContactRecord.pair)
-    of_contact[:] = NO_PAIR
+    of_row = memory[owners.RowRecord.pair]
+    of_row[:] = NO_PAIR
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
     memory[owners.Carrier.frame] = [frames[side] for side in carriers]
     memory[owners.Carrier.body] = [body for body, _ in carriers]
     memory[owners.Carrier.radius] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
+    flat: dict[tuple[int, int], bool] = {}
     for number, pair in enumerate(pairs):
         for side in pair.sides:
             if side.key not in starts:
-                starts[side.key] = blocks.store(numbers_of(side.part))
-        fields: dict[str, float] = {
-            "group": pair.group,
-            "contact": pair.contacts[0],
-            "are_both_flat": all(side.part.is_flat for side in pair.sides),
-            "is_guarded": pair.is_guarded,
-            "is_swapped": pair.is_swapped,
-            "clearance": pair.clearance,
-            "allowed": _ALLOWED * pair.size,
-            "size": pair.size,
-        }
-        for name, side in zip("ab", pair.sides, strict=True):
-            fields |= {f"carrier_{name}": numbers[side.carrier], f"frame_{name}": frames[side.carrier]}
-            fields[f"part_{name}"] = starts[side.key]
-        write_record(memory, owners.Pair, number, fields)
+                starts[side.key], flat[side.key] = blocks.store(numbers_of(side.part)), side.part.is_flat
         # once for all pairs of the same shapes
         if number == pair.group:
-            of_contact[np.array(pair.contacts)] = number
+            of_row[pair.rows] = number
+    record = owners.Pair
+    memory[record.group], memory[record.contact] = [pair.group for pair in pairs], [pair.contact for pair in pairs]
+    memory[record.are_both_flat] = [all(flat[side.key] for side in pair.sides) for pair in pairs]
+    memory[record.is_guarded] = [pair.is_guarded for pair in pairs]
+    memory[record.is_swapped] = [pair.is_swapped for pair in pairs]
+    memory[record.clearance] = [pair.clearance for pair in pairs]
+    memory[record.size] = [pair.size for pair in pairs]
+    memory[record.allowed] = _ALLOWED * memory[record.size]
+    for i, (carrier, frame, part) in enumerate(
+        ((record.carrier_a, record.frame_a, record.part_a), (record.carrier_b, record.frame_b, record.part_b))
+    ):
+        memory[carrier] = [numbers[pair.sides[i].carrier] for pair in pairs]
+        memory[frame] = [frames[pair.sides[i].carrier] for pair in pairs]
+        memory[part] = [starts[pair.sides[i].key] for pair in pairs]

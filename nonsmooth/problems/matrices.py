@@ -13,8 +13,9 @@ from nonsmooth.binding.law_failure import first_without_value, without_value
 from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.checks import floats
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
-from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput

@@ -13,6 +13,7 @@ from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.declared import searched
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.loop import Progress
@@ -205,15 +206,15 @@ def check_candidates(model: LaidOut) -> None:
     InvalidInput
         If a feature does not exist, or the distance up to which the pair is valid is negative or not finite.
     """
-    # offset of the numbers of a pair, 0 for a contact without a search. The numbers are the kind of the pair, 0 if none
+    # offset of the numbers of a pair. These are the kind of the pair, 0 if none
     # were found; one feature of either shape; behind these, the distance up to which the pair is valid [m]
-    places = model.memory.declared(owners.ContactRecord.features)
-    numbers = np.flatnonzero(places > 0)
-    for number in numbers[model.memory.floats[places[numbers]] != 0.0].tolist():
+    numbers, places = searched(model.memory)
+    has_pair = model.memory.floats[places] != 0.0
+    for number, place in zip(numbers[has_pair].tolist(), places[has_pair].tolist(), strict=True):
         contact = model.system.contacts[number]
         search = contact.kinematics.candidates
         assert search is not None
-        kind, *features, distance = model.memory.floats[places[number] :][: CANDIDATE + 1].tolist()
+        kind, *features, distance = model.memory.floats[place:][: CANDIDATE + 1].tolist()
         # counts has, by kind, how many features each of the shapes has; an unknown kind has none
         pair = zip(features, search.counts.get(kind, (0, 0)), strict=True)
         exist = all(feature.is_integer() and 0 <= feature < count for feature, count in pair)

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from operator import itemgetter
 
 import numpy as np
 
 from nonsmooth.binding import interpreted
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, without_value
-from nonsmooth.binding.law_functions import law_functions
+from nonsmooth.binding.law_functions import LawFunction, law_functions
 from nonsmooth.binding.source import described, raised
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
@@ -67,6 +68,8 @@ _CHECK = "Run `nonsmooth check` on a kinematics or body of your own; report an e
 
 A user's component is to be checked; a fault in a component of nonsmooth is to be reported.
 """
+_NAMED = 3
+"""Largest number of contacts that a message names. Contacts with the same laws may share the function that failed."""
 _SHIFT = "Shift or turn a body a little, or give it rounded edges."
 """Remedy for a pair of features whose gap jumps in a special pose, such as edges in line."""
 _COMPLIANT = "Give it a compliant normal law such as LinearCompliant, or leave out a contact that holds the same body."
@@ -163,18 +166,25 @@ def _immobile(model: LaidOut) -> str:
 
 
 def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
-    """For each function of the laws of each contact: a sentence on the last input without a finite value, or None.
+    """For each function of the laws of active contacts: a sentence on the last input without a finite value, or None.
 
     The engine has stored this input in front of the parameters of the function, which begin the slice of floats. The
-    function is called again with the inner states of the last state.
+    function is called again with the inner states of the last state. Contacts that share their parameters are named
+    together.
     """
     memory, contact = model.memory, owners.ContactRecord
     states = memory[owners.Island.y][model.n_q + model.n_u + N_ACCOUNTS :]
-    for number, declared in enumerate(model.system.contacts):
-        start, n = (int(memory.declared(one)[number]) for one in (contact.inner_states, contact.n_inner_states))
+    # by offset of the parameters: the function, the inner states, and the contacts
+    found: dict[int, tuple[LawFunction, np.ndarray, list[Contact]]] = {}
+    for index, number in sorted(enumerate(model.active.tolist()), key=itemgetter(1)):
+        declared = model.system.contacts[number]
+        start, n = (int(memory[one][index]) for one in (contact.inner_states, contact.n_inner_states))
         for part in law_functions(declared.friction, declared.impact, declared.normal):
-            parameters = int(memory.declared(part.parameters)[number])
-            yield without_value(memory.floats[parameters:], part, states[start:][:n], str(declared))
+            parameters = int(memory[part.parameters][index])
+            found.setdefault(parameters, (part, states[start:][:n], []))[2].append(declared)
+    for parameters, (part, state, contacts) in found.items():
+        names = ", ".join(map(str, contacts[:_NAMED])) + (", ..." if len(contacts) > _NAMED else "")
+        yield without_value(memory.floats[parameters:], part, state, names)
 
 
 def _failing_block(model: LaidOut) -> str:

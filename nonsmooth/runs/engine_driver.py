@@ -48,7 +48,8 @@ class EngineDriver:
 
         The engine may return the common statuses and the codes of its own causes.
         """
-        self._engine, self._memory, self._call, self._most_steps = engine, model.memory, call, most_steps
+        self._engine, self._model, self._call, self._most_steps = engine, model, call, most_steps
+        self._memory = model.memory
         self._name = f"{type(engine).__name__}.advance"
         self._statuses = {*_STATUSES, *(cause.code for cause in engine.causes)}
 
@@ -68,6 +69,10 @@ class EngineDriver:
         left = self._most_steps - int(self._memory[owners.Totals.n_steps])
         try:
             status = self._engine.advance(self._call, self._memory, min(most_steps, left), pauses_before_end)
+            while status == Status.LIST_FULL:
+                # the memory grows, the list is made there, and the run continues
+                self._model.list_contacts(of_all=False)
+                status = self._engine.advance(self._call, self._memory, min(most_steps, left), pauses_before_end)
         except UnknownName as error:
             # the engine called an entry point that does not exist: the message shall name the engine
             raise error.within(self._name) from error

@@ -17,10 +17,11 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import LIMITS
+from nonsmooth.engine.memory.modes import LIMITS, Mode
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.interfaces import Engine, Measure, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.checkpoint import Booleans, Checkpoint, Difference, Integers
+from nonsmooth.model.declared import searched
 from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
@@ -44,13 +45,14 @@ class FixedPlaces(NamedTuple):
     ----------
     tails : array
         Position, in the blocks of a checkpoint, of dq/dt of each body; force, inverse mass and energies follow there.
-    features : array
-        Position of the features of each declared contact in the blocks, negative for a contact without features.
+    searched, features : array
+        Numbers of the contacts whose features are searched for, and positions of their features in the blocks.
     changing : tuple of array
         Which numbers a run may change (:attr:`nonsmooth.engine.memory.memory.Memory.changing`).
     """
 
     tails: Integers
+    searched: Integers
     features: Integers
     changing: tuple[Booleans, ...]
 
@@ -60,9 +62,8 @@ class FixedPlaces(NamedTuple):
 
         A memory has offsets among all floats; a checkpoint has the blocks apart, which begin at ``memory.blocks``.
         """
-        tails, features = memory[owners.BodyRecord.tail], memory.declared(owners.ContactRecord.features)
-        # a contact without a search for features has the offset 0, which becomes negative
-        return cls(tails - memory.blocks, features - memory.blocks, memory.changing)
+        tails, (numbers, features) = memory[owners.BodyRecord.tail], searched(memory)
+        return cls(tails - memory.blocks, numbers, features - memory.blocks, memory.changing)
 
 
 class FinalState(NamedTuple):
@@ -127,19 +128,19 @@ class FinalState(NamedTuple):
 
         That is the difference of the resumable checkpoint from the blank memory, which is short.
         """
-        now, contact, places = self.now, owners.ContactRecord, self.places.features
+        now, contact, places = self.now, owners.ContactRecord, self.places
+        n = now[owners.ModelNumbers.n_declared]
         # y has q, u, the energy accounts, and the inner states of laws
         n_q, n_u, y = now[owners.ModelNumbers.n_q], now[owners.ModelNumbers.n_u], now[owners.Island.y]
-        # the place is negative for a contact without a search for features; its row stays zero
-        features, searched = np.zeros((len(places), CANDIDATE)), np.flatnonzero(places >= 0)
-        features[searched] = now.blocks[places[searched, None] + np.arange(CANDIDATE)]
+        features = np.zeros((n, CANDIDATE))
+        features[places.searched] = now.blocks[places.features[:, None] + np.arange(CANDIDATE)]
         state = State(
             now[owners.Island.time],
             y[:n_q],
             y[n_q : n_q + n_u],
-            self._of_contacts(contact.mode),
-            self._of_contacts(contact.direction),
-            self._of_contacts(contact.closing_rate),
+            self._of_contacts(contact.mode, np.full(n, Mode.OPEN)),
+            self._of_contacts(contact.direction, np.tile([1.0, 0.0], (n, 1))),
+            self._of_contacts(contact.closing_rate, np.zeros(n)),
             features,
             y[n_q + n_u + N_ACCOUNTS :],
             now[owners.OwnGuard.has_just_fired],
@@ -148,12 +149,8 @@ class FinalState(NamedTuple):
         difference = Difference.between(self.blank, self.resumable, self.places.changing)
         return state.with_continuation(Continuation(self.key(), difference, self.n_known_events))
 
-    def _of_contacts(self, declared: Any) -> np.ndarray:
-        """A number of every contact of the system, as a copy.
-
-        Contacts on the neighbour list, the active ones, have newer numbers than the records of all declared contacts.
-        """
-        found = self.now.declared(declared).copy()
+    def _of_contacts(self, declared: Any, found: np.ndarray) -> np.ndarray:
+        """A number of every contact of the system. ``found`` has those of contacts that are not active."""
         active = self.now[owners.ContactRecord.declared][: self.now[owners.Island.n_contacts]]
         found[active] = self.now[declared][: len(active)]
         return found

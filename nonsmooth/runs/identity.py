@@ -10,10 +10,10 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Declaration, Life, declarations
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNERS, SCALARS
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNERS, SCALARS, SLOT_COUNTS
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying_contacts import by_kind
+from nonsmooth.model.laying_contacts import groups_of
 from nonsmooth.parameters import rules
 
 _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,))).encode()).digest()
@@ -39,21 +39,24 @@ def _parameters(memory: Memory) -> Iterator[np.ndarray]:
     for owner in (*OWNERS, *memory.own):
         # a view of another array is that array, and addresses of functions are others in each process
         for one in declarations(owner).values():
-            if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_copied(one):
+            if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_of_slots(one):
                 yield np.atleast_1d(np.asarray(memory[one]))
-    blocks = memory.floats[memory.blocks : memory.tables].copy()
+    blocks = memory.floats[memory.blocks : memory.slots].copy()
     # what a run writes
     blocks[memory.written] = 0.0
     # numbers that refer to tables: in the memory of a copy they are other distances
     blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
     yield blocks
     # the tables, which a copy of a model reads in the memory of the original
-    yield (memory.owner or memory).floats[memory.tables :]
+    yield memory.table_numbers
 
 
-def _is_copied(one: Declaration) -> bool:
-    """True for a number that an active contact copies from its declared contact. It follows from that of the latter."""
-    return one.owner is owners.ContactRecord and not one.is_of_slot
+def _is_of_slots(one: Declaration) -> bool:
+    """True for a number that depends on the number of slots for active contacts, or that a slot has a copy of.
+
+    The number of slots grows in a run, and does not change its results.
+    """
+    return one.owner is owners.ContactRecord or (one.owner is owners.ModelNumbers and one.name in SLOT_COUNTS)
 
 
 def _options(engine: Engine) -> bytes:
@@ -71,12 +74,11 @@ def _classes(model: LaidOut) -> bytes:
     # classes are numbered in the order in which they are met
     known: dict[type, int] = {}
     numbers = [known.setdefault(type(part), len(known)) for part in parts]
-    contacts = system.contacts
-    rows = np.zeros((len(contacts), 4), np.int64)
-    # many contacts share their laws, so they are treated kind by kind
-    for same in by_kind(contacts):
-        one = contacts[same[0]]
-        laws = one.kinematics, one.normal, one.friction, one.impact
-        rows[same] = [known.setdefault(type(part), len(known)) for part in laws]
+    # the kind of each contact is a parameter
+    kinds: list[list[int]] = []
+    for same in groups_of(system.contacts):
+        row = system.contacts.rows[same[0]]
+        laws = row.laws.normal, row.laws.friction, row.laws.impact
+        kinds += [[known.setdefault(type(part), len(known)) for part in (one, *laws)] for one in row.kinematics]
     names = repr([(kind.__module__, kind.__qualname__) for kind in known]).encode()
-    return names + np.array(numbers).tobytes() + rows.tobytes()
+    return names + np.array(numbers).tobytes() + np.array(kinds, np.int64).tobytes()

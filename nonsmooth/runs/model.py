@@ -24,7 +24,7 @@ from nonsmooth.model.assembly import lay
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.laid_out import LaidOut, copied
-from nonsmooth.model.laying_contacts import lay_laws
+from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
@@ -167,7 +167,9 @@ class Model:
         return Model(self._blank_copy(), self._engine, self._start, self._key)
 
     def with_laws_of(self, system: System) -> Model:
-        """Model of a system that differs in its laws only, without assembling it.
+        """Model of a system that differs in its laws only.
+
+        It is not assembled if the same contacts share their laws as before, which saves most of the time.
 
         Parameters
         ----------
@@ -181,10 +183,7 @@ class Model:
             If anything else differs, the start is not valid, or the model runs.
         """
         check_kind("with_laws_of: system", system, System, "Make it by nonsmooth.with_laws(model.system, ...).")
-        laid = lay_laws(self._blank_copy(), system)
-        # what the engine writes before any run may depend on the laws
-        self._engine.prepare(laid)
-        made = Model(laid, self._engine, State.at(system))
+        made = Model(lay_laws(self._blank_copy(), system, self._engine), self._engine, State.at(system))
         made._check_start()
         return made
 
@@ -358,7 +357,7 @@ class Model:
         """
         with self._reserved("copy"):
             self._blank.put(self._laid.memory)
-            return replace(self._laid, memory=copied(self._laid.memory))
+            return copied(self._laid)
 
     def _continues(self, state: State) -> bool:
         """True if a state was left by a run of this model or of an equal one, so that a run from there continues it."""

@@ -17,6 +17,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.checkpoint import Checkpoint
+from nonsmooth.model.declared import remember, searched
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.checks import check_candidates
 from nonsmooth.solution.end import RunRequest
@@ -80,7 +81,12 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     continuation, memory = state.continuation, model.memory
     assert continuation is not None
     # a state has the difference of the checkpoint from the blank memory
+    n_slots, most = continuation.difference.n_slots, len(model.system.contacts)
+    if not 0 <= n_slots <= most:
+        rule = f"must be from 0 to {most}, the number of contacts"
+        raise InvalidInput("State.continuation: n_slots", rule, n_slots, "It is damaged: take another.")
     blank.put(memory)
+    model.resize(n_slots)
     continuation.difference.put(memory)
     check_candidates(model)
     t, n_known_events = float(memory[owners.Island.time]), continuation.n_known_events
@@ -104,10 +110,9 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
         If the search finds other features.
     """
     _write(model, blank, state, np.full(len(state.modes), Mode.OPEN))
-    # offsets of the features, 0 for a contact without a search
-    features = model.memory.declared(owners.ContactRecord.features)
-    for number in np.flatnonzero((features > 0) & (state.modes != Mode.OPEN)).tolist():
-        if not np.array_equal(model.memory.floats[features[number] :][:CANDIDATE], state.features[number]):
+    for number, place in zip(*(part.tolist() for part in searched(model.memory)), strict=True):
+        features = model.memory.floats[place:][:CANDIDATE]
+        if state.modes[number] != Mode.OPEN and not np.array_equal(features, state.features[number]):
             raise InvalidInput(
                 f"State.features[{number}], of the closed {model.system.contacts[number]},",
                 "must be features that are near each other",
@@ -125,15 +130,18 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
     # the energy accounts between u and the inner states of laws begin at zero
     y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
-    memory.declared(owners.ContactRecord.mode)[:] = modes
-    memory.declared(owners.ContactRecord.closing_rate)[:] = state.closing_rates
-    memory.declared(owners.ContactRecord.direction)[:] = state.slip_directions
     # only contacts with a search have features in the memory; a first number of 0 means that none were found
-    features = memory.declared(owners.ContactRecord.features)
-    found = np.flatnonzero((features > 0) & (state.features[:, 0] != 0.0))
-    memory.floats[features[found, None] + np.arange(CANDIDATE)] = state.features[found]
+    numbers, places = searched(memory)
+    has_pair = state.features[numbers, 0] != 0.0
+    memory.floats[places[has_pair, None] + np.arange(CANDIDATE)] = state.features[numbers[has_pair]]
     # these guards of the user do not fire at the start again
     memory[owners.OwnGuard.has_just_fired] = state.guards_spent
+    contact = owners.ContactRecord
+    states = {contact.mode: modes, contact.closing_rate: state.closing_rates, contact.direction: state.slip_directions}
+    turns = np.any(state.slip_directions != (1.0, 0.0), axis=1)
+    remembered = np.flatnonzero((modes != Mode.OPEN) | (state.closing_rates != 0.0) | turns)
+    model.reserve(len(remembered))
+    remember(memory, remembered, {one: values[remembered] for one, values in states.items()})
     model.list_contacts()
 
 

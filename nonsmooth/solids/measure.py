@@ -14,7 +14,8 @@ import numpy as np
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, PART_RINGS, RING
-from nonsmooth.engine.memory.memory import Heap, allocate
+from nonsmooth.engine.memory.heap import Heap
+from nonsmooth.engine.memory.memory import allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_alone
 from nonsmooth.interfaces.convex_part import ConvexPart

@@ -93,7 +93,7 @@ class ContactDeclarations:
         wanted = [(between(*self.members.names(where, one.body, two.body)), len(all_)) for one, two, all_ in facing]
         check_sharing(where, laws, sum(count for _, count in wanted))
         given = self.members.naming.give("contact", name, wanted)
-        added = [_row(*named, laws) for named in zip(given, facing, strict=True)]
+        added = [self._row(*named, laws) for named in zip(given, facing, strict=True)]
         self.rows += added
         chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
         self.declared.append(ContactDeclaration(first, second, (chosen[0], chosen[1]), laws, name))
@@ -187,15 +187,14 @@ class ContactDeclarations:
         one, two = (first, second) if in_order else (second, first)
         return one, two, geometries
 
+    def _row(self, name: tuple[str, int], facing: _Facing, laws: ContactLaws) -> ContactRow:
+        one, two, geometries = facing
+        bodies, frames, shapes = (one.body, two.body), (one.frame, two.frame), (one.shape, two.shape)
+        (extent_1, lever_1), (extent_2, lever_2) = map(self._geometries.reach, shapes)
+        return ContactRow(bodies, frames, shapes, geometries, laws, *name, (extent_1, extent_2), (lever_1, lever_2))
+
     def _key(self, side: Side) -> tuple[int, int]:
         return self.members.number("System.contact", side.body), side.number
-
-
-def _row(name: tuple[str, int], facing: _Facing, laws: ContactLaws) -> ContactRow:
-    one, two, geometries = facing
-    bodies, frames, shapes = (one.body, two.body), (one.frame, two.frame), (one.shape, two.shape)
-    extents, levers = (one.shape.extent, two.shape.extent), (one.shape.lever, two.shape.lever)
-    return ContactRow(bodies, frames, shapes, geometries, laws, *name, extents, levers)
 
 
 def _is_same_kind(one: ImpactLaw, other: ImpactLaw) -> bool:

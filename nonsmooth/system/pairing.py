@@ -100,6 +100,7 @@ class ContactGeometries:
         self._shapes: dict[Shape, Shape] = {}
         self._kinds: dict[tuple[type[Shape], type[Shape]], Found] = {}
         self._made: dict[tuple[int, int], tuple[ContactKinematics, ...]] = {}
+        self._reaches: dict[int, tuple[float, float]] = {}
 
     def shapes(self, body: Body) -> tuple[tuple[Shape, ...], ...]:
         """Shapes of each frame of a body of the system. Equal shapes are one object."""
@@ -112,6 +113,12 @@ class ContactGeometries:
             return self._shapes.setdefault(shape, shape)
         except TypeError:  # a shape with fields that cannot be hashed is not shared
             return shape
+
+    def reach(self, shape: Shape) -> tuple[float, float]:
+        """Extent and lever of a shape from :meth:`shapes` [m]. They are computed once for equal shapes."""
+        if id(shape) not in self._reaches:
+            self._reaches[id(shape)] = shape.extent, shape.lever
+        return self._reaches[id(shape)]
 
     def between(self, first: Shape, second: Shape) -> tuple[Sequence[ContactKinematics], bool]:
         """Contact geometries of two shapes from :meth:`shapes`; True if the geometries have the shapes in this order.

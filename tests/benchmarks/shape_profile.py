@@ -42,7 +42,7 @@ from scenarios.dice_throw import DiceThrow
 from scenarios.mesh_drop import MeshDrop
 
 REPETITIONS = 2
-_SEARCH = ENTRY_POINTS.index("list_contacts")
+_SEARCH = ENTRY_POINTS.index("fill_list")
 _SHIM = """def shim(a, b, p, out):
  began = clock()
  call_pair({inner}, a, b, p, out)
@@ -148,8 +148,8 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
         inner = bind(contact.kinematics.evaluator, "pair", contact.kinematics.parameters(), kind)[0]
         if inner not in shims:
             shims[inner] = _timed(inner, accounts.setdefault(kind, np.zeros(2, np.int64)))
-    function = owners.ContactRecord.geometry_function
-    for functions in (memory.declared(function), memory[function][: memory[owners.Island.n_contacts]]):
+    function, of_kinds = owners.ContactRecord.geometry_function, owners.KindRecord.geometry_function
+    for functions in (memory[of_kinds], memory[function][: memory[owners.Island.n_contacts]]):
         functions[:] = [shims[int(one)] for one in functions]
     prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 3)
     search = prototype(entry_addresses()[_SEARCH])

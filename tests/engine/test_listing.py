@@ -5,14 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bodies import Ball, ConstantVelocity, Plate, Rest
-from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth import System, simulate
+from bodies import Ball, BoxBody, ConstantVelocity, DrivenBody, Plate, Rest, TriangleMesh, Triangles
+from laws import Bristle, Coulomb, Directional, EnergeticImpact, LinearCompliant, RateAndState, Unilateral
+from nonsmooth import ContactLaws, System, simulate
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.declare import Life, declarations
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
-from nonsmooth.model.assembly import assemble
+from nonsmooth.model.assembly import assemble, lay_out
+from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.model.laid_out import LaidOut
+from tests.bodies.meshes.parts import hills
 
 RADIUS, WIDTH = 0.01, 0.2
 NORMAL, FRICTION, IMPACT = Unilateral(), Coulomb(0.3), EnergeticImpact(0.8)
@@ -75,6 +78,34 @@ def test_a_wall_that_moves_is_always_listed() -> None:
     model = assemble(system, EventDriven())
     moving = np.array([contact.first is system.bodies[0] for contact in system.contacts])
     assert np.all(_listed(model)[moving])
+
+
+@pytest.mark.parametrize(
+    "laws",
+    [
+        ContactLaws(NORMAL, FRICTION, IMPACT),
+        ContactLaws(NORMAL, RateAndState(0.3, direct=0.01, evolution=0.02, reference_speed=1e-6, length=1e-5), IMPACT),
+        ContactLaws(NORMAL, Directional(0.4, 0.3, 0.2, axis=(1.0, 0.0, 0.0), body="first"), IMPACT),
+        ContactLaws(LinearCompliant(1e5), Bristle(0.3, 0.4)),
+    ],
+    ids=lambda laws: type(laws.friction).__name__,
+)
+def test_active_contacts_have_the_parameters_of_declared_ones(laws: ContactLaws) -> None:
+    """Contacts of a row, of several rows with the same kinds, and of rows with features that a search finds."""
+    ground = DrivenBody(carried=(TriangleMesh(Triangles(*hills(6))),))
+    bodies = [ground, *(Ball(0.03, 1000.0) for _ in range(3)), *(BoxBody(0.03, 0.03, 0.03, mass=0.1) for _ in range(2))]
+    system = System(bodies)
+    for i, body in enumerate(bodies[1:]):
+        system.place(body, position=(0.07 * (i - 2), 0.0, 0.05))
+    system.contact_all(laws)
+    model = lay_out(system, EventDriven())
+    active = model.active
+    assert np.any(model.memory[owners.ContactRecord.features][: len(active)] > 0)
+    declared = DeclaredContacts.of(model.memory, active)
+    for one in declarations(owners.ContactRecord).values():
+        if one.life is Life.PARAMETER and not one.is_of_slot and not one.inside[0]:
+            found = model.memory[one][: len(active)]
+            np.testing.assert_array_equal(found, declared[one], err_msg=one.name)
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.4])

@@ -12,6 +12,7 @@ import nonsmooth as ns
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
+from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.results.description import state_bytes
 from nonsmooth.solution.state import State
 from tests.results.forged import T_END, forged, refused_or_runs
@@ -46,7 +47,8 @@ def test_a_state_with_random_changes_is_refused_or_runs(which: str, request: pyt
 
 def _starts(memory: Memory, place: Any) -> np.ndarray:
     """Return where something of each declared contact begins, counted from the blocks."""
-    return memory.declared(place) - memory.blocks
+    numbers = range(int(memory[owners.ModelNumbers.n_declared]))
+    return np.asarray(DeclaredContacts.of(memory, numbers)[place] - memory.blocks)
 
 
 def _with(state: State, place: int, value: float, part: int = _BLOCKS) -> State:

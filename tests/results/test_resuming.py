@@ -226,7 +226,7 @@ def test_a_state_from_a_file_leaves_functions_and_offsets_alone(tmp_path: Path) 
     memory, blank, key = model._laid.memory, model._blank, model._key()
     places = tuple(np.flatnonzero(may_change) for may_change in memory.changing)
     bits = tuple(np.full(len(part), 7) for part in places)
-    foreign = Continuation(key, Difference(places, bits), 0)
+    foreign = Continuation(key, Difference(places, bits, blank.n_slots), 0)
     folder = tmp_path / "run"
     _cut_off(folder, balls(), 0.2)
     arrays = SolutionFolder.opened(Output(folder))

@@ -30,7 +30,8 @@ SCENARIOS = (("dumbbell", 0.4), ("dice_throw", 0.05), ("newtons_cradle", 0.4), (
 def _spoil(model: ns.Model) -> None:
     """Fill what no run may read before it has written it."""
     memory = model._laid.memory
-    memory.floats[memory.start(owners.OutputNumbers.event_numbers) : memory.blocks] = math.nan
+    memory.floats[memory.start(owners.OutputNumbers.samples) : memory.blocks] = math.nan
+    memory.floats[memory.start(owners.OutputNumbers.event_numbers) : memory.tables] = math.nan
     memory.integers[memory.start(owners.OutputNumbers.event_codes) :] = -7
 
 

@@ -52,7 +52,7 @@ from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point
 from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import length
 from nonsmooth.engine.pairs.apart import find_apart
-from nonsmooth.engine.pairs.listing import list_touching, longest_step
+from nonsmooth.engine.pairs.listing import list_touching, list_with, longest_step
 from nonsmooth.engine.pairs.motion import bound_carriers
 
 _VANISHED = 1e-9
@@ -179,7 +179,7 @@ def _carry_out(ws: Workspace, cause: Cause, which: int) -> Status:
     if ws.model.n_pairs > 0:
         which = _listed_anew(ws, which)
         if which == NO_CONTACT:
-            return Status.NO_SLOT
+            return Status.LIST_FULL
     count_event(ws, which)
     if is_stalled(ws, which):
         if not average_island_of(ws, which):
@@ -198,7 +198,7 @@ def _listed_anew(ws: Workspace, which: int) -> int:
     declared, pair = ws.contacts[which].declared, ws.contacts[which].pair
     if not find_apart(ws, pair):
         return which
-    if list_touching(ws, pair) != Status.RUNNING:
+    if list_with(ws, pair) != Status.RUNNING:
         return NO_CONTACT
     for contact in ws.contacts:
         if contact.declared == declared:
@@ -212,7 +212,7 @@ def _meet(ws: Workspace, h: float) -> Status:
     group = ws.pairs[ws.step.meeting].group
     _commit(ws, h)
     ws.island.follows_a_step = False
-    status = list_touching(ws, group)
+    status = list_with(ws, group)
     if status != Status.RUNNING:
         return status
     find_touching(ws)
@@ -233,7 +233,7 @@ def _step(ws: Workspace) -> Status:
         ws.island.follows_a_step = False
         return update_at_event(ws, Cause.AVERAGING, -1)
     if ws.model.n_pairs > 0 and find_apart(ws, NO_PAIR):
-        return list_touching(ws, NO_PAIR)
+        return list_touching(ws)
     _evaluate_start(ws)
     check_gaps(ws)
     if ws.run.failure != Status.RUNNING:
@@ -248,7 +248,7 @@ def _step(ws: Workspace) -> Status:
         return _carry_out(ws, cause_at_start(ws, which), which)
     ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else math.inf
     if ws.step.listed_step == 0.0:
-        return list_touching(ws, NO_PAIR)
+        return list_touching(ws)
     orient_slips(ws, at_end=True)
     arm_guards(ws)
     which = contact_of_burst(ws) if ws.island.n_grouped > 0 else -1

@@ -76,6 +76,8 @@ class Declaration:
         True for an array that most runs leave unused. It comes last, and costs no memory before it is written.
     is_of_slot : bool
         True for a parameter or a state of the record itself, whichever declared contact it holds.
+    is_of_row : bool
+        True for a parameter that all contacts of two declared shapes share.
     is_address : bool
         True for the address of a function, which is another one in every process.
     below : Size or None
@@ -100,6 +102,7 @@ class Declaration:
     has_end: bool = False
     is_late: bool = False
     is_of_slot: bool = False
+    is_of_row: bool = False
     is_address: bool = False
     below: Size | None = None
     owner: Any = None
@@ -190,18 +193,18 @@ class Record(Owner):
     length: ClassVar[str]
     index: int
 
-    def __init_subclass__(cls, key: str, capacity: str | Size, length: str, copies: type[Record] | None = None) -> None:
+    def __init_subclass__(
+        cls, key: str, capacity: str | Size, length: str, copies: Mapping[str, Declaration] | None = None
+    ) -> None:
         """Set key, capacity and length from the class statement; ``capacity`` may be the name of a count.
 
-        ``copies`` is an owner of records that are on a list only at times. The class declares again each number that is
-        known of such a record while it is off the list: its parameters and its state, but not those of the list entry.
+        ``copies`` are declarations of another owner, by name, that the class declares again.
         """
         cls.key, cls.length = key, length
         # a function in a class would otherwise be a method
         cls.capacity = staticmethod(per(1, capacity) if isinstance(capacity, str) else capacity)
-        for name, declared in declarations(copies).items() if copies else ():
-            if declared.life in (Life.PARAMETER, Life.STATE) and not declared.is_of_slot:
-                setattr(cls, name, replace(declared, owner=cls))
+        for name, declared in (copies or {}).items():
+            setattr(cls, name, replace(declared, owner=cls))
 
 
 class Singleton(Owner):

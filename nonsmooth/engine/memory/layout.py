@@ -25,6 +25,8 @@ N_ACCOUNTS = 4
 """Number of energies that are integrated with the state."""
 BOOKED = 4
 """Number of energies accounted at instants: work of driven bodies, losses by restitution, friction and closing."""
+JACOBIANS = 4
+"""Number of Jacobians and responses of a contact: one of both for either of its bodies."""
 MOST_BLOCKS = 2**22
 """Most Delassus blocks that are allocated, 0.3 GB. Smaller systems have one for each pair of contacts."""
 MOST_ENTRIES = 2**26

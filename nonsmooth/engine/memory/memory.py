@@ -3,127 +3,43 @@
 from __future__ import annotations
 
 import functools
-from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
 
 from nonsmooth.engine.memory import implicit_tableau, tableau
-from nonsmooth.engine.memory.blocks import GUARD, PAIR, UNTOUCHED
-from nonsmooth.engine.memory.declare import Declaration, Singleton
-from nonsmooth.engine.memory.owners.contact import ContactRecord, DeclaredContact
+from nonsmooth.engine.memory.blocks import PAIR, UNTOUCHED
+from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
+from nonsmooth.engine.memory.layout import BOOKED, JACOBIANS
+from nonsmooth.engine.memory.owners.contact import ContactRecord, HistoryRecord
+from nonsmooth.engine.memory.owners.island import Island
 from nonsmooth.engine.memory.owners.model import Coefficients, ModelNumbers
+from nonsmooth.engine.memory.owners.run import OutputNumbers
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
     COUNTS,
+    FIRST_SLOT_FLOATS,
+    FIRST_SLOT_INTEGERS,
     OWNERS,
+    SLOT_COUNTS,
+    Group,
     arrays_of,
+    ends_of,
+    group_of,
+    has_array,
     kept_scalars,
     length_of,
-    lengths_of,
     record_with,
     scalars_of,
+    slot_arrays,
     storage_of,
     stride_of,
 )
-from nonsmooth.parameters import SharedNumbers
 
-
-class Heap:
-    """The blocks behind the arrays of the table, while a model is assembled: output blocks, Jacobians, parameters.
-
-    Their total length is known only at the end, so that they are collected here and copied by :meth:`close`.
-    """
-
-    def __init__(self, memory: Memory) -> None:
-        """Begin to collect the blocks that :meth:`close` appends to the floats of ``memory``.
-
-        :func:`allocate` made ``memory``, with all arrays whose size follows from counts.
-        """
-        self._memory = memory
-        # offset of the first block among all floats
-        self._first = len(memory.floats)
-        self._values = array("d")
-        # ranges that change in a run: their offsets from the first block, and the length of each of them
-        self._written: list[tuple[np.ndarray, int]] = []
-        # numbers by which a function finds a table of shared parameters, such as those of a mesh: offset of the number
-        # among all floats, the offset that is subtracted from that of the table, and the table
-        self._references: list[tuple[int, int, SharedNumbers]] = []
-
-    def block(self, size: int) -> int:
-        """Append ``size`` zeros, for numbers that the engine writes. Result: their offset among all floats."""
-        start = self._first + len(self._values)
-        # bytes of zeros are the float 0.0
-        self._values.frombytes(bytes(self._values.itemsize * size))
-        self.write(start, size)
-        return start
-
-    def write(self, starts: int | np.ndarray, size: int) -> None:
-        """Mark ``size`` numbers from each of the offsets ``starts``: the engine or a plug-in writes them in a run."""
-        # all other numbers of the blocks are parameters, the same in every run
-        self._written.append((np.atleast_1d(starts) - self._first, size))
-
-    def store(self, values: Sequence[float] | np.ndarray) -> int:
-        """Append parameters. Result: their offset among all floats."""
-        start = self._first + len(self._values)
-        self._values.extend(values)
-        return start
-
-    def repeat(self, values: Sequence[float], times: int) -> int:
-        """Append the same parameters ``times`` times. Result: the offset of the first among all floats."""
-        start = self._first + len(self._values)
-        self._values.extend(times * array("d", values))
-        return start
-
-    def refer(self, place: int, start: int, table: SharedNumbers) -> None:
-        """Let :meth:`close` set the number at offset ``place`` to the distance [floats] of a table from ``start``."""
-        # at start begin the parameters of the function that reads the table. It gets only their address, so the table
-        # must be found from there. Before close no table has an offset
-        self._references.append((place, start, table))
-
-    def output(self, size: int) -> int:
-        """Append ``size`` numbers that a plug-in writes, then guards, which show if it wrote too many.
-
-        The result is their offset among all floats.
-        """
-        start = self.store(output_block(size))
-        self.write(start, size)
-        return start
-
-    def close(self) -> Memory:
-        """A new memory with the content of the old one: its arrays, behind them all blocks, then the tables.
-
-        A table that many contacts refer to is there once. Views of the old memory do not show the new one.
-        """
-        old, tables = self._memory, {id(table): table for _, _, table in self._references}
-        first_table, offsets = self._first + len(self._values), dict[int, int]()
-        end = first_table
-        for key, table in tables.items():
-            offsets[key] = end
-            end += len(table)
-        # one float more: the offset of an empty block at the end is inside of the array, too
-        floats = np.zeros(end + 1)
-        # late arrays hold zeros; they are not written, so that the system gives them no memory yet
-        arrays = old.early[0]
-        floats[: len(arrays)] = arrays
-        floats[self._first : first_table] = self._values
-        written = np.zeros(len(self._values), bool)
-        for starts, size in self._written:
-            written[starts[:, None] + np.arange(size)] = True
-        for key, table in tables.items():
-            floats[offsets[key] : offsets[key] + len(table)] = table.numbers
-        references = tuple((place, start, offsets[id(table)]) for place, start, table in self._references)
-        for place, start, offset in references:
-            floats[place] = offset - start
-        return replace(old, floats=floats, tables=first_table, references=references, written=written)
-
-
-def output_block(size: int) -> list[float]:
-    """Content of a block before a plug-in writes it: ``size`` zeros, then guards."""
-    # a guard has a value that no plug-in writes by chance; if it changes, the plug-in wrote too many numbers
-    return size * [0.0] + GUARD * [UNTOUCHED]
+FIXED_PARTS = 4
+"""Number of the parts of ``Memory.kept`` that do not depend on the number of slots; they come first."""
 
 
 def counts_in(record: np.void) -> Counts:
@@ -131,26 +47,26 @@ def counts_in(record: np.void) -> Counts:
     return {name: record[f"{ModelNumbers.key}.{name}"].item() for name in COUNTS}
 
 
-def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray) -> np.ndarray:
-    """View of the numbers of a declaration in ``numbers``, all floats or all integers of a workspace.
+def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray, first: int = 0) -> np.ndarray:
+    """View of the numbers of a declaration in ``numbers``, the floats or the integers of a workspace from ``first`` on.
 
     A part has one array of numbers. Of records, the first axis is the record; the second is the number within the
     declaration, if it has several. ``record`` are the scalars, which hold the offset of each array.
     """
     # the declaration may be a view of the storage of another one
-    storage, start = storage_of(declared), int(record[declared.key])
+    storage, start = storage_of(declared), int(record[declared.key]) - first
     numbers = numbers[start : start + length_of(storage, counts)]
     if issubclass(declared.owner, Singleton):
         return numbers
     # entries from one record to the next, position of the declaration in a record, and number of records
-    stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
+    stride, place, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
     if declared.numbers == 1:
         # starts of ranges have one entry more, the end of the last range
-        return numbers[first::stride][: n + declared.has_end]
-    return numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
+        return numbers[place::stride][: n + declared.has_end]
+    return numbers[: stride * n].reshape(n, stride)[:, place : place + declared.numbers]
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Memory:
     """All numbers of one trajectory.
 
@@ -159,31 +75,31 @@ class Memory:
     scalars : numpy.ndarray
         The record of scalars, shape [1].
     floats : numpy.ndarray
-        The arrays of floats, late ones last, then blocks and tables.
+        The arrays of floats, late ones last, then blocks, the arrays that grow with the number of slots, and tables.
     integers : numpy.ndarray
-        The arrays of integers.
-    blocks, tables : int
-        Offsets in ``floats`` of the blocks that the assembly appended, and of the tables behind them.
+        The arrays of integers, last those that grow with the number of slots.
+    blocks, slots : int
+        Offsets in ``floats`` of the blocks that the assembly appended, and of the arrays behind them.
     references : tuple
         For every table that a function reads: the offset of a number that is the distance to the table, the offset from
-        which the distance counts, and that of the table.
+        which the distance counts, and that of the table behind the first table.
     written : array
         For each number of the blocks, True if the engine or a plug-in writes it, False for a parameter.
     own : tuple of type
         Parts that the engine adds to the workspace.
-    owner : Memory or None
-        The memory whose tables it reads, if it has none itself.
+    foreign_tables : array or None
+        The tables that it reads in another memory, if it has none itself.
     """
 
     scalars: np.ndarray
     floats: np.ndarray
     integers: np.ndarray
     blocks: int
-    tables: int
+    slots: int
     references: tuple[tuple[int, int, int], ...] = ()
     written: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
     own: tuple[type[Singleton], ...] = ()
-    owner: Memory | None = None
+    foreign_tables: np.ndarray | None = None
 
     def __getitem__(self, declared: Any) -> Any:
         """A scalar, or a view of an array: ``memory[Island.time]``, ``memory[ContactRecord.gap]``.
@@ -204,16 +120,11 @@ class Memory:
         """Offset of an array among all floats or integers."""
         return int(self.record[declared.key])
 
-    def declared(self, declared: Any) -> np.ndarray:
-        """View of a field, such as ``ContactRecord.mode``, with one entry for each declared contact, in their order."""
-        # memory[ContactRecord.mode] has entries for contacts on the neighbour list only, with their newest values
-        return self._view(getattr(DeclaredContact, declared.name))
-
     def _view(self, declared: Declaration) -> np.ndarray:
         """View of an array. It is made once and kept, because that takes longer than reading it."""
         if declared not in self._views:
             numbers = self.floats if declared.is_float else self.integers
-            self._views[declared] = view_of(declared, self.record, self._counts, numbers)
+            self._views[declared] = view_of(declared, self.record, self.counts, numbers)
         return self._views[declared]
 
     @functools.cached_property
@@ -234,7 +145,8 @@ class Memory:
         return self.scalars.view(np.float64), self.scalars.view(np.int64)
 
     @functools.cached_property
-    def _counts(self) -> Counts:
+    def counts(self) -> Counts:
+        """The counts that size its arrays."""
         return counts_in(self.record)
 
     @functools.cached_property
@@ -246,11 +158,19 @@ class Memory:
     def kept(self) -> tuple[np.ndarray, ...]:
         """All numbers that a step may read from earlier steps: scalars, arrays that outlive a step, and blocks.
 
-        Views as integers with the same bits, so that they can be compared: NaN differs from itself.
+        Views as integers with the same bits, so that they can be compared: NaN differs from itself. They are scalars,
+        floats, integers, blocks, and the floats and the integers that grow with the number of slots.
         """
-        # arrays that outlive a step come first among the floats and among the integers; blocks end where tables begin
-        (floats, *_), (integers, *_) = self._lengths
-        parts = self.scalars, self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
+        floats, integers = self._ends
+        last = self.slots + floats[Group.SLOTS_KEPT] - floats[Group.LATE]
+        parts = (
+            self.scalars,
+            self.floats[: floats[Group.KEPT]],
+            self.integers[: integers[Group.KEPT]],
+            self.floats[self.blocks : self.slots],
+            self.floats[self.slots : last],
+            self.integers[integers[Group.LATE] : integers[Group.SLOTS_KEPT]],
+        )
         return tuple(part.view(np.int64) for part in parts)
 
     @functools.cached_property
@@ -259,20 +179,141 @@ class Memory:
 
         Scalars and blocks also hold parameters; arrays that outlive a step hold none.
         """
-        _, floats, integers, _ = self.kept
-        return kept_scalars(self.own), np.ones(len(floats), bool), np.ones(len(integers), bool), self.written
+        _, floats, integers, _, *of_slots = self.kept
+        every = (np.ones(len(part), bool) for part in (floats, integers, *of_slots))
+        return kept_scalars(self.own), next(every), next(every), self.written, *every
 
     @functools.cached_property
-    def early(self) -> tuple[np.ndarray, ...]:
-        """Views of floats, integers and blocks, without late arrays, which most runs leave unused, and tables."""
-        # late arrays come last; the second length is without them
-        (_, floats, _), (_, integers, _) = self._lengths
-        return self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
+    def tables(self) -> int:
+        """Offset in ``floats`` of the tables, which are last."""
+        floats, _ = self._ends
+        # one float more: the offset of an empty block at the end is inside of the array, too
+        return self.slots + floats[Group.SLOTS_LATE] - floats[Group.LATE] + 1
+
+    @property
+    def table_numbers(self) -> np.ndarray:
+        """The tables: its own, or those that it reads in another memory."""
+        return self.floats[self.tables :] if self.foreign_tables is None else self.foreign_tables
 
     @functools.cached_property
-    def _lengths(self) -> tuple[tuple[int, int, int], ...]:
-        """For floats, then for integers: total entries of arrays that outlive a step, of all but late ones, of all."""
-        return tuple(lengths_of((*OWNERS, *self.own), of_floats, self._counts) for of_floats in (True, False))
+    def _ends(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """For floats, then for integers: where each group of arrays ends, one behind the other."""
+        owners = self._owners
+        return ends_of(owners, True, self.counts), ends_of(owners, False, self.counts)
+
+    @property
+    def _owners(self) -> tuple[type, ...]:
+        """All classes that declare fields of this workspace."""
+        return (*OWNERS, *self.own)
+
+    def resize(self, counts: Counts) -> None:
+        """Change the number of slots for active contacts, and what follows from it, in place.
+
+        What outlives a step stays, as far as there is space for it. ``counts`` are all counts; only ``SLOT_COUNTS`` may
+        differ. Earlier views of floats and integers show the former content.
+        """
+        old = replace(self, scalars=self.scalars.copy())
+        tables = self.table_numbers if self.foreign_tables is None else np.zeros(0)
+        self.fill(old, counts, self.floats[self.blocks : self.slots], tables)
+
+    def copied(self, shares_tables: bool) -> Memory:
+        """Memory with the same content. With ``shares_tables`` it reads the tables of this one, else it copies them."""
+        tables = self.table_numbers
+        made = replace(self, scalars=self.scalars.copy(), foreign_tables=tables if shares_tables else None)
+        own_tables = tables[: 0 if shares_tables else len(tables)]
+        made.fill(self, self.counts, self.floats[self.blocks : self.slots], own_tables)
+        return made
+
+    def fill(self, old: Memory, counts: Counts, blocks: np.ndarray, tables: np.ndarray) -> None:
+        """Make new floats and integers, with the content of another memory of the same system.
+
+        Late arrays are left out, except records that Python has not read yet. Of slots for active contacts, a memory
+        with another number of them leaves out what no later step reads, except histories.
+
+        Parameters
+        ----------
+        old : Memory
+            The memory. It may have other ``counts``, and its blocks may be missing.
+        counts : mapping
+            All counts.
+        blocks, tables : array
+            The blocks, and the tables that the new floats are to hold.
+        """
+        self._write_layout(counts)
+        float_ends, integer_ends = self._ends
+        self.floats, self.integers = np.zeros(self.tables + len(tables)), np.zeros(max(integer_ends[-1], 1), np.int64)
+        self.floats[: float_ends[Group.SHORT]] = old.floats[: float_ends[Group.SHORT]]
+        self.integers[: integer_ends[Group.SHORT]] = old.integers[: integer_ends[Group.SHORT]]
+        self.floats[self.blocks : self.slots], self.floats[self.tables :] = blocks, tables
+        last = Group.SLOTS_SHORT if counts["n_slots"] == old.counts["n_slots"] else Group.SLOTS_KEPT
+        lengths: dict[Any, int] = {
+            one: length_of(one, old.counts) for one in slot_arrays(self._owners) if group_of(one) <= last
+        }
+        histories = filter(has_array, declarations(HistoryRecord).values())
+        lengths |= {one: one.numbers * old[Island.n_histories] for one in histories}
+        samples = old[OutputNumbers.n_samples] * (1 + old[ModelNumbers.n_y] + BOOKED)
+        lengths |= {
+            OutputNumbers.samples: samples,
+            OutputNumbers.event_numbers: old[OutputNumbers.floats_used],
+            OutputNumbers.event_codes: old[OutputNumbers.integers_used],
+        }
+        for one, length in lengths.items():
+            source, target = (memory.floats if one.is_float else memory.integers for memory in (old, self))
+            first, second, n = old.start(one), self.start(one), min(length, length_of(one, counts))
+            target[second : second + n] = source[first : first + n]
+        self._write_slots(old.counts["n_slots"])
+        # each function finds its table by the distance [floats] from its parameters
+        distance = (self.table_numbers.ctypes.data - self.floats.ctypes.data) // self.floats.itemsize
+        for place, start, table in self.references:
+            self.floats[place] = distance + table - start
+
+    def _write_layout(self, counts: Counts) -> None:
+        """Write the counts that follow from the number of slots, and the offsets of the arrays with such lengths."""
+        names = self.record.dtype.names or ()
+        laid = dict(zip(names, _laid(tuple((name, counts[name]) for name in COUNTS), self.own)[0], strict=True))
+        for name in SLOT_COUNTS:
+            self.record[f"{ModelNumbers.key}.{name}"] = counts[name]
+        for name in _CACHED:
+            self.__dict__.pop(name, None)
+        # the layout is that of a memory without blocks
+        moved = self.slots - self._ends[0][Group.LATE]
+        for one in slot_arrays(self._owners):
+            self.record[one.key] = laid[one.key] + (moved if one.is_float else 0)
+
+    def _write_slots(self, n_kept: int) -> None:
+        """Write what each slot for an active contact has from the start; the first ``n_kept`` have it already."""
+        # guards behind the block that the kinematics of a contact writes: they change if it writes too many numbers
+        self[ContactRecord.geometry][n_kept:, PAIR:] = UNTOUCHED
+        size = 3 * self[ModelNumbers.most_velocities]
+        firsts = self.start(Island.jacobians) + JACOBIANS * size * np.arange(self[ModelNumbers.n_slots])
+        for i, place in enumerate(_JACOBIANS):
+            self[place] = firsts + i * size
+
+    def put_slots(self, scalars: np.ndarray, floats: np.ndarray, integers: np.ndarray) -> None:
+        """Write the slots for active contacts of a checkpoint, which may have fewer of them; the others are reset.
+
+        ``scalars``, ``floats`` and ``integers`` are parts of a checkpoint (:attr:`kept`).
+        """
+        self.clear_slots()
+        record = scalars.view(record_with(self.own))[0]
+        counts = counts_in(record)
+        for one in slot_arrays(self._owners):
+            if group_of(one) is Group.SLOTS_KEPT:
+                key, source = (FIRST_SLOT_FLOATS, floats) if one.is_float else (FIRST_SLOT_INTEGERS, integers)
+                target, n = self.kept[FIXED_PARTS + (not one.is_float)], length_of(one, counts)
+                here, there = (int(scalar[one.key] - scalar[key]) for scalar in (self.record, record))
+                target[here : here + n] = source[there : there + n]
+
+    def clear_slots(self) -> None:
+        """Reset all slots for active contacts to their content before any run."""
+        for part in self.kept[FIXED_PARTS:]:
+            part[:] = 0
+        self._write_slots(0)
+
+
+_CACHED = "_views", "counts", "addresses", "kept", "changing", "tables", "_ends"
+"""Properties of a memory that change with the number of slots."""
+_JACOBIANS = ContactRecord.jacobian_a, ContactRecord.jacobian_b, ContactRecord.response_a, ContactRecord.response_b
 
 
 def allocate(counts: Mapping[str, int], own: tuple[type[Singleton], ...] = ()) -> Memory:
@@ -284,11 +325,11 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Singleton], ...] = ()) -
     values, (n_floats, n_integers) = _laid(tuple(counts.items()), own)
     scalars = np.array([values], record_with(own))
     # an array without entries has no address; the floats always have those of the Runge-Kutta pairs
-    floats, integers = np.zeros(n_floats), np.zeros(max(n_integers, 1), np.int64)
-    # blocks and tables, still empty, begin behind the arrays
-    memory = Memory(scalars, floats, integers, blocks=n_floats, tables=n_floats, own=own)
-    # guards behind the block that the kinematics of a contact writes: they change if it writes too many numbers
-    memory[ContactRecord.geometry][:, PAIR:] = UNTOUCHED
+    floats, integers = np.zeros(n_floats + 1), np.zeros(max(n_integers, 1), np.int64)
+    # the blocks, still empty, are behind the arrays that do not depend on the number of slots
+    slots = ends_of((*OWNERS, *own), True, counts)[Group.LATE]
+    memory = Memory(scalars, floats, integers, blocks=slots, slots=slots, own=own)
+    memory._write_slots(0)
     memory[Coefficients.nodes] = tableau.NODES
     memory[Coefficients.stages] = np.ravel(tableau.STAGES)
     memory[Coefficients.error_weights] = tableau.ERROR

@@ -215,7 +215,7 @@ class Status(IntEnum):
     STOPPED = 9
     """A guard of the user ends the run."""
     NO_SLOT = 10
-    """More contacts are near than the workspace has slots for active contacts."""
+    """Contacts near each other need more candidates, blocks or entries of a matrix than the workspace can hold."""
     PARADOX_REFUSED = 11
     """Sliding has no contact force, and the option ``painleve`` is "refuse"."""
     JOINTS_APART = 12
@@ -234,6 +234,8 @@ class Status(IntEnum):
     """Bodies passed into each other."""
     PAIR_UNDECIDED = 19
     """It cannot be decided whether bodies meet within a step."""
+    LIST_FULL = 20
+    """More contacts are near than there are slots for active contacts. The memory grows, and the run continues."""
 
 
 REASONS = {
@@ -255,6 +257,7 @@ REASONS = {
     Status.QUATERNION_UNEXPLAINED: "the length of a quaternion differs from one by more than the tolerances allow",
     Status.PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
     Status.NO_SLOT: "more contacts came near each other than a system of this size has room for",
+    Status.LIST_FULL: "more contacts came near each other than there were places for",
     Status.STALLED: "the run stalls: a contact has more than a hundred events within a hundredth of its contact time",
 }
 """Why a run ended, by status."""

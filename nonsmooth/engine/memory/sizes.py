@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 from nonsmooth.engine.memory.blocks import DELASSUS, GUARD
-from nonsmooth.engine.memory.layout import BOOKED, MOST_BLOCKS, MOST_ENTRIES, PART_END, PARTS
+from nonsmooth.engine.memory.layout import BOOKED, JACOBIANS, MOST_BLOCKS, MOST_ENTRIES, PART_END, PARTS
 
 Counts: TypeAlias = Mapping[str, int]
 Size: TypeAlias = Callable[[Counts], int]
@@ -56,6 +56,19 @@ def all_guards(n: Counts) -> int:
     Those of a contact are its normal guard, its friction guard, and that of the end of its features.
     """
     return 3 * n["n_slots"] + n["n_own_guards"]
+
+
+def jacobian_numbers(n: Counts) -> int:
+    """Number of floats of the Jacobians of all active contacts, and of their responses.
+
+    Each has one of both for either of its bodies: three rows over the velocities of an articulation.
+    """
+    return JACOBIANS * 3 * n["most_velocities"] * n["n_slots"]
+
+
+def history_entries(n: Counts) -> int:
+    """Number of places of the hash table of histories: twice as many as there are histories, so that few collide."""
+    return 2 * n["n_slots"] + 1
 
 
 def coordinates_and_velocities(n: Counts) -> int:

@@ -10,12 +10,17 @@ and needs no new compilation. The order of the arrays is:
 1. arrays that outlive a step, so that a checkpoint copies one piece of the floats and one of the integers;
 2. arrays that each step writes anew;
 3. late arrays, which most runs leave unused, and which cost no memory before they are written.
+
+Arrays that grow with the number of slots for active contacts come apart, in the same order. All others stay where they
+are if the number of slots changes.
 """
 
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Iterable, Mapping
+from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +29,11 @@ from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
 from nonsmooth.engine.memory.owners.model import ModelNumbers
 from nonsmooth.engine.memory.sizes import Counts, Size
 from nonsmooth.engine.memory.workspace import PARTS, RECORDS
+
+COUNTS = tuple(name for name, one in declarations(ModelNumbers).items() if one.kind is int and one.size is None)
+"""Counts that size the arrays, and the other integers of a model."""
+SLOT_COUNTS = "n_slots", "n_pivoted", "event_floats", "event_integers"
+"""Counts that follow from the number of slots for active contacts."""
 
 
 def has_array(declared: Declaration) -> bool:
@@ -47,48 +57,62 @@ def _all(owners: Iterable[type]) -> list[Declaration]:
 def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
     """Size of each array of some owners, of floats if ``of_floats``, else of integers.
 
-    Keys are as "contacts.gap". The order is that of the offsets: arrays that outlive a step, other arrays, late arrays.
+    Keys are as "contacts.gap". The order is that of the offsets (:class:`Group`).
     """
     found = [one for one in _all(owners) if has_array(one) and one.is_float == of_floats]
-    return {one.key: functools.partial(length_of, one) for one in sorted(found, key=_rank)}
+    return {one.key: functools.partial(length_of, one) for one in sorted(found, key=group_of)}
 
 
-def _rank(declared: Declaration) -> int:
-    """Kind of an array, by which arrays are sorted: 0 if it outlives a step, 1 if it does not, 2 if it is late."""
-    return _LATE if declared.is_late else _KEPT if declared.outlives_a_step else _SHORT
+class Group(IntEnum):
+    """Groups of arrays, in the order of their offsets."""
+
+    KEPT = 0
+    """A later step reads it."""
+    SHORT = 1
+    """Every step writes it anew."""
+    LATE = 2
+    """Most runs never write it, so that it takes no memory (``Declaration.is_late``)."""
+    SLOTS_KEPT = 3
+    """As ``KEPT``; its length depends on the number of slots."""
+    SLOTS_SHORT = 4
+    """As ``SHORT``; its length depends on the number of slots."""
+    SLOTS_LATE = 5
+    """As ``LATE``; its length depends on the number of slots."""
 
 
-_KEPT, _SHORT, _LATE = range(3)
-"""Groups of arrays, in the order of their offsets.
+@functools.cache
+def group_of(declared: Declaration) -> Group:
+    """Group of an array."""
+    group = Group.LATE if declared.is_late else Group.KEPT if declared.outlives_a_step else Group.SHORT
+    # a length is known as a function of the counts only: does it change without any slot?
+    some = dict.fromkeys(COUNTS, 1)
+    depends = length_of(declared, some) != length_of(declared, {**some, **dict.fromkeys(SLOT_COUNTS, 0)})
+    return Group(group + Group.SLOTS_KEPT) if depends else group
 
-``_KEPT``: a later step reads it. ``_SHORT``: every step writes it anew. ``_LATE``: most runs never write it, so that it
-takes no memory (``Declaration.is_late``).
-"""
+
+@functools.cache
+def slot_arrays(owners: tuple[type, ...]) -> list[Declaration]:
+    """Arrays of some owners whose length depends on the number of slots."""
+    return [one for one in _all(owners) if has_array(one) and group_of(one) >= Group.SLOTS_KEPT]
 
 
-def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Three numbers of entries of the workspace, of floats if ``of_floats``, else of integers.
-
-    1. Entries of the arrays that outlive a step.
-    2. These, and the entries of the arrays that every step writes anew.
-    3. Entries of all arrays, including the late ones, which most runs never write.
+def ends_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, ...]:
+    """Where each :class:`Group` of arrays ends, of floats if ``of_floats``, else of integers, one behind the other.
 
     ``counts`` are the numbers of bodies, contacts and so on, on which the sizes depend.
     """
     # cached, because systems that differ in their parameters only have the same lengths, and often follow each other
-    return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
+    return _ends_of(tuple(owners), of_floats, tuple(counts.items()))
 
 
 @functools.lru_cache(maxsize=16)
-def _lengths_of(owners: tuple[type, ...], of_floats: bool, counts: tuple[tuple[str, int], ...]) -> tuple[int, int, int]:
-    """:func:`lengths_of` with arguments that a cache can hold."""
-    totals, known = [0, 0, 0], dict(counts)
+def _ends_of(owners: tuple[type, ...], of_floats: bool, counts: tuple[tuple[str, int], ...]) -> tuple[int, ...]:
+    """:func:`ends_of` with arguments that a cache can hold."""
+    lengths, known = [0] * len(Group), dict(counts)
     for one in _all(owners):
         if has_array(one) and one.is_float == of_floats:
-            # each total includes those before it
-            for rank in range(_rank(one), len(totals)):
-                totals[rank] += length_of(one, known)
-    return totals[_KEPT], totals[_SHORT], totals[_LATE]
+            lengths[group_of(one)] += length_of(one, known)
+    return tuple(itertools.accumulate(lengths))
 
 
 def scalars_of(owners: Iterable[type]) -> dict[str, float]:
@@ -110,12 +134,15 @@ OWNERS: tuple[type, ...] = (*PARTS.values(), *RECORDS.values())
 """All classes that declare fields of the workspace; an engine may add its own."""
 FLOAT_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=True)
 INTEGER_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=False)
+FIRST_SLOT_FLOATS, FIRST_SLOT_INTEGERS = (
+    next(one.key for one in sorted(slot_arrays(OWNERS), key=group_of) if one.is_float == of_floats)
+    for of_floats in (True, False)
+)
+"""Keys of the first of the arrays that grow with the number of slots, of floats and of integers."""
 SCALARS = np.dtype(_entries(OWNERS), align=True)
 """Type of the record of scalars, which also holds the offsets of arrays."""
 N_SCALARS = len(SCALARS.names or ())
 """Number of entries of the record of scalars."""
-COUNTS = tuple(name for name, one in declarations(ModelNumbers).items() if one.kind is int and one.size is None)
-"""Counts that size the arrays, and the other integers of a model."""
 CONSTANT_SCALARS = frozenset((*(f"{ModelNumbers.key}.{name}" for name in COUNTS), *FLOAT_ARRAYS, *INTEGER_ARRAYS))
 """Scalars that never change after the allocation of the workspace: counts and offsets."""
 
@@ -124,6 +151,16 @@ def kept_scalars(own: Iterable[type[Singleton]]) -> NDArray[np.bool_]:
     """For each entry of the record of scalars, with the parts ``own`` of an engine, True if it outlives a step."""
     kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and one.is_scalar}
     return np.array([name in kept for name in record_with(own).names or ()])
+
+
+@functools.cache
+def variable_scalars(own: tuple[type[Singleton], ...]) -> NDArray[np.bool_]:
+    """For each entry of the record of scalars, with the parts ``own`` of an engine, False for a count or an offset."""
+    fixed = {
+        *(f"{ModelNumbers.key}.{name}" for name in COUNTS),
+        *(one.key for one in _all((*OWNERS, *own)) if has_array(one)),
+    }
+    return np.array([name not in fixed for name in record_with(own).names or ()])
 
 
 def record_with(own: Iterable[type[Singleton]]) -> np.dtype[np.void]:

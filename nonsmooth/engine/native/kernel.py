@@ -33,7 +33,7 @@ from nonsmooth.engine.memory.declare import Singleton
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
 from nonsmooth.engine.memory.owners.bodies import Articulation, BodyRecord, JointRecord, LoadRecord
-from nonsmooth.engine.memory.owners.contact import ContactRecord, DeclaredContact
+from nonsmooth.engine.memory.owners.contact import ContactRecord, HistoryRecord, KindRecord, RowRecord
 from nonsmooth.engine.memory.owners.guards import GuardRecord, ImpactGuard, OwnGuard
 from nonsmooth.engine.memory.owners.neighbours import BoundingSphere, Carrier, HalfSpaceRecord, Pair, Search
 from nonsmooth.engine.memory.workspace import Workspace

@@ -10,22 +10,23 @@ Behind its features each contact stores the largest distance that they may have 
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.declared import features_of, history_of
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.native.kernel import DeclaredContact, Search, Workspace, at, call_pair, kernel
+from nonsmooth.engine.native.kernel import Search, Workspace, at, call_pair, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
 _NOT_A_NUMBER = -1
 """Number of pairs in place of one that is negative or not finite."""
 
 
-@kernel("b1(ws, i8)")
-def has_no_features(ws: Workspace, declared: int) -> bool:
-    """True if a declared contact may hold any pair of features of two shapes, and holds none at present.
+@kernel("b1(ws, i8, i8)")
+def has_no_features(ws: Workspace, row: int, declared: int) -> bool:
+    """True if a declared contact of a row may hold any pair of features of two shapes, and holds none at present.
 
     A contact with fixed features has offset 0 here. The first number of a pair is never 0.
     """
-    candidate = ws.declared_contacts[declared].features
+    candidate = features_of(ws, row, declared)
     return candidate > 0 and ws.floats[candidate] == 0.0
 
 
@@ -41,25 +42,28 @@ def are_near(ws: Workspace, a: int, b: int) -> bool:
     return dot(between, between) <= near * near
 
 
-@kernel("void(ws, DeclaredContact, i8, i8)")
-def _match(ws: Workspace, contact: DeclaredContact, found: int, n_found: int) -> None:
-    """Mark the pair of features of a contact as taken among the ``n_found`` pairs at offset ``found``.
+@kernel("void(ws, i8, i8, i8, i8)")
+def _match(ws: Workspace, row: int, declared: int, found: int, n_found: int) -> None:
+    """Mark the pair of features of a declared contact as taken among the ``n_found`` pairs at offset ``found``.
 
     A taken pair has a zero in place of its first number. If the pair was not found, an open contact is emptied, so that
     another pair may take it. A closed contact keeps its pair.
     """
+    features = features_of(ws, row, declared)
     for i in range(n_found):
         is_same = True
         for r in range(CANDIDATE):
-            if ws.floats[found + CANDIDATE * i + r] != ws.floats[contact.features + r]:
+            if ws.floats[found + CANDIDATE * i + r] != ws.floats[features + r]:
                 is_same = False
         if is_same:
             ws.floats[found + CANDIDATE * i] = 0.0
             return
-    if contact.mode == Mode.OPEN:
-        ws.floats[contact.features] = 0.0
-        # the history of the old pair must not go to the next one: values as at the start of a run
-        contact.direction, contact.closing_rate = (1.0, 0.0), 0.0
+    history = history_of(ws, declared)
+    if history < 0 or ws.histories[history].mode == Mode.OPEN:
+        ws.floats[features] = 0.0
+        if history >= 0:
+            # the history of the old pair must not go to the next one: values as at the start of a run
+            ws.histories[history].direction, ws.histories[history].closing_rate = (1.0, 0.0), 0.0
 
 
 @kernel("Status(ws)")
@@ -79,14 +83,14 @@ def find_candidates(ws: Workspace) -> Status:
         end = search.first_contact + search.n_contacts
         # the pairs follow the number of pairs in the output of the search
         for declared in range(search.first_contact, end):
-            if not has_no_features(ws, declared):
-                _match(ws, ws.declared_contacts[declared], search.out + 1, n_found)
+            if not has_no_features(ws, search.row, declared):
+                _match(ws, search.row, declared, search.out + 1, n_found)
         # closed contacts keep pairs that were not found, so that the others may be too few
         if not _fill_empty(ws, search, n_found):
             return Status.NO_SLOT
         for declared in range(search.first_contact, end):
             # largest distance of a pair while the list holds: the margin, and half of it for each body to move
-            ws.floats[ws.declared_contacts[declared].features + CANDIDATE] = 2.0 * ws.island.list_margin
+            ws.floats[features_of(ws, search.row, declared) + CANDIDATE] = 2.0 * ws.island.list_margin
     return Status.RUNNING
 
 
@@ -119,11 +123,11 @@ def _fill_empty(ws: Workspace, search: Search, n_found: int) -> bool:
         found = search.out + 1 + CANDIDATE * i
         if ws.floats[found] == 0.0:
             continue
-        while declared < end and not has_no_features(ws, declared):
+        while declared < end and not has_no_features(ws, search.row, declared):
             declared += 1
         if declared == end:
             return False
-        features = ws.declared_contacts[declared].features
+        features = features_of(ws, search.row, declared)
         for r in range(CANDIDATE):
             ws.floats[features + r] = ws.floats[found + r]
     return True

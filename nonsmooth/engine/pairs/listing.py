@@ -12,11 +12,12 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
+from nonsmooth.engine.bodies.declared import store_histories, write_history, write_parameters
 from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
 from nonsmooth.engine.memory.blocks import PAIR
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.native.kernel import Floats, Workspace, copy_fields, entry_point, frame_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Workspace, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 from nonsmooth.engine.pairs.apart import find_apart
 from nonsmooth.engine.pairs.candidates import are_near, find_candidates, has_no_features
@@ -29,20 +30,19 @@ _ACCELERATION = 2.0
 """By how much a unit is taken to speed up within a step; the step is checked afterwards."""
 
 
-@kernel("b1(ws, i8)")
-def _enter(ws: Workspace, declared: int) -> bool:
-    """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
-    pair = ws.declared_contacts[declared].pair
-    if has_no_features(ws, declared) or (pair != NO_PAIR and ws.pairs[pair].is_apart):
+@kernel("b1(ws, i8, i8)")
+def _enter(ws: Workspace, row: int, declared: int) -> bool:
+    """Put a declared contact of a row into the next slot, unless it is empty; return 0 if there is no slot."""
+    if has_no_features(ws, row, declared):
         return True
     if ws.island.n_contacts == ws.model.n_slots:
         return False
     c = ws.island.n_contacts
     contact = ws.contacts[c]
-    copy_fields(ws.declared_contacts[declared], contact)
+    write_parameters(ws, row, declared, contact)
+    write_history(ws, contact)
     contact.is_touching = False
     contact.version_a = NOT_EVALUATED
-    contact.declared = declared
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
     for i in range(PAIR):
         contact.geometry[i] = 0.0
@@ -56,12 +56,16 @@ def _enter(ws: Workspace, declared: int) -> bool:
     return True
 
 
-@kernel()
-def _leave(ws: Workspace) -> None:
-    """Empty all slots; modes, and what the last event left of the contacts, go back to the catalogue."""
-    for contact in ws.contacts:
-        copy_fields(contact, ws.declared_contacts[contact.declared])
-    ws.island.n_contacts = 0
+@kernel("b1(ws, i8)")
+def _enter_row(ws: Workspace, row: int) -> bool:
+    """Enter all contacts of a row, unless its shapes are apart; return 0 if there is no slot."""
+    pair = ws.rows[row].pair
+    if pair != NO_PAIR and ws.pairs[pair].is_apart:
+        return True
+    for declared in range(ws.rows[row].first_contact, ws.rows[row].end_contact):
+        if not _enter(ws, row, declared):
+            return False
+    return True
 
 
 @kernel("b1(ws, i8, i8)")
@@ -78,8 +82,8 @@ def _enter_pair(ws: Workspace, one: int, two: int) -> bool:
             high = middle
     if low == end or ws.model.partner[low] != two:
         return True
-    for i in range(ws.model.partner_contact[low], ws.model.partner_contact[low + 1]):
-        if not _enter(ws, ws.model.paired_contact[i]):
+    for i in range(ws.model.partner_row[low], ws.model.partner_row[low + 1]):
+        if not _enter_row(ws, ws.model.paired_row[i]):
             return False
     return True
 
@@ -139,35 +143,51 @@ def _widest_axis(ws: Workspace) -> int:
     return best
 
 
+@kernel("Status(ws, f8)")
+def _full(ws: Workspace, margin: float) -> Status:
+    """Undo a list for which there are too few slots, so that it can be made again, from the former ``margin``."""
+    ws.island.n_contacts = 0
+    ws.island.list_margin = margin
+    ws.totals.n_listings -= 1
+    return Status.LIST_FULL
+
+
 @entry_point("Status(ws)")
-def list_contacts(ws: Workspace) -> Status:
+def list_near(ws: Workspace) -> Status:
     """List the contacts of all bodies near each other, whether their shapes are apart or not; return the status."""
     for pair in ws.pairs:
         pair.is_apart = False
-    return _fill(ws)
+    return fill_list(ws)
 
 
-@entry_point("Status(ws, i8)")
-def list_touching(ws: Workspace, touching: int) -> Status:
-    """List the contacts of bodies near each other, except of guarded pairs that are apart; return the status.
+@entry_point("Status(ws)")
+def list_touching(ws: Workspace) -> Status:
+    """List the contacts of bodies near each other, except of guarded pairs that are apart; return the status."""
+    return list_with(ws, NO_PAIR)
 
-    The contacts of the pair ``touching`` are listed in any case, or ``NO_PAIR``.
-    """
+
+@kernel("Status(ws, i8)")
+def list_with(ws: Workspace, touching: int) -> Status:
+    """The same, with the contacts of the pair ``touching`` in any case, or ``NO_PAIR``."""
     # the pairs need the bodies, and the modes of the contacts that are listed
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     find_apart(ws, touching)
-    return _fill(ws)
+    return fill_list(ws)
 
 
-@kernel("Status(ws)")
-def _fill(ws: Workspace) -> Status:
-    """Fill the slots for the present state; return the status."""
-    _leave(ws)
+@entry_point("Status(ws)")
+def fill_list(ws: Workspace) -> Status:
+    """Fill the slots for the present state; return the status.
+
+    With the status ``LIST_FULL`` the histories are kept, and the call can be repeated in a memory with more slots.
+    """
+    store_histories(ws)
     ws.island.follows_a_step = False
     ws.totals.n_listings += 1
     if ws.model.n_spheres == 0:
-        for declared in range(ws.model.n_declared):
-            _enter(ws, declared)
+        for row in range(ws.model.n_rows):
+            _enter_row(ws, row)
+        ws.island.n_histories = 0
         return Status.RUNNING
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for unit in ws.spheres:
@@ -175,6 +195,7 @@ def _fill(ws: Workspace) -> Status:
         unit.place = frame.origin
         for i in range(9):
             unit.axes[i] = frame.rotation[i]
+    margin = ws.island.list_margin
     ws.island.list_margin = min(ws.options.widest_margin, 2.0 * ws.island.list_margin)
     status = find_candidates(ws)
     while status == Status.NO_SLOT and ws.island.list_margin > _NARROWEST * ws.options.widest_margin:
@@ -189,8 +210,8 @@ def _fill(ws: Workspace) -> Status:
         if wall.frame != frame:
             frame, still = wall.frame, _is_still(ws.floats, wall.frame)
         clear = still == 1 and wall.is_steady and _is_clear(ws, i)
-        if not clear and not _enter(ws, wall.contact):
-            return Status.NO_SLOT
+        if not clear and not _enter_row(ws, wall.row):
+            return _full(ws, margin)
     axis = _widest_axis(ws)
     _sort_units(ws, axis)
     for i in range(ws.model.n_spheres):
@@ -202,7 +223,8 @@ def _fill(ws: Workspace) -> Status:
             if _begin(ws, two, axis) > end:
                 break
             if are_near(ws, one, two) and not _enter_pair(ws, min(one, two), max(one, two)):
-                return Status.NO_SLOT
+                return _full(ws, margin)
+    ws.island.n_histories = 0
     return Status.RUNNING
 
 

@@ -13,7 +13,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.model import broad_phase
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.model.row_table import RowTable
 from scenarios.ball_box import BallBox
 
 
@@ -95,7 +95,7 @@ def test_near_pairs_give_what_all_pairs_give(monkeypatch: pytest.MonkeyPatch) ->
     for small in (64, 200):
         monkeypatch.setattr(broad_phase, "SMALL", small)
         system = scenario.build()
-        table = ContactTable.of(system.bodies, system.contacts)
+        table = RowTable.of(system.bodies, system.contacts)
         assert (len(broad_phase.find_broad_phase(system.contacts, table, system.bodies).radii) == 0) == (small == 200)
         ends.append(ns.simulate(system, scenario.t_end))
     listed, every = ends

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, final
 
 from nonsmooth.engine.memory import blocks
 from nonsmooth.engine.memory.declare import (
+    Declaration,
     Life,
     Record,
     Vector2,
     Vector3,
     Vector4,
     address,
+    declarations,
+    end_of,
     one_of,
     question,
     real,
@@ -38,20 +42,22 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
 
     # --- what was declared --------------------------------------------------------------------------------------------
     declared: int = whole(_STATE, "Number of the declared contact.", is_of_slot=True, below=per(1, "n_declared"))
-    body_a: int = whole(_PARAMETER, "First body.")
-    body_b: int = whole(_PARAMETER, "Second body.")
-    articulation_a: int = whole(_PARAMETER, "Articulation of the first body.")
-    articulation_b: int = whole(_PARAMETER, "Articulation of the second body.")
-    frame_a: int = whole(_PARAMETER, "Offset of the frame of the first body.")
-    frame_b: int = whole(_PARAMETER, "Offset of the frame of the second body.")
-    n_u_a: int = whole(_PARAMETER, "Number of velocities of the first body.")
-    n_u_b: int = whole(_PARAMETER, "Number of velocities of the second body.")
-    column_a: int = whole(_PARAMETER, "Column of the first body in the Jacobian of its articulation.")
-    column_b: int = whole(_PARAMETER, "Column of the second body in the Jacobian of its articulation.")
-    support_radius_a: float = real(_PARAMETER, "m", "Largest distance of surface a from its origin.")
-    support_radius_b: float = real(_PARAMETER, "m", "Largest distance of surface b from its origin.")
-    spin_axis: Vector3 = vector(_PARAMETER, 3, "1", "Body axis about which the smaller shape may spin unseen, or zero.")
-    size: float = real(_PARAMETER, "m", "Size of the smaller body.")
+    body_a: int = whole(_PARAMETER, "First body.", is_of_row=True)
+    body_b: int = whole(_PARAMETER, "Second body.", is_of_row=True)
+    articulation_a: int = whole(_PARAMETER, "Articulation of the first body.", is_of_row=True)
+    articulation_b: int = whole(_PARAMETER, "Articulation of the second body.", is_of_row=True)
+    frame_a: int = whole(_PARAMETER, "Offset of the frame of the first body.", is_of_row=True)
+    frame_b: int = whole(_PARAMETER, "Offset of the frame of the second body.", is_of_row=True)
+    n_u_a: int = whole(_PARAMETER, "Number of velocities of the first body.", is_of_row=True)
+    n_u_b: int = whole(_PARAMETER, "Number of velocities of the second body.", is_of_row=True)
+    column_a: int = whole(_PARAMETER, "Column of the first body in the Jacobian of its articulation.", is_of_row=True)
+    column_b: int = whole(_PARAMETER, "Column of the second body in the Jacobian of its articulation.", is_of_row=True)
+    support_radius_a: float = real(_PARAMETER, "m", "Largest distance of surface a from its origin.", is_of_row=True)
+    support_radius_b: float = real(_PARAMETER, "m", "Largest distance of surface b from its origin.", is_of_row=True)
+    spin_axis: Vector3 = vector(
+        _PARAMETER, 3, "1", "Body axis about which the smaller shape may spin unseen, or zero.", is_of_row=True
+    )
+    size: float = real(_PARAMETER, "m", "Size of the smaller body.", is_of_row=True)
     contact_time: float = real(_PARAMETER, "s", "Duration of an impact, below which bounces are not resolved.")
     reach: float = real(_PARAMETER, "m", "Gap up to which a compliant contact acts.")
     geometry_function: int = address(_PARAMETER, "Address of the function that writes the geometry.")
@@ -71,7 +77,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     rates_function: int = address(_PARAMETER, "Address of the function of the rates of inner states, or 0.")
     rates_parameters: int = whole(_PARAMETER, "Offset of the parameters of the rates.")
     rates_out: int = whole(_PARAMETER, "Offset at which the rates of inner states begin.")
-    inner_states: int = whole(_PARAMETER, "Offset of the law's inner states in the state.")
+    inner_states: int = whole(_PARAMETER, "Offset of the law's inner states in the state.", is_of_row=True)
     n_inner_states: int = whole(_PARAMETER, "Number of inner states of the law.")
     inner_states_at_start: int = whole(_PARAMETER, "Offset of the inner states of a new contact.")
     inner_states_copy: int = whole(_PARAMETER, "Offset of the inner states that the law reads.")
@@ -81,7 +87,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     efficiency_parameters: int = whole(_PARAMETER, "Offset of the parameters of the efficiency.")
     map_parameters: int = whole(_PARAMETER, "Offset of the parameters of an impact law that maps velocities.")
     features: int = whole(_PARAMETER, "Offset of the pair of features out of a pool, or 0.")
-    pair: int = whole(_PARAMETER, "Pair of convex parts that the contact belongs to, or -1.")
+    pair: int = whole(_PARAMETER, "Pair of convex parts that the contact belongs to, or -1.", is_of_row=True)
     jacobian_a: int = whole(_PARAMETER, "Offset of W^T and N^T of the first body, rows n, t1, t2.", is_of_slot=True)
     jacobian_b: int = whole(_PARAMETER, "Offset of W^T and N^T of the second body.", is_of_slot=True)
     response_a: int = whole(_PARAMETER, "Offset of K W and K N of the first body.", is_of_slot=True)
@@ -205,12 +211,77 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     window_lost: float = real(_IMPACT, "J", "Stored energy that is lost when the contact opens.")
 
 
+def _declared(life: Life, is_of_row: bool) -> dict[str, Declaration]:
+    """Numbers of a contact that outlive its place on the active list, of one life, by name."""
+    return {
+        name: one
+        for name, one in declarations(ContactRecord).items()
+        if one.life is life and one.is_of_row == is_of_row and not one.is_of_slot
+    }
+
+
+@final
+class RowRecord(Record, key="rows", capacity="n_rows", length="model.n_rows", copies=_declared(_PARAMETER, True)):
+    """A row: the declared contacts of two shapes, whose numbers follow one another.
+
+    It also has the parameters that its contacts share. Inner states are those of its first contact.
+    """
+
+    first_contact: int = whole(_PARAMETER, "Number of its first declared contact.", has_end=True)
+    end_contact: int = end_of("first_contact", "End of its declared contacts.")
+    first_kind: int = whole(_PARAMETER, "Kind of its first contact; the kinds of the others follow.")
+    inner_states: int
+    pair: int
+    rank: int = whole(_PARAMETER, "Number of rows before it with the same kinds.")
+
+
+@final
+class KindRecord(Record, key="kinds", capacity="n_kinds", length="model.n_kinds", copies=_declared(_PARAMETER, False)):
+    """A kind of declared contacts: those with the same kinematics and the same laws.
+
+    Offsets are those of the first contact of the kind. Contacts share parameters that nothing writes. Each has its own
+    copy of a block that is written; the copies follow one another in the order of the rows.
+    """
+
+    features: int
+    geometry_function: int
+    geometry_stride: int = whole(_PARAMETER, "Floats from one copy of the block of the kinematics to the next, or 0.")
+    law_stride: int = whole(_PARAMETER, "Floats from one copy of the block of the laws to the next, or 0.")
+
+
+def _histories() -> dict[str, Declaration]:
+    """States of a contact by name, with the life of a history: the making of the list."""
+    return {name: replace(one, life=_STEP) for name, one in _declared(_STATE, False).items()}
+
+
 if TYPE_CHECKING:
-    DeclaredContact = ContactRecord
+    HistoryRecord = ContactRecord
 else:
 
     @final
-    class DeclaredContact(
-        Record, key="declared_contacts", capacity="n_declared", length="model.n_declared", copies=ContactRecord
-    ):
-        """What is known of a contact while it is not listed: its parameters and its state."""
+    class HistoryRecord(Record, key="histories", capacity="n_slots", length="island.n_histories", copies=_histories()):
+        """History of a contact while the list of active contacts is made: a contact that was listed, and is again.
+
+        A contact that leaves the list loses its history. It is open, and starts afresh when it enters the list again.
+        """
+
+        declared: int = whole(Life.STEP, "Number of the declared contact.")
+
+
+GEOMETRY_OFFSETS = "geometry_parameters", "features"
+"""Offsets in the block of the kinematics of a contact."""
+LAW_OFFSETS = (
+    "normal_parameters",
+    "friction_parameters",
+    "anisotropy",
+    "traction_parameters",
+    "traction_out",
+    "rates_parameters",
+    "rates_out",
+    "inner_states_at_start",
+    "inner_states_copy",
+    "impact_force_parameters",
+    "efficiency_parameters",
+    "map_parameters",
+)
+"""Offsets in the block of the laws of a contact."""

@@ -24,6 +24,8 @@ from nonsmooth.engine.memory.sizes import (
     delassus_blocks,
     delassus_numbers,
     ends,
+    history_entries,
+    jacobian_numbers,
     per,
     spans,
     step_part_numbers,
@@ -40,6 +42,9 @@ class Island(Singleton, key="island"):
     time: float = real(_STATE, "s", "Time.")
     y: FloatRow = floats(_STATE, per(1, "n_y"), "", "Integrated state: q, u, energy accounts, inner states of laws.")
     n_contacts: int = whole(_STATE, "Number of listed contacts.", below=ends("n_slots"))
+    n_histories: int = whole(
+        _STATE, "Number of histories from which the next list is made; 0 once it is made.", below=ends("n_slots")
+    )
     list_margin: float = real(_STATE, "m", "Margin of the neighbour list.")
     sphere_order: IntegerRow = integers(
         _STATE, per(1, "n_spheres"), "Bounding spheres, sorted along the axis of the sweep.", below=per(1, "n_spheres")
@@ -75,12 +80,16 @@ class Island(Singleton, key="island"):
     n_groups: int = whole(_DERIVED, "Number of groups of contacts that act on one another.")
     grouped: IntegerRow = integers(_DERIVED, per(1, "n_slots"), "Contacts in groups, group after group.")
     group_start: IntegerRow = integers(_DERIVED, ends("n_slots"), "Where each group begins in `grouped`.")
+    history_places: IntegerRow = integers(
+        _STEP, history_entries, "Hash table of the histories by declared number: 1 + index, 0 for a free place."
+    )
     group_next: IntegerRow = integers(_STEP, per(1, "n_slots"), "Where the next contact of each group goes.")
     block_start: IntegerRow = integers(_DERIVED, ends("n_slots"), "First Delassus block of each grouped contact.")
     block_column: IntegerRow = integers(
         _DERIVED, delassus_blocks, "Active contact that each Delassus block couples with.", is_late=True
     )
     delassus: FloatRow = floats(_REUSED, delassus_numbers, "1/kg", "Delassus blocks, rows n, t1, t2.", is_late=True)
+    jacobians: FloatRow = floats(_REUSED, jacobian_numbers, "", "Jacobians and responses, contact after contact.")
     n_integrated: int = whole(_DERIVED, "Number of bodies that the integrator steps.")
     integrated: IntegerRow = integers(_DERIVED, per(1, "n_bodies"), "Bodies that the integrator steps.")
     n_ballistic: int = whole(_DERIVED, "Number of bodies in ballistic motion.")

@@ -35,10 +35,12 @@ class ModelNumbers(Singleton, key="model"):
     n_bodies: int = whole(_PARAMETER, "Number of bodies.")
     n_slots: int = whole(_PARAMETER, "Largest number of contacts that can be listed at once.")
     n_declared: int = whole(_PARAMETER, "Number of declared contacts.")
+    n_rows: int = whole(_PARAMETER, "Number of rows: pairs of shapes between which contacts are declared.")
+    n_kinds: int = whole(_PARAMETER, "Number of kinds of declared contacts.")
     n_spheres: int = whole(_PARAMETER, "Number of bounding spheres.")
     n_partners: int = whole(_PARAMETER, "Number of pairs of bounding spheres between which contacts are declared.")
-    n_paired: int = whole(_PARAMETER, "Number of declared contacts between bounding spheres.")
-    n_half_spaces: int = whole(_PARAMETER, "Number of declared contacts with an unbounded shape.")
+    n_paired: int = whole(_PARAMETER, "Number of rows between bounding spheres.")
+    n_half_spaces: int = whole(_PARAMETER, "Number of rows with an unbounded shape.")
     n_searches: int = whole(_PARAMETER, "Number of searches for candidate features.")
     n_pairs: int = whole(_PARAMETER, "Number of pairs of convex parts.")
     n_carriers: int = whole(_PARAMETER, "Number of frames that carry convex parts.")
@@ -50,6 +52,7 @@ class ModelNumbers(Singleton, key="model"):
     n_u: int = whole(_PARAMETER, "Number of velocities of all bodies.")
     n_y: int = whole(_PARAMETER, "Length of the integrated state: q, u, energy accounts, inner states of laws.")
     n_states: int = whole(_PARAMETER, "Number of inner states of all laws.")
+    most_velocities: int = whole(_PARAMETER, "Largest number of velocities of an articulation with contacts.")
     n_pivoted: int = whole(_PARAMETER, "Largest number of contacts that Lemke's method solves together.")
     map_width: int = whole(_PARAMETER, "Numbers that an impact law which maps velocities takes of a contact.")
     event_floats: int = whole(_PARAMETER, "Length of the buffer of floats of events.")
@@ -61,8 +64,8 @@ class ModelNumbers(Singleton, key="model"):
     partner: IntegerRow = integers(
         _PARAMETER, per(1, "n_partners"), "Second bounding sphere of each pair, ascending for each first one."
     )
-    partner_contact: IntegerRow = integers(_PARAMETER, ends("n_partners"), "First of each pair in `paired_contact`.")
-    paired_contact: IntegerRow = integers(_PARAMETER, per(1, "n_paired"), "Declared contacts, sphere pair after pair.")
+    partner_row: IntegerRow = integers(_PARAMETER, ends("n_partners"), "First of each pair in `paired_row`.")
+    paired_row: IntegerRow = integers(_PARAMETER, per(1, "n_paired"), "Rows of contacts, sphere pair after pair.")
 
 
 @final

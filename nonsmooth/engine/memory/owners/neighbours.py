@@ -28,9 +28,9 @@ class BoundingSphere(Record, key="spheres", capacity="n_spheres", length="model.
 
 @final
 class HalfSpaceRecord(Record, key="half_spaces", capacity="n_half_spaces", length="model.n_half_spaces"):
-    """An unbounded shape in a declared contact."""
+    """An unbounded shape that has contacts."""
 
-    contact: int = whole(_PARAMETER, "Declared contact.")
+    row: int = whole(_PARAMETER, "Row of its contacts.")
     sphere: int = whole(_PARAMETER, "Bounding sphere of the other shape.")
     frame: int = whole(_PARAMETER, "Offset of the frame of the unbounded shape.")
     is_steady: bool = question(_PARAMETER, "The frame is at rest, and the shape is below a plane.")
@@ -44,6 +44,7 @@ class Search(Record, key="searches", capacity="n_searches", length="model.n_sear
     function: int = address(_PARAMETER, "Address of the function that finds pairs of features.")
     parameters: int = whole(_PARAMETER, "Offset of the parameters of that function.")
     out: int = whole(_PARAMETER, "Offset at which the function writes.")
+    row: int = whole(_PARAMETER, "Row of the first of the declared contacts that hold the pairs.")
     first_contact: int = whole(_PARAMETER, "First of the declared contacts that hold the pairs.")
     n_contacts: int = whole(_PARAMETER, "Number of these contacts.")
     sphere_a: int = whole(_PARAMETER, "Bounding sphere of the first shape.")

@@ -1,4 +1,4 @@
-"""ContactTable: the numbers of all contacts of a system as arrays. To read thousands of contacts once saves time."""
+"""RowTable: the numbers of all rows of contacts of a system as arrays. To read thousands of rows once saves time."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from nonsmooth.types import Array
 
 
 @dataclass(frozen=True, eq=False)
-class ContactTable:
-    """Numbers of the contacts, a row for each contact and a column for each side.
+class RowTable:
+    """Numbers of the rows of contacts, a row for each pair of shapes and a column for each side.
 
     Attributes
     ----------
@@ -36,8 +36,8 @@ class ContactTable:
     revolutions: Array
 
     @classmethod
-    def of(cls, bodies: Sequence[Body], contacts: Contacts) -> ContactTable:
-        """The table of all contacts of a system with these bodies.
+    def of(cls, bodies: Sequence[Body], contacts: Contacts) -> RowTable:
+        """The table of all rows of contacts of a system with these bodies.
 
         Bodies and shapes are known by their identity. The axis of each shape is computed once.
         """
@@ -46,11 +46,10 @@ class ContactTable:
         # of each row the shape with the smaller support radius, the second if they are equal
         shapes = [row.shapes[1 if row.levers[1] <= row.levers[0] else 0] for row in rows]
         revolutions = {id(shape): shape.revolution for shape in shapes}
-        of_rows = (
+        return cls(
             np.array([[number[id(body)] for body in row.bodies] for row in rows], np.int64).reshape(-1, 2),
             np.array([row.frames for row in rows], np.int64).reshape(-1, 2),
             np.array([row.extents for row in rows], float).reshape(-1, 2),
             np.array([row.levers for row in rows], float).reshape(-1, 2),
             np.array([revolutions[id(shape)] for shape in shapes], float).reshape(-1, 3),
         )
-        return cls(*map(contacts.repeated, of_rows))
