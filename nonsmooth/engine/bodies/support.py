@@ -195,7 +195,7 @@ def separates(ws: Workspace, group: int, n: Vector, near: float) -> bool:
 
     The normal of a contact that touches has this property: along any other direction the parts overlap. ``n`` points
     from the first body of the contact to the second, and ``group`` is the first pair of its shapes. A pair of shapes
-    that is not guarded leaves the decision to its contacts.
+    that is not guarded, or that overlaps, as bodies on springs do, leaves the decision to its contacts.
     """
     number = group
     while number < ws.model.n_pairs and ws.pairs[number].group == group:
@@ -206,7 +206,7 @@ def separates(ws: Workspace, group: int, n: Vector, near: float) -> bool:
         largest = separation_along(ws, number, known)
         # feet may extend beyond the parts by the clearance
         allowed = near + pair.clearance
-        if largest <= allowed and separation_along(ws, number, along) >= min(largest, 0.0) - allowed:
+        if largest < -allowed or (largest <= allowed and separation_along(ws, number, along) >= -2.0 * allowed):
             return True
         number += 1
     return False

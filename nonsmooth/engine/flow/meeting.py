@@ -132,15 +132,18 @@ def _measure_drift(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
 
 @kernel("f8(ws, f8, Pair)")
 def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
-    """First tested fraction of the step at which two parts are apart that touch at its start; 1 if none is."""
+    """First tested fraction of the step at which two parts are apart that touch at its start; 1 if none is.
+
+    They must be apart along the direction at the start: parts that passed through each other are apart along others.
+    """
     enough, speed = ADJACENT * ws.tolerance.gap, speed_of(ws, pair)
-    _evaluate(ws, h, 0.0, pair)
+    _renewed_gap(ws, h, 0.0, pair)
     # neighbours at rest stay next to each other
     if h * (speed + speed_of(ws, pair)) <= enough:
         return 1.0
     elapsed = ws.tolerance.time
     while elapsed < h:
-        if _renewed_gap(ws, h, elapsed / h, pair) > enough:
+        if _gap_at(ws, h, elapsed / h, pair) > enough:
             return elapsed / h
         elapsed *= _FINER
     return 1.0
