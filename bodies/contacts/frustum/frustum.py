@@ -171,11 +171,13 @@ edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all 
 
 
 def set_back(first: Frustum) -> Numbers:
-    """Return the numbers of a frustum whose rims are set back by the height of the feet, so that only feet protrude.
+    """Return the numbers of a frustum whose rims are set back by the height of its feet, so that only feet protrude.
 
     A rim that rolls over the edge of a face then keeps its height.
     """
     own = first.frustum
+    if not first.feet:
+        return own
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
     rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
     heights = [float((np.array(place) - center) @ axis) for _, place in rims]
