@@ -35,6 +35,11 @@ The offset [m] is the distance of the rims' cores, times the sine of the angle b
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
 """
+_COPLANAR = 1e-11
+"""Largest distance of two discs in one plane from each other's plane, relative to the size, and squared angle of both.
+
+It is about the gap tolerance: discs that are farther apart pass each other or cross.
+"""
 _DEEPEST = 0.25
 """Largest depth of an overlap at a crossing, relative to the bodies; deeper, other features are in contact."""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
@@ -64,6 +69,28 @@ def _slope(
     slope = part * around + z * tz
     bend = part * (radius * (tx * tx + ty * ty) - x * ux - y * uy) + radius * tz * tz - z * uz
     return square, slope, bend + wide / (away * away * away) * radius * around * around
+
+
+@compiled
+def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> bool:
+    """True if two circles are linked like the links of a chain.
+
+    The first circle then crosses the plane of the second at two points, and exactly one of them is inside the second.
+    The second circle has the radius ``wide`` [m], about the origin in the plane z = 0.  The first has the given centre
+    [m] and ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
+    """
+    (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = center, g, h
+    size = radius * math.sqrt(gz * gz + hz * hz)
+    if abs(cz) >= size:
+        return False
+    middle, turn = math.atan2(hz, gz), math.acos(-cz / size)
+    within = 0
+    for sign in (-1.0, 1.0):
+        c, s = radius * math.cos(middle + sign * turn), radius * math.sin(middle + sign * turn)
+        x, y = cx + c * gx + s * hx, cy + c * gy + s * hy
+        if x * x + y * y < wide * wide:
+            within += 1
+    return within == 1
 
 
 def _evaluate(
@@ -117,6 +144,12 @@ def _evaluate(
         if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):
             break
         angle = after
+    total = first[SWEEP] + second[SWEEP]
+    are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
+    # discs in one plane touch on the line of centres, where their rims are parallel
+    is_edge_to_edge = are_discs and ax * ax + ay * ay <= _COPLANAR and abs(cz) <= _COPLANAR * size
+    if is_edge_to_edge:
+        angle = 0.0
     c, s = math.cos(angle), math.sin(angle)
     ux, uy, uz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
     tx, ty, tz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
@@ -127,15 +160,14 @@ def _evaluate(
     # normal: cross product of both tangents; the tangent of the second circle is (-ey, ex, 0)
     nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
-    total = first[SWEEP] + second[SWEEP]
     apart = math.sqrt(wx * wx + wy * wy + wz * wz)
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
         nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
-    elif crossing > 1e-6:
-        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
+    elif is_edge_to_edge or crossing <= PARALLEL:
+        nx, ny, nz, crossing = ux, uy, uz, 1.0 if is_edge_to_edge else 0.0
     else:
-        nx, ny, nz = ux, uy, uz
+        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
     astray, flip = 3.0, 1.0
     for sign in (-1.0, 1.0):
         if total > 0.0 and sign * (nx * wx + ny * wy + nz * wz) < 0.0:
@@ -148,7 +180,7 @@ def _evaluate(
             astray, flip = off, sign
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = nx * wx + ny * wy + nz * wz
-    past = max(past_border(-size, astray, size), size * (PARALLEL - crossing))
+    past = past_border(-size, astray, size)
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         lean = size
@@ -159,14 +191,19 @@ def _evaluate(
             lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
         past = max(past, _ASIDE * REACH * size - apart * lean)
     # there is no minimum within this half of the rim, or Newton's method did not find it
-    none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= 1e-6
-    if none:
+    none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= PARALLEL
+    if none or (is_edge_to_edge and half < 0.0):
         past = max(past, size)
+    if gap < 0.0:
+        past = max(past, size * (astray - PARALLEL))
     # rims that cross at a small angle overlap by less than its square times their radii, along another direction
     least = min(radius, wide)
     for body in (first, second):
         least = min(least, body[HIGH] - body[LOW]) if body[SIDE] > 0.0 else least
     past = max(past, -gap - _DEEPEST * crossing * crossing * least)
+    if are_discs and not is_edge_to_edge and not _linked(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz)):
+        # discs that do not intersect overlap by round-off only
+        past = max(past, -gap - REACH * size)
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z + level)
     ux, uy, uz = forth(axes, ux, uy, uz)
