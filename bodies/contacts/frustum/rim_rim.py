@@ -72,25 +72,25 @@ def _slope(
 
 
 @compiled
-def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> bool:
-    """True if two circles are linked like the links of a chain.
+def _link_depth(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> float:
+    """Return how deep one circle lies inside of another one with which it is linked like the links of a chain [m].
 
     The first circle then crosses the plane of the second at two points, and exactly one of them is inside the second.
-    The second circle has the radius ``wide`` [m], about the origin in the plane z = 0.  The first has the given centre
-    [m] and ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
+    The result is the distance of this point from the second circle, or 0 if the circles are not linked.  The second
+    circle has the radius ``wide`` [m], about the origin in the plane z = 0.  The first has the given centre [m] and
+    ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
     """
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = center, g, h
     size = radius * math.sqrt(gz * gz + hz * hz)
     if abs(cz) >= size:
-        return False
+        return 0.0
     middle, turn = math.atan2(hz, gz), math.acos(-cz / size)
-    within = 0
+    least, most = math.inf, -math.inf
     for sign in (-1.0, 1.0):
         c, s = radius * math.cos(middle + sign * turn), radius * math.sin(middle + sign * turn)
-        x, y = cx + c * gx + s * hx, cy + c * gy + s * hy
-        if x * x + y * y < wide * wide:
-            within += 1
-    return within == 1
+        depth = wide - math.hypot(cx + c * gx + s * hx, cy + c * gy + s * hy)
+        least, most = min(least, depth), max(most, depth)
+    return most if least < 0.0 < most else 0.0
 
 
 def _evaluate(
@@ -201,9 +201,10 @@ def _evaluate(
     for body in (first, second):
         least = min(least, body[HIGH] - body[LOW]) if body[SIDE] > 0.0 else least
     past = max(past, -gap - _DEEPEST * crossing * crossing * least)
-    if are_discs and not is_edge_to_edge and not _linked(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz)):
-        # discs that do not intersect overlap by round-off only
-        past = max(past, -gap - REACH * size)
+    if are_discs and gap < 0.0 and not is_edge_to_edge:
+        # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
+        linked = _link_depth(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
+        past = max(past, crossing * (-0.5 * gap - _COPLANAR * size) - linked)
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z + level)
     ux, uy, uz = forth(axes, ux, uy, uz)
