@@ -147,7 +147,7 @@ def _evaluate(
     total = first[SWEEP] + second[SWEEP]
     are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
     # discs in one plane touch on the line of centres, where their rims are parallel
-    is_edge_to_edge = are_discs and ax * ax + ay * ay <= _COPLANAR and abs(cz) <= _COPLANAR * size
+    is_edge_to_edge = are_discs and ax * ax + ay * ay <= _COPLANAR and abs(cz + radius * gz) <= _COPLANAR * size
     if is_edge_to_edge:
         angle = 0.0
     c, s = math.cos(angle), math.sin(angle)
