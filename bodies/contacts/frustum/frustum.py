@@ -51,6 +51,15 @@ def center_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float
 
 
 @compiled
+def middle_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
+    """Return the point of the axis halfway between the rims in the world [m]."""
+    x, y, z = center_in_world(frame, frustum)
+    ax, ay, az = axis_in_world(frame, frustum)
+    height = 0.5 * (frustum[LOW] + frustum[HIGH])
+    return x + height * ax, y + height * ay, z + height * az
+
+
+@compiled
 def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
     """Return the unit axis of a frustum in world axes."""
     x, y, z = vector_in_world(frame, frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6])

@@ -13,7 +13,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
+from ...shapes.frustum import HIGH, LOW, SIDE, Frustum
 from ..features.frames import across, point_in_world
 from ..features.polytope_tables import Numbers
 from .apex_frustum import ApexFrustum
@@ -26,7 +26,7 @@ from .frustum import (
     center_in_world,
     set_back,
 )
-from .frustum_writing import past_border, past_overlap, write_side, write_two
+from .frustum_writing import past_border, past_disc, past_overlap, write_side, write_two
 from .rim_flank import RimFlank
 from .rim_rim import RimRim
 
@@ -62,20 +62,9 @@ def _evaluate(
     along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
     gap = up * (along - height)
     past = past_border(away - wide, 0.0, size)
-    if gap < 0.0 and second[SIDE] == 0.0 and first[SWEEP] + second[SWEEP] > 0.0:
-        # a rounded body behind the plane of a disc is apart from it, on its other side: open this contact
-        past = max(past, size)
-    elif gap < 0.0 and second[SIDE] == 0.0:
-        # the line from the rim's point to the centre of its body must lead back through the disc
-        qx, qy, qz = center_in_world(own, first)
-        high = up * (bx * (qx - kx) + by * (qy - ky) + bz * (qz - kz) - height)
-        far = size
-        if high > 0.0:
-            back = gap / (gap - high)
-            x, y, z = px + back * (qx - px) - kx, py + back * (qy - py) - ky, pz + back * (qz - pz) - kz
-            _, far, _, _, _ = across(x, y, z, bx, by, bz)
-        past = max(past, past_border(far - wide, 0.0, size))
-    elif second[SIDE] > 0.0:
+    if second[SIDE] == 0.0:
+        past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
+    else:
         past = max(past, past_overlap(own, first, other, second, gap, (px, py, pz), size))
     write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz))
     write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)

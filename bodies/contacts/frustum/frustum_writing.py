@@ -15,14 +15,14 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ...blocks import Vector3, put
-from ...shapes.frustum import COS, FEET, HIGH, LOW, SIN, SWEEP, Frustum
+from ...shapes.frustum import COS, FEET, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
 from ..features.vertex_face import DEEP, REACH, height_over
 from ..features.writing import write_principal, write_sweep
 from ..smooth.smooth_core import Axes, back, forth
-from .frustum import axis_in_world, center_in_world, nearest_part, write_part
+from .frustum import axis_in_world, center_in_world, middle_in_world, nearest_part, write_part
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
@@ -67,10 +67,8 @@ def past_overlap(one: Floats, first: Floats, other: Floats, second: Floats, gap:
     """
     if gap >= 0.0:
         return -size
-    ax, ay, az = axis_in_world(one, first)
-    x, y, z = center_in_world(one, first)
-    middle = 0.5 * (first[LOW] + first[HIGH])
-    x, y, z = x + middle * ax - p[0], y + middle * ay - p[1], z + middle * az - p[2]
+    x, y, z = middle_in_world(one, first)
+    x, y, z = x - p[0], y - p[1], z - p[2]
     part = -0.5 * gap / math.sqrt(x * x + y * y + z * z)
     if part > 1.0:
         return size
@@ -80,6 +78,34 @@ def past_overlap(one: Floats, first: Floats, other: Floats, second: Floats, gap:
     along, away, _, _, _ = across(x, y, z, ax, ay, az)
     outside, _, _, _ = nearest_part(second, along, away)
     return float(outside - REACH * size)
+
+
+@compiled
+def past_disc(
+    one: Floats, first: Floats, other: Floats, second: Floats, up: float, gap: float, p: Point, size: float
+) -> float:
+    """Return the distance of a contact of a disc's face past its boundary [m]; negative if it is valid.
+
+    The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
+    the frustum ``one`` that is lowest over the face, ``gap`` its height [m].  A foot on the far side of a disc is not
+    its lowest point.  If the gap is negative, the line from p to the middle of the frustum must lead back through the
+    disc.
+    """
+    ax, ay, az = axis_in_world(other, second)
+    kx, ky, kz = center_in_world(other, second)
+    x, y, z = middle_in_world(one, first)
+    height = up * (ax * (x - kx) + ay * (y - ky) + az * (z - kz))
+    if height < gap - REACH * size:
+        return size
+    if gap >= 0.0:
+        return -size
+    # rounded bodies on the other side of the plane are apart
+    if height <= 0.0 or first[SWEEP] + second[SWEEP] > 0.0:
+        return size
+    back = gap / (gap - height)
+    x, y, z = p[0] + back * (x - p[0]) - kx, p[1] + back * (y - p[1]) - ky, p[2] + back * (z - p[2]) - kz
+    _, away, _, _, _ = across(x, y, z, ax, ay, az)
+    return past_border(away - second[0], 0.0, size)
 
 
 @compiled
