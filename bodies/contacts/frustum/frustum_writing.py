@@ -105,7 +105,7 @@ def past_disc(
     back = gap / (gap - height)
     x, y, z = p[0] + back * (x - p[0]) - kx, p[1] + back * (y - p[1]) - ky, p[2] + back * (z - p[2]) - kz
     _, away, _, _, _ = across(x, y, z, ax, ay, az)
-    return past_border(away - second[0], 0.0, size)
+    return float(past_border(away - second[0], 0.0, size))
 
 
 @compiled
