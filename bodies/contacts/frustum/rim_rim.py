@@ -35,10 +35,10 @@ The offset [m] is the distance of the rims' cores, times the sine of the angle b
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
 """
-_COPLANAR = 1e-11
+_COPLANAR = 3e-11
 """Largest distance of two discs in one plane from each other's plane, relative to the size, and squared angle of both.
 
-It is about the gap tolerance: discs that are farther apart pass each other or cross.
+It is a few gap tolerances: discs that are farther apart pass each other or cross.
 """
 _DEEPEST = 0.25
 """Largest depth of an overlap at a crossing, relative to the bodies; deeper, other features are in contact."""
