@@ -1,4 +1,4 @@
-"""Equal bodies that meet face to face: each other's corners lie in the planes of their sides."""
+"""Equal bodies that meet face to face or side by side: corners, rims and sides lie in each other's planes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import BoxBody, ConeBody, CylinderBody, DiscBody, HullBody
+from bodies import BoxBody, ConeBody, CylinderBody, DiscBody, FreeBody, HullBody
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
 
@@ -76,7 +76,7 @@ def test_bodies_on_feet_collide_end_to_end(turn: float, make: Callable[[], Body]
     assert max(np.abs(first[3:]).max(), np.abs(second[3:]).max()) < 1e-5
 
 
-ROUND: dict[str, tuple[Body, Body, float]] = {
+ROUND: dict[str, tuple[FreeBody, FreeBody, float]] = {
     "cylinders": (CylinderBody(0.05, 0.07), CylinderBody(0.05, 0.07), 0.1),
     "rounded cylinders": (CylinderBody(0.05, 0.07, rounding=0.005), CylinderBody(0.05, 0.07, rounding=0.005), 0.1),
     "cylinder and wider one": (CylinderBody(0.05, 0.07), CylinderBody(0.06, 0.07), 0.11),
