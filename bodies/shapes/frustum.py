@@ -69,16 +69,16 @@ class Frustum(ConvexShape):
     @property
     @final
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The hull of the rims, set back by the feet, and each foot.
+        """The hull of the rims, set back by the feet.
 
-        A disc has no parts for its feet: they protrude from its faces, and overlap if two discs lie on each other.
+        Feet are no parts: they protrude from the faces by :attr:`set_back` at most, and may stand next to those of
+        another body, or under its side.
         """
         numbers = self.frustum
         place, sweep = np.array(numbers[CENTER : CENTER + 3]), numbers[SWEEP]
         axes = np.array(numbers[AXIS - 2 : AXIS + 7]).reshape(3, 3)
         rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self.standing_rims])
-        feet = (ConvexPart.of_points(np.array([foot]), sweep) for foot in self.feet if len(rings) > 1)
-        return ConvexPart(rings, ball=sweep, place=place, axes=axes), *feet
+        return (ConvexPart(rings, ball=sweep, place=place, axes=axes),)
 
     @final
     def _rounded(self, direction: Vector) -> Vector:

@@ -114,6 +114,8 @@ class Rig:
         self._model = assemble(self._system, EventDriven())
         # polyhedra have so many contacts that only those of near bodies are listed
         self._model.memory[owners.Island.list_margin] = self._model.memory[owners.Options.widest_margin] = margin
+        # nor are contacts of shapes that are apart
+        self._model.memory[owners.Pair.is_guarded] = self._model.memory[owners.Pair.is_apart] = False
         self._model.list_contacts()
 
     def listed(self) -> float:

@@ -1,4 +1,4 @@
-"""Equal bodies that meet face to face: each other's corners lie in the planes of their sides."""
+"""Equal bodies that meet face to face or side by side: corners, rims and sides lie in each other's planes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import BoxBody, CylinderBody, DiscBody, HullBody
+from bodies import BoxBody, ConeBody, CylinderBody, DiscBody, FreeBody, HullBody
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
 
@@ -74,3 +74,48 @@ def test_bodies_on_feet_collide_end_to_end(turn: float, make: Callable[[], Body]
     assert first[2] == pytest.approx(0.5 * (1.0 - E), abs=1e-5)
     assert second[2] == pytest.approx(0.5 * (1.0 + E), abs=1e-5)
     assert max(np.abs(first[3:]).max(), np.abs(second[3:]).max()) < 1e-5
+
+
+ROUND: dict[str, tuple[FreeBody, FreeBody, float]] = {
+    "cylinders": (CylinderBody(0.05, 0.07), CylinderBody(0.05, 0.07), 0.1),
+    "rounded cylinders": (CylinderBody(0.05, 0.07, rounding=0.005), CylinderBody(0.05, 0.07, rounding=0.005), 0.1),
+    "cylinder and wider one": (CylinderBody(0.05, 0.07), CylinderBody(0.06, 0.07), 0.11),
+    "coins": (CylinderBody(0.012, 0.001), CylinderBody(0.012, 0.001), 0.024),
+    "cones": (ConeBody(0.05, 0.05), ConeBody(0.05, 0.05), 0.1),
+    "sharp discs": (DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0), 0.1),
+}
+"""Round bodies with parallel axes, and the distance of their axes at which they touch [m]."""
+ALONG = (0.0, 1e-12, 1e-9, 1e-6, 1e-3)
+"""Shifts along the axes [m]."""
+ROLLS = (0.0, 1e-9, 1e-6, 1e-5, 1e-3, 1e-2, 0.3)
+"""About the line of centres [rad]."""
+
+
+@pytest.mark.fast_cases(24)
+@pytest.mark.parametrize("name", ROUND)
+@pytest.mark.parametrize("shift", ALONG)
+@pytest.mark.parametrize("angle", ROLLS)
+def test_round_bodies_collide_side_by_side(name: str, shift: float, angle: float) -> None:
+    """Sides, rims or edges meet, at whatever angle they cross.
+
+    The impact is central without a shift. That of cones is at their bases, so they turn.
+    """
+    one, two, distance = ROUND[name]
+    if name == "sharp discs" and shift > 0.0:
+        pytest.skip("the discs pass over each other, or almost do")
+    system = ns.System([one, two], gravity=0.0)
+    system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(E))
+    system.place(one, velocity=(1.0, 0.0, 0.0))
+    turned = ns.turned_about((1.0, 0.0, 0.0), angle)
+    system.place(two, position=(distance + 0.03, 0.0, shift), orientation=turned)
+    solution = ns.simulate(system, 0.04)
+    first, second = (float(solution.of(body)[1][-1, 0]) for body in (one, two))
+    assert "impact" in solution.events.causes()
+    mass = one.total_mass + two.total_mass
+    assert one.total_mass * first + two.total_mass * second == pytest.approx(one.total_mass, abs=1e-9 * mass)
+    if name == "cones":
+        assert second > 0.05
+    else:
+        assert second > first + 1e-3
+        if shift == 0.0:
+            assert second - first == pytest.approx(E, abs=1e-7)

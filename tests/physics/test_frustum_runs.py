@@ -39,6 +39,8 @@ TABLE = Box(0.05, 0.05, 0.05, z=-0.05)
 NARROW = Box(0.05, 0.01, 0.05, z=-0.05)
 """A lying cylinder is longer than it is deep."""
 PILLAR = Cylinder(0.02, 0.02, z=-0.02, foot_height=2e-6)
+ON_RIM = -PILLAR.foot_height
+"""Height over the feet of the pillar at which its rims are: another round body lies on them."""
 LOG = Cylinder(0.02, 0.03, z=-0.02, axis_x=1.0, axis_z=0.0)
 STEEP = math.atan2(0.01, 0.02)
 """Half the angle of a cone."""
@@ -70,8 +72,8 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
     "a capsule lies across a cap": (PILLAR, CapsuleBody(0.005, 0.03), 0.005, LYING, 2),
     "a cylinder stands on a cap": (PILLAR, CylinderBody(0.01, 0.02), 0.02, UPRIGHT, 3),
     "a wide cylinder stands on a cap": (PILLAR, CylinderBody(0.04, 0.02), 0.02, UPRIGHT, 3),
-    "a cylinder lies on a cap": (PILLAR, CylinderBody(0.01, 0.015), 0.01, LYING, 2),
-    "a cylinder lies across a cap": (PILLAR, CylinderBody(0.01, 0.04), 0.01, LYING, 2),
+    "a cylinder lies on a cap": (PILLAR, CylinderBody(0.01, 0.015), 0.01 + ON_RIM, LYING, 2),
+    "a cylinder lies across a cap": (PILLAR, CylinderBody(0.01, 0.04), 0.01 + ON_RIM, LYING, 2),
     "a cone stands on a cap": (PILLAR, ConeBody(0.01, 0.02), 0.005, UPRIGHT, 3),
     "a disc lies on a cap": (PILLAR, DiscBody(0.01), 1e-6, UPRIGHT, 3),
     "a rounded box stands on a cap": (Cylinder(0.02, 0.02, z=-0.02), ROUNDED, 0.005, UPRIGHT, 4),
@@ -99,7 +101,13 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
         3,
     ),
     "a box stands on a rounded cap": (ROUND_PILLAR, BoxBody(0.01, 0.006, 0.005), 0.005, UPRIGHT, 4),
-    "a rounded cylinder lies on a cap": (PILLAR, CylinderBody(0.01, 0.015, rounding=0.002), 0.01, LYING, 2),
+    "a rounded cylinder lies on a cap": (
+        PILLAR,
+        CylinderBody(0.01, 0.015, rounding=0.002),
+        0.01 + ON_RIM,
+        LYING,
+        2,
+    ),
     "a beam lies across a log": (LOG, BoxBody(0.005, 0.03, 0.005), 0.005, UPRIGHT, 2),
     "a boxy body lies on a cap": (PILLAR, SuperellipsoidBody(0.01, 0.012, 0.008, 0.4, 0.6), 0.008, UPRIGHT, 1),
 }

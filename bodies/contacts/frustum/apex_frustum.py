@@ -47,7 +47,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, swap: float, first: Floats, sec
         # two apices have one contact, that of the first body's apex: this contact ends before the other apex
         up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[0])
         past = max(past, END * size - (second[SIDE] - up))
-    write_two(a, out, swap, first, second, distance, past, (nx, ny, nz), (px, py, pz), 0.0)
+    write_two(a, out, swap, first, second, distance, past, (nx, ny, nz), (px, py, pz))
     out[FEATURE] = part_number(second, part)
     point = away - distance * radial
     if part == LOW_RIM or part == HIGH_RIM:

@@ -15,14 +15,24 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import COS, LOW, SIDE, SIN, Frustum
 from ..features.frames import tangent_of
 from ..features.polytope_tables import Numbers
-from .frustum import FLANK, axis_in_world, center_in_world
-from .frustum_writing import overlap_of, past_border, write_side, write_two
+from .frustum import FLANK, axis_in_world, center_in_world, set_back
+from .frustum_writing import PARALLEL, past_border, past_overlap, write_side, write_two
 
-PARALLEL = 0.01
-"""Least sine of the angle between the straight lines of two crossing sides through their contact points.
 
-Sides at a smaller angle touch at their rims, which have contacts of their own.
-"""
+@compiled
+def _cross(
+    ax: float, ay: float, az: float, bx: float, by: float, bz: float
+) -> tuple[tuple[float, float, float], float]:
+    """Return the unit vector along the product of two unit vectors, and its length, the sine of their angle.
+
+    Of parallel vectors, return any unit vector perpendicular to them.
+    """
+    x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+    # the components of a small product along a are round-off
+    along = x * ax + y * ay + z * az
+    x, y, z = x - along * ax, y - along * ay, z - along * az
+    size = math.sqrt(x * x + y * y + z * z)
+    return ((x / size, y / size, z / size), size) if size > 0.0 else (tangent_of(ax, ay, az), 0.0)
 
 
 @compiled
@@ -48,27 +58,21 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     bx, by, bz = axis_in_world(b, second)
     cx, cy, cz = center_in_world(a, first)
     kx, ky, kz = center_in_world(b, second)
-    # n = p a + q b + r (a x b): n . a = sine of the first side, n . b = -sine of the second side, r from |n| = 1
-    cross_x, cross_y, cross_z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-    square = cross_x * cross_x + cross_y * cross_y + cross_z * cross_z
-    dot = ax * bx + ay * by + az * bz
-    none = square < 1e-12
-    one, two = first[SIN], -second[SIN]
-    if none:
-        # parallel axes: any direction perpendicular to both
-        cross_x, cross_y, cross_z = tangent_of(ax, ay, az)
-        square, dot, one, two = 1.0, 0.0, 0.0, 0.0
-    p, q = (one - dot * two) / square, (two - dot * one) / square
-    rest = 1.0 - (p * one + q * two)
-    none = none or rest < 0.0
-    part = math.sqrt(max(rest, 0.0) / square)
+    # n = one a + two e + part c, with unit vectors c along a x b and e = c x a. The sines of the sides give n . a and
+    # -n . b, and |n| = 1 gives the part
+    (fx, fy, fz), sine = _cross(ax, ay, az, bx, by, bz)
+    ex, ey, ez = fy * az - fz * ay, fz * ax - fx * az, fx * ay - fy * ax
+    one = first[SIN]
+    two = (-second[SIN] - (ax * bx + ay * by + az * bz) * one) / sine if sine > 0.0 else 0.0
+    rest = 1.0 - one * one - two * two
+    part = math.sqrt(max(rest, 0.0))
     gap, nx, ny, nz = -math.inf, 1.0, 0.0, 0.0
     reach_a = first[COS] * first[0] + first[SIN] * first[LOW]
     reach_b = second[COS] * second[0] + second[SIN] * second[LOW]
     for sign in (-1.0, 1.0):
-        tx = p * ax + q * bx + sign * part * cross_x
-        ty = p * ay + q * by + sign * part * cross_y
-        tz = p * az + q * bz + sign * part * cross_z
+        tx = one * ax + two * ex + sign * part * fx
+        ty = one * ay + two * ey + sign * part * fy
+        tz = one * az + two * ez + sign * part * fz
         length = math.sqrt(tx * tx + ty * ty + tz * tz)
         tx, ty, tz = tx / length, ty / length, tz / length
         found = tx * (kx - cx) + ty * (ky - cy) + tz * (kz - cz) - reach_a - reach_b
@@ -78,22 +82,20 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     qx, qy, qz, vx, vy, vz = _line(second, kx, ky, kz, bx, by, bz, -nx, -ny, -nz)
     wx, wy, wz = qx - px, qy - py, qz - pz
     cross = nx * (uy * vz - uz * vy) + ny * (uz * vx - ux * vz) + nz * (ux * vy - uy * vx)
-    s, t = 0.5 * first[SIDE], 0.5 * second[SIDE]
-    if abs(cross) > 1e-6:
+    s, t, over = 0.5 * first[SIDE], 0.5 * second[SIDE], size
+    if rest >= 0.0 and abs(cross) > PARALLEL:
         s = (nx * (wy * vz - wz * vy) + ny * (wz * vx - wx * vz) + nz * (wx * vy - wy * vx)) / cross
         t = (nx * (wy * uz - wz * uy) + ny * (wz * ux - wx * uz) + nz * (wx * uy - wy * ux)) / cross
-    over = max(max(-s, s - first[SIDE]), max(-t, t - second[SIDE]))
-    if none or abs(cross) <= 1e-6:
-        over = size
+        over = max(max(-s, s - first[SIDE]), max(-t, t - second[SIDE]))
+        # the distance along n of the points that cross: an error of n hardly changes it
+        wx, wy, wz = wx + t * vx - s * ux, wy + t * vy - s * uy, wz + t * vz - s * uz
+        gap = nx * wx + ny * wy + nz * wz
     px, py, pz = px + s * ux, py + s * uy, pz + s * uz
     qx, qy, qz = px + gap * nx, py + gap * ny, pz + gap * nz
     away_a = first[0] - first[SIN] * s
     away_b = second[0] - second[SIN] * t
-    overlap = 0.0
-    if over <= 0.0:
-        overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (nx, ny, nz))
-    past = max(past_border(gap, over, 0.0, overlap, size), size * (PARALLEL - abs(cross)))
-    write_two(a, out, 0.0, first, second, gap, past, (nx, ny, nz), (px, py, pz), overlap)
+    past = max(past_border(over, 0.0, size), past_overlap(a, first, b, second, gap, (px, py, pz), size))
+    write_two(a, out, 0.0, first, second, gap, past, (nx, ny, nz), (px, py, pz))
     write_side(out, 0.0, first, FLANK, (ax, ay, az), (px - cx, py - cy, pz - cz), (nx, ny, nz), max(away_a, 0.0))
     write_side(out, 1.0, second, FLANK, (bx, by, bz), (qx - kx, qy - ky, qz - kz), (-nx, -ny, -nz), max(away_b, 0.0))
 
@@ -122,7 +124,7 @@ class FlankFlank(ContactKinematics):
         """Return the contact of the sides; empty for a disc, which has no side."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
-        one, two = first.frustum, second.frustum
+        one, two = set_back(first), set_back(second)
         if one[SIDE] == 0.0 or two[SIDE] == 0.0:
             return ()
         return (cls(one, two, 2.0 * max(first.extent, second.extent)),)

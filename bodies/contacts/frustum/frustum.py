@@ -51,6 +51,15 @@ def center_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float
 
 
 @compiled
+def middle_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
+    """Return the point of the axis halfway between the rims in the world [m]."""
+    x, y, z = center_in_world(frame, frustum)
+    ax, ay, az = axis_in_world(frame, frustum)
+    height = 0.5 * (frustum[LOW] + frustum[HIGH])
+    return x + height * ax, y + height * ay, z + height * az
+
+
+@compiled
 def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
     """Return the unit axis of a frustum in world axes."""
     x, y, z = vector_in_world(frame, frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6])
@@ -171,11 +180,13 @@ edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all 
 
 
 def set_back(first: Frustum) -> Numbers:
-    """Return the numbers of a frustum whose rims are set back by the height of the feet, so that only feet protrude.
+    """Return the numbers of a frustum whose rims are set back by the height of its feet, so that only feet protrude.
 
     A rim that rolls over the edge of a face then keeps its height.
     """
     own = first.frustum
+    if not first.feet:
+        return own
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
     rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
     heights = [float((np.array(place) - center) @ axis) for _, place in rims]

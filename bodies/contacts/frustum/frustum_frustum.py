@@ -13,11 +13,9 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
+from ...shapes.frustum import HIGH, LOW, SIDE, Frustum
 from ..features.frames import across, point_in_world
 from ..features.polytope_tables import Numbers
-from ..features.vertex_face import REACH
-from ..plane.plane_rim import FLATTEST
 from .apex_frustum import ApexFrustum
 from .flank_flank import FlankFlank
 from .frustum import (
@@ -26,16 +24,13 @@ from .frustum import (
     LOW_RIM,
     axis_in_world,
     center_in_world,
-    least_height,
-    nearest_part,
+    set_back,
 )
-from .frustum_writing import overlap_of, past_border, write_side, write_two
+from .frustum_writing import past_border, past_disc, past_overlap, write_side, write_two
 from .rim_flank import RimFlank
 from .rim_rim import RimRim
 
 _OTHERS: tuple[type[ContactKinematics], ...] = (FlankFlank, RimFlank, RimRim, ApexFrustum)
-_ON_SIDE = 0.01
-"""Length, relative to the size of the bodies, by which a body on one side of a disc may extend beyond its plane."""
 
 
 def _evaluate(
@@ -62,40 +57,16 @@ def _evaluate(
         up, height, wide = 1.0, second[HIGH], second[1]
     nx, ny, nz = -up * bx, -up * by, -up * bz
     cx, cy, cz = point_in_world(own, x, y, z)
-    _, lean, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
+    _, _, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
     px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
     along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
     gap = up * (along - height)
-    overlap = 0.0
-    if away <= wide:
-        overlap = overlap_of(own, first, other, second, gap, size, (px, py, pz), (nx, ny, nz))
-    past = past_border(gap, away - wide, 0.0, overlap, size)
-    if gap < 0.0 and second[SIDE] == 0.0 and first[SWEEP] + second[SWEEP] > 0.0:
-        # a rounded body behind the plane of a disc is apart from it, on its other side: open this contact
-        past = max(past, size)
-    elif gap < 0.0:
-        if second[SIDE] > 0.0:
-            # a rim's point below the plane of a cap overlaps the other body only if it is inside of this body
-            inside, _, _, _ = nearest_part(second, along, away)
-        else:
-            # a disc: its point opposite the rim's point must be inside of the other body or at most ``-gap`` outside of
-            # it, and this body must lie on the cap's side of the disc
-            qx, qy, qz = center_in_world(own, first)
-            high, far, _, _, _ = across(px + gap * nx - qx, py + gap * ny - qy, pz + gap * nz - qz, ax, ay, az)
-            inside, _, _, _ = nearest_part(first, high, far)
-            cosine = -nx * ax - ny * ay - nz * az
-            base = up * (bx * (qx - kx) + by * (qy - ky) + bz * (qz - kz) - height)
-            inside += gap
-            if first[SIDE] == 0.0:
-                # two discs overlap only if the first disc's radius through its rim's point crosses the second disc
-                back = gap / max(lean, FLATTEST)
-                _, far, _, _, _ = across(px + back * ex - kx, py + back * ey - ky, pz + back * ez - kz, bx, by, bz)
-                inside = far - wide
-            inside = max(inside, -least_height(first, base, cosine) - _ON_SIDE * size)
-        past = max(past, inside - REACH * size)
-    # at an overlap of more than half of the height, the other cap or the side is nearer: this contact is past its end
-    past = max(past, -gap - 0.5 * max(second[HIGH] - second[LOW], 0.1 * size))
-    write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz), overlap)
+    past = past_border(away - wide, 0.0, size)
+    if second[SIDE] == 0.0:
+        past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
+    else:
+        past = max(past, past_overlap(own, first, other, second, gap, (px, py, pz), size))
+    write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz))
     write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
     write_side(out, 1.0 - swap, second, part, (bx, by, bz), (fx, fy, fz), (-nx, -ny, -nz), away)
 
@@ -163,15 +134,16 @@ class FrustumFrustum(ContactKinematics):
 
     @classmethod
     def _of(cls, own: Frustum, other: Frustum, swap: bool) -> tuple[FrustumFrustum, ...]:
-        numbers, size = other.frustum, 2.0 * max(own.extent, other.extent)
-        named = [(*rim, f"rim {i}") for i, rim in enumerate(own.standing_rims) if rim[0] > 0.0]
+        size, inner, outer = 2.0 * max(own.extent, other.extent), set_back(other), other.frustum
+        named = [(inner, *rim, f"rim {i}") for i, rim in enumerate(own.standing_rims) if rim[0] > 0.0]
         if own.rounding + other.rounding == 0.0:
-            named += [(*rim, "apex") for rim in own.standing_rims if rim[0] == 0.0]
-        named += [(0.0, foot, f"foot {i}") for i, foot in enumerate(own.feet)]
-        caps = [LOW_CAP, HIGH_CAP] if numbers[1] > 0.0 else [LOW_CAP]
+            named += [(inner, *rim, "apex") for rim in own.standing_rims if rim[0] == 0.0]
+        # feet of either body carry it on a cap of the other: between rims and caps is the height of both
+        named += [(outer, 0.0, foot, f"foot {i}") for i, foot in enumerate(own.feet)]
+        caps = [LOW_CAP, HIGH_CAP] if outer[1] > 0.0 else [LOW_CAP]
         return tuple(
             cls(swap, own.frustum, radius, center, numbers, cap, size, name)
-            for radius, center, name in named
+            for numbers, radius, center, name in named
             for cap in caps
         )
 

@@ -22,7 +22,7 @@ from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
 from ..features.vertex_face import DEEP, REACH, height_over
 from ..features.writing import write_principal, write_sweep
 from ..smooth.smooth_core import Axes, back, forth
-from .frustum import axis_in_world, center_in_world, nearest_part, write_part
+from .frustum import axis_in_world, center_in_world, middle_in_world, nearest_part, write_part
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
@@ -38,21 +38,74 @@ Sharp features overlap over a length of about the depth.  Closer to an end, one 
 without touching.  The rule applies only if both contact points lie outside of the other body; otherwise the overlap is
 certain.
 """
+PARALLEL = 1e-6
+"""Least sine of the angle between two features that cross.
+
+At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
+of the angle times the size: far less than the gap tolerance.
+"""
 
 
 @compiled
-def past_border(gap: float, over: float, astray: float, overlap: float, size: float) -> float:
+def past_border(over: float, astray: float, size: float) -> float:
     """Return the distance of a contact of two frustums past the boundary of its features [m]; negative if it is valid.
 
-    ``gap`` is the gap of the cores, ``over`` the distance past the ends of both features [m].  ``astray`` is the sine
-    of the angle between the contact normal and the fans of normals of the features.  ``overlap`` is negative if a
-    contact point lies inside of the other body, else 0 [m].  If it is 0 and the gap is negative, the contact ends
-    earlier, by ``_INSIDE`` times the depth.
+    ``over`` is the distance past the ends of both features [m].  ``astray`` is the sine of the angle between the
+    contact normal and the fans of normals of the features.
     """
-    past = max(over - REACH * size, size * (astray - ASTRAY))
-    if gap < 0.0 and overlap == 0.0:
-        past = max(past, over - _INSIDE * gap - REACH * size)
-    return past
+    return max(over - REACH * size, size * (astray - ASTRAY))
+
+
+@compiled
+def past_overlap(one: Floats, first: Floats, other: Floats, second: Floats, gap: float, p: Point, size: float) -> float:
+    """Return the distance of a contact point past the boundary of an overlap of the cores [m]; negative if it is valid.
+
+    ``gap`` is the gap of the cores [m].  If it is negative, the point that lies half as deep in the frustum ``one``,
+    from the contact point ``p`` on its core towards its middle, must be inside of the core of ``other``.  The contact
+    point itself may lie on a border of that core, in an overlap as well as beside the other body.  An overlap beyond
+    the middle belongs to other features.
+    """
+    if gap >= 0.0:
+        return -size
+    x, y, z = middle_in_world(one, first)
+    x, y, z = x - p[0], y - p[1], z - p[2]
+    part = -0.5 * gap / math.sqrt(x * x + y * y + z * z)
+    if part > 1.0:
+        return size
+    ax, ay, az = axis_in_world(other, second)
+    kx, ky, kz = center_in_world(other, second)
+    x, y, z = p[0] + part * x - kx, p[1] + part * y - ky, p[2] + part * z - kz
+    along, away, _, _, _ = across(x, y, z, ax, ay, az)
+    outside, _, _, _ = nearest_part(second, along, away)
+    return float(outside - REACH * size)
+
+
+@compiled
+def past_disc(
+    one: Floats, first: Floats, other: Floats, second: Floats, up: float, gap: float, p: Point, size: float
+) -> float:
+    """Return the distance of a contact of a disc's face past its boundary [m]; negative if it is valid.
+
+    The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
+    the frustum ``one`` that is lowest over the face, ``gap`` its height [m].  A foot on the far side of a disc is not
+    its lowest point.  If the gap is negative, the line from p to the middle of the frustum must lead back through the
+    disc.
+    """
+    ax, ay, az = axis_in_world(other, second)
+    kx, ky, kz = center_in_world(other, second)
+    x, y, z = middle_in_world(one, first)
+    height = up * (ax * (x - kx) + ay * (y - ky) + az * (z - kz))
+    if height < gap - REACH * size:
+        return size
+    if gap >= 0.0:
+        return -size
+    # rounded bodies on the other side of the plane are apart
+    if height <= 0.0 or first[SWEEP] + second[SWEEP] > 0.0:
+        return size
+    back = gap / (gap - height)
+    x, y, z = p[0] + back * (x - p[0]) - kx, p[1] + back * (y - p[1]) - ky, p[2] + back * (z - p[2]) - kz
+    _, away, _, _, _ = across(x, y, z, ax, ay, az)
+    return float(past_border(away - second[0], 0.0, size))
 
 
 @compiled
@@ -69,29 +122,6 @@ def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat:
 
 
 @compiled
-def overlap_of(
-    one: Floats, first: Floats, other: Floats, second: Floats, gap: float, size: float, p: Point, n: Point
-) -> float:
-    """Return the depth of the deeper of two contact points inside of the other body, as a negative number [m].
-
-    It is 0 if neither point is inside, or not deeper than the tolerance. p is the contact point on the core of the
-    frustum ``one`` (its numbers: ``first``). p + gap n is the contact point on the core of ``other`` (its numbers:
-    ``second``), with the unit normal n from ``one`` to ``other``.
-    """
-    ax, ay, az = axis_in_world(one, first)
-    x, y, z = center_in_world(one, first)
-    along, away, _, _, _ = across(p[0] + gap * n[0] - x, p[1] + gap * n[1] - y, p[2] + gap * n[2] - z, ax, ay, az)
-    outside, _, _, _ = nearest_part(first, along, away)
-    ax, ay, az = axis_in_world(other, second)
-    x, y, z = center_in_world(other, second)
-    along, away, _, _, _ = across(p[0] - x, p[1] - y, p[2] - z, ax, ay, az)
-    found, _, _, _ = nearest_part(second, along, away)
-    outside = min(outside, found) - first[SWEEP] - second[SWEEP]
-    # rims are set back by the height of the feet in contacts with faces, but not here: allow a depth of both, twice
-    return outside if outside < -DEEP * size - 2.0 * (first[FEET] + second[FEET]) else 0.0
-
-
-@compiled
 def write_two(
     a: Floats,
     out: Floats,
@@ -102,23 +132,18 @@ def write_two(
     past: float,
     normal: Vector3,
     p: Vector3,
-    overlap: float,
 ) -> None:
     """Write the geometry block of two frustums, except the curvature matrices.
 
     ``distance`` is the distance of the cores [m] along ``normal``, from the point p on the core of ``one`` to the core
     of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  ``past`` is the distance past the boundary
-    of the features [m], ``overlap`` the result of :func:`overlap_of` [m].
-
-    A contact with a positive ``past`` is not valid, so it gets a positive gap.  But if ``overlap`` is negative, no
-    valid contact of the pair may report this overlap.  Then the gap is negative; its magnitude is the depth of this
-    overlap, or the distance of the contact points if that is smaller.
+    of the features [m].  A contact with a positive ``past`` is not valid, so it gets a positive gap.
     """
     (nx, ny, nz), (px, py, pz) = normal, p
     sweep = one[SWEEP]
     gap = distance - sweep - two[SWEEP]
     if past > 0.0:
-        gap = max(-abs(gap), overlap) if overlap < 0.0 else math.sqrt(gap * gap + past * past)
+        gap = math.sqrt(gap * gap + past * past)
     px, py, pz = px + sweep * nx, py + sweep * ny, pz + sweep * nz
     sign = 1.0 - 2.0 * swap
     own, other = 7 + int(3.0 * swap), 10 - int(3.0 * swap)
@@ -150,10 +175,6 @@ def write_side(
     side = SIDE_B if second == 1.0 else SIDE_A
     write_part(out, side, part, axis, (x, y, z), radial, away)
     write_sweep(out, side, frustum[SWEEP])
-
-
-PARALLEL = 0.01
-"""Least sine of the angle between an edge and a rim or side that cross; parallel features touch at their ends."""
 
 
 def size_of_both(first: Frustum, second: SweptPolytope) -> float:

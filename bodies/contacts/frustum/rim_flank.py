@@ -18,10 +18,11 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ..features.frames import across
 from ..features.polytope_tables import Numbers
 from ..smooth.smooth_core import axes_in_world, back, forth
-from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world
-from .frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
+from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
+from .frustum_writing import astray_of_rim, past_border, past_overlap, write_side, write_two
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
@@ -105,17 +106,12 @@ def _evaluate(
     ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
     mx, my, mz = mx + height * ax, my + height * ay, mz + height * az
     # h: projection of the side's axis on the plane of the rim; g: perpendicular to h in this plane
-    hx, hy, hz = -az * ax, -az * ay, 1.0 - az * az
-    length = math.sqrt(hx * hx + hy * hy + hz * hz)
+    _, _, hx, hy, hz = across(0.0, 0.0, 1.0, ax, ay, az)
     # the height can have two minima round the rim only if a straight line of the side is nearly parallel to the plane
     # of the rim; then each half is searched. Each half is also searched if the axes are nearly perpendicular, even if
     # it has no minimum. In other poses, called steep, the whole rim is searched for its single minimum
     lean = math.asin(min(abs(az), 1.0))
     steep = lean > _STEEP and abs(lean - math.asin(second[SIN])) > _STEEP
-    if length > 1e-9:
-        hx, hy, hz = hx / length, hy / length, hz / length
-    else:
-        hx, hy, hz = 1.0, 0.0, 0.0
     gx, gy, gz = hy * az - hz * ay, hz * ax - hx * az, hx * ay - hy * ax
     gx, gy, gz, hx, hy, hz = (
         radius * gx,
@@ -155,13 +151,10 @@ def _evaluate(
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z)
     ux, uy, uz = forth(axes, ox, oy, oz)
-    overlap = 0.0
-    if over <= 0.0:
-        point = (kx + px, ky + py, kz + pz)
-        overlap = overlap_of(own, first, other, second, gap, size, point, (wx, wy, wz))
-    # if the overlap is deeper than half of the side's lower radius, a cap is nearer: this contact is past its end
-    past = max(past_border(gap, over, astray, overlap, size), -gap - 0.5 * second[0])
-    write_two(a, out, swap, first, second, gap, past, (wx, wy, wz), (kx + px, ky + py, kz + pz), overlap)
+    past = max(
+        past_border(over, astray, size), past_overlap(own, first, other, second, gap, (kx + px, ky + py, kz + pz), size)
+    )
+    write_two(a, out, swap, first, second, gap, past, (wx, wy, wz), (kx + px, ky + py, kz + pz))
     write_side(out, swap, first, part, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
     away = max(away - gap * cosine, 0.0)
     write_side(out, 1.0 - swap, second, FLANK, (axes[2], axes[5], axes[8]), (px, py, pz), (-wx, -wy, -wz), away)
@@ -205,7 +198,7 @@ class RimFlank(ContactKinematics):
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         size = 2.0 * max(first.extent, second.extent)
-        one, two = first.frustum, second.frustum
+        one, two = set_back(first), set_back(second)
         pointed = one[SWEEP] + two[SWEEP] == 0.0
         return *cls._of(one, two, size, False, pointed), *cls._of(two, one, size, True, pointed)
 

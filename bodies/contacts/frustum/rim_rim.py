@@ -19,14 +19,13 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ..features.frames import across
 from ..features.polytope_tables import Numbers
 from ..features.vertex_face import REACH
 from ..smooth.smooth_core import axes_in_world, back, forth
-from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, set_back
-from .frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
+from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
+from .frustum_writing import PARALLEL, astray_of_rim, past_border, write_side, write_two
 
-_PARALLEL = 0.01
-"""Least sine of the angle between the tangents of crossing rims; at a smaller angle, a rim touches a side or cap."""
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
 _ASIDE = 0.01
@@ -36,18 +35,13 @@ The offset [m] is the distance of the rims' cores, times the sine of the angle b
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
 """
-_LEAN = 0.02
-"""Sine of the largest angle between the contact normal and the fans of normals of both rims, if the rims overlap.
+_COPLANAR = 3e-11
+"""Largest distance of two discs in one plane from each other's plane, relative to the size, and squared angle of both.
 
-The fan of normals of a rim lies between the normals of its side and its cap.  If the normal is farther outside, the
-bodies do not overlap at this crossing.
+It is a few gap tolerances: discs that are farther apart pass each other or cross.
 """
-_BESIDE, _NARROWINGS = 20.0, 40
-"""Search of the piece of a rim next to a crossing for points inside of the other body (:func:`_inside`).
-
-``_BESIDE`` is the half-length of the piece, relative to the depth over the sine of the angle between the rims; the
-overlap of sharp bodies along a rim is of the order of this quotient.  ``_NARROWINGS`` is the number of search steps.
-"""
+_DEEPEST = 0.25
+"""Largest depth of an overlap at a crossing, relative to the bodies; deeper, other features are in contact."""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 """Intervals into which half of a rim is sampled, most rounds of sampling, most Newton steps."""
 
@@ -78,53 +72,25 @@ def _slope(
 
 
 @compiled
-def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> bool:
-    """True if two circles are linked like the links of a chain.
+def _link_depth(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> float:
+    """Return how deep one circle lies inside of another one with which it is linked like the links of a chain [m].
 
     The first circle then crosses the plane of the second at two points, and exactly one of them is inside the second.
-    The second circle has the radius ``wide`` [m], about the origin in the plane z = 0.  The first has the given centre
-    [m] and ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
+    The result is the distance of this point from the second circle, or 0 if the circles are not linked.  The second
+    circle has the radius ``wide`` [m], about the origin in the plane z = 0.  The first has the given centre [m] and
+    ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
     """
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = center, g, h
     size = radius * math.sqrt(gz * gz + hz * hz)
     if abs(cz) >= size:
-        return False
+        return 0.0
     middle, turn = math.atan2(hz, gz), math.acos(-cz / size)
-    within = 0
+    least, most = math.inf, -math.inf
     for sign in (-1.0, 1.0):
         c, s = radius * math.cos(middle + sign * turn), radius * math.sin(middle + sign * turn)
-        x, y = cx + c * gx + s * hx, cy + c * gy + s * hy
-        if x * x + y * y < wide * wide:
-            within += 1
-    return within == 1
-
-
-@compiled
-def _inside(frustum: Floats, radius: float, c: Point, g: Point, h: Point, axis: Point, reach: float) -> float:
-    """Return the least signed distance of a piece of a rim from a frustum, the other body [m]; negative inside of it.
-
-    The points of the piece are c + radius (g cos + h sin), at angles from -``reach`` to ``reach`` [rad] from the
-    crossing. c is the centre of the rim, relative to the centre of the frustum [m]. g and h are unit vectors in the
-    plane of the rim, ``axis`` is the unit axis of the frustum.  The distance has one minimum near a crossing, so that a
-    search by intervals finds it.
-    """
-    least, most, found = -reach, reach, math.inf
-    for _ in range(_NARROWINGS):
-        middle = 0.5 * (least + most)
-        for angle in (middle - 0.1 * (most - least), middle + 0.1 * (most - least)):
-            cos, sin = radius * math.cos(angle), radius * math.sin(angle)
-            x, y, z = c[0] + cos * g[0] + sin * h[0], c[1] + cos * g[1] + sin * h[1], c[2] + cos * g[2] + sin * h[2]
-            along = x * axis[0] + y * axis[1] + z * axis[2]
-            away = math.sqrt(max(x * x + y * y + z * z - along * along, 0.0))
-            outside, _, _, _ = nearest_part(frustum, along, away)
-            if angle < middle:
-                before = outside
-            found = min(found, outside)
-        if before < outside:
-            most = middle + 0.1 * (most - least)
-        else:
-            least = middle - 0.1 * (most - least)
-    return found
+        depth = wide - math.hypot(cx + c * gx + s * hx, cy + c * gy + s * hy)
+        least, most = min(least, depth), max(most, depth)
+    return most if least < 0.0 < most else 0.0
 
 
 def _evaluate(
@@ -149,13 +115,7 @@ def _evaluate(
     ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
     cx, cy, cz = cx + height * ax, cy + height * ay, cz + height * az - level
     # g: unit vector in the plane of the first rim, towards the second rim's centre; h: perpendicular to it
-    along = cx * ax + cy * ay + cz * az
-    gx, gy, gz = along * ax - cx, along * ay - cy, along * az - cz
-    length = math.sqrt(gx * gx + gy * gy + gz * gz)
-    if length <= 1e-12 * size:
-        gx, gy, gz = back(axes, own_axes[0], own_axes[3], own_axes[6])
-        length = 1.0
-    gx, gy, gz = gx / length, gy / length, gz / length
+    _, _, gx, gy, gz = across(-cx, -cy, -cz, ax, ay, az)
     hx, hy, hz = half * (ay * gz - az * gy), half * (az * gx - ax * gz), half * (ax * gy - ay * gx)
     low, high = -_BOTH, math.pi + _BOTH
     begin, step, angle = low, (high - low) / _SAMPLES, low
@@ -184,6 +144,12 @@ def _evaluate(
         if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):
             break
         angle = after
+    total = first[SWEEP] + second[SWEEP]
+    are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
+    # discs in one plane touch on the line of centres, where their rims are parallel
+    is_edge_to_edge = are_discs and ax * ax + ay * ay <= _COPLANAR and abs(cz + radius * gz) <= _COPLANAR * size
+    if is_edge_to_edge:
+        angle = 0.0
     c, s = math.cos(angle), math.sin(angle)
     ux, uy, uz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
     tx, ty, tz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
@@ -194,15 +160,14 @@ def _evaluate(
     # normal: cross product of both tangents; the tangent of the second circle is (-ey, ex, 0)
     nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
-    total = first[SWEEP] + second[SWEEP]
     apart = math.sqrt(wx * wx + wy * wy + wz * wz)
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
         nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
-    elif crossing > 1e-6:
-        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
+    elif is_edge_to_edge or crossing <= PARALLEL:
+        nx, ny, nz, crossing = ux, uy, uz, 1.0 if is_edge_to_edge else 0.0
     else:
-        nx, ny, nz = ux, uy, uz
+        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
     astray, flip = 3.0, 1.0
     for sign in (-1.0, 1.0):
         if total > 0.0 and sign * (nx * wx + ny * wy + nz * wz) < 0.0:
@@ -215,7 +180,7 @@ def _evaluate(
             astray, flip = off, sign
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = nx * wx + ny * wy + nz * wz
-    past = max(past_border(gap, -size, astray, 0.0, size), size * (_PARALLEL - crossing))
+    past = past_border(-size, astray, size)
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         lean = size
@@ -226,52 +191,26 @@ def _evaluate(
             lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
         past = max(past, _ASIDE * REACH * size - apart * lean)
     # there is no minimum within this half of the rim, or Newton's method did not find it
-    none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= 1e-6
-    if none:
+    none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= PARALLEL
+    if none or (is_edge_to_edge and half < 0.0):
         past = max(past, size)
     if gap < 0.0:
-        outside = size
-        # signed distances: the first rim's point from the second body, and the second rim's point from the first body
-        if second[SIDE] > 0.0:
-            outside, _, _, _ = nearest_part(second, z + level, away)
-        dx, dy, dz = height * ax - cx, height * ay - cy, height * az - cz
-        if first[SIDE] > 0.0:
-            qx, qy, qz = x + wx + dx, y + wy + dy, z + wz + dz
-            along = qx * ax + qy * ay + qz * az
-            far = math.sqrt(max(qx * qx + qy * qy + qz * qz - along * along, 0.0))
-            other, _, _, _ = nearest_part(first, along, far)
-            outside = min(outside, other)
-        if REACH * size < outside < size and outside + 0.9 * gap <= REACH * size:
-            # both points are outside: sharp bodies can only overlap at points of the rims next to the crossing
-            reach = min(0.5, _BESIDE * -gap / (crossing * min(radius, wide)))
-            outside = size
-            if second[SIDE] > 0.0:
-                outside = _inside(
-                    second, radius, (cx, cy, cz + level), (ux, uy, uz), (tx, ty, tz), (0.0, 0.0, 1.0), reach
-                )
-            if first[SIDE] > 0.0:
-                other = _inside(first, wide, (dx, dy, dz), (ex, ey, 0.0), (-ey, ex, 0.0), (ax, ay, az), reach)
-                outside = min(outside, other)
-        if (
-            first[SIDE] == 0.0
-            and second[SIDE] == 0.0
-            and _linked(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
-        ):
-            outside = gap
-        # the contact is not valid (past > 0) if no point of the rims next to the crossing is inside of the other body,
-        # or if the contact normal is outside of the fan of normals of a rim
-        past = max(past, outside - REACH * size, size * (astray - _LEAN))
-    # if the overlap is deep compared with the rims, other features are in contact
-    past = max(past, -gap - 0.25 * min(radius, wide))
+        past = max(past, size * (astray - PARALLEL))
+    # rims that cross at a small angle overlap by less than its square times their radii, along another direction
+    least = min(radius, wide)
+    for body in (first, second):
+        least = min(least, body[HIGH] - body[LOW]) if body[SIDE] > 0.0 else least
+    past = max(past, -gap - _DEEPEST * crossing * crossing * least)
+    if are_discs and gap < 0.0 and not is_edge_to_edge:
+        # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
+        linked = _link_depth(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
+        past = max(past, crossing * (-0.5 * gap - _COPLANAR * size) - linked)
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z + level)
     ux, uy, uz = forth(axes, ux, uy, uz)
     vx, vy, vz = forth(axes, ex, ey, 0.0)
     px, py, pz = kx + px, ky + py, kz + pz
-    overlap = 0.0
-    if past > 0.0 and not none:
-        overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (wx, wy, wz))
-    write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz), overlap)
+    write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz))
     write_side(out, 0.0, first, LOW_RIM, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
     write_side(out, 1.0, second, LOW_RIM, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
 
@@ -308,7 +247,7 @@ class RimRim(ContactKinematics):
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
         # flat faces stand on their feet, not on rims in the same plane
-        one, two = (set_back(shape) if shape.feet else shape.frustum for shape in (first, second))
+        one, two = set_back(first), set_back(second)
         rims = [
             [LOW_RIM, HIGH_RIM] if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else [LOW_RIM] for numbers in (one, two)
         ]
