@@ -16,7 +16,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.interfaces import ConvexPart
+from nonsmooth.interfaces import ConvexPart, Shape
 from nonsmooth.model.row_table import RowTable
 from nonsmooth.solids.measure import numbers_of
 from nonsmooth.system.contacts import Contacts
@@ -24,6 +24,8 @@ from nonsmooth.system.contacts import Contacts
 _ALLOWED = 1e-7
 """Allowed overlap beyond that of closed contacts, relative to the smaller shape: ten times the error of a gap of a body
 that moves by a hundred times its size."""
+_MOST_PIECES = 2048
+"""Most pairs of pieces of two shapes of which one is not convex. A step evaluates the bound of each of them."""
 _UNBOUNDED = float(np.finfo(np.float64).max)
 """Distance to the farthest point of a half-space [m]. It is finite, so that its product with no rotation is zero."""
 
@@ -79,24 +81,64 @@ class PartPair(NamedTuple):
     clearance: float
 
 
+class ConvexSets(NamedTuple):
+    """Convex sets of a shape.
+
+    Attributes
+    ----------
+    parts : tuple of ConvexPart
+        The parts whose union is the shape; none of a shape that is not convex.
+    pieces : tuple of ConvexPart
+        The pieces of its surface if it has no parts, such as triangles; none if there are too many.
+    """
+
+    parts: tuple[ConvexPart, ...]
+    pieces: tuple[ConvexPart, ...]
+
+    @classmethod
+    def of(cls, shape: Shape) -> ConvexSets:
+        """The sets of a shape. Too many pieces, or none, are left out."""
+        surface = shape.solid.surface if not shape.parts and shape.solid else None
+        n = 0 if surface is None else len(surface.boxes[0])
+        pieces = () if surface is None or n > _MOST_PIECES else tuple(map(surface.piece, range(n)))
+        return cls(shape.parts, pieces)
+
+
+def chosen_sets(one: ConvexSets, two: ConvexSets) -> tuple[tuple[ConvexPart, ...], tuple[ConvexPart, ...]]:
+    """The parts of both shapes, or the pieces of a shape without parts unless their pairs are too many.
+
+    Nothing passes through a surface, so its pieces decide as parts do. Over a half-space corners have contacts of their
+    own.
+    """
+    if one.parts and two.parts:
+        return one.parts, two.parts
+    first, second = one.parts or one.pieces, two.parts or two.pieces
+    if len(first) * len(second) > _MOST_PIECES or any(part.is_half_space for part in (*first, *second)):
+        return (), ()
+    return first, second
+
+
 def find_part_pairs(contacts: Contacts, table: RowTable) -> list[PartPair]:
     """The pairs of convex parts of shapes with contacts that need a check for overlap.
 
     Each part of a shape is paired with each part of the other shape. A half-space, or the larger of two discs, becomes
     the first side, as the engine expects. ``group`` is the number of the first pair of the same two shapes.
     """
-    parts_of: dict[int, tuple[ConvexPart, ...]] = {}
+    sets_of: dict[int, ConvexSets] = {}
     found: list[PartPair] = []
     for rows in by_shapes(contacts, range(len(contacts.rows))):
         row, group, numbers = contacts.rows[rows[0]], len(found), numbers_of_rows(contacts, rows)
-        choices: list[list[PairSide]] = []
-        for shape, body, frame in zip(row.shapes, table.bodies[rows[0]], table.frames[rows[0]], strict=True):
-            # the parts of a shape are computed once
-            if id(shape) not in parts_of:
-                parts_of[id(shape)] = shape.parts
-            carrier, parts = (int(body), int(frame)), parts_of[id(shape)]
-            choices.append([PairSide(carrier, part, (id(shape), number)) for number, part in enumerate(parts)])
-        one_parts, two_parts = ([side.part for side in sides] for sides in choices)
+        for shape in row.shapes:
+            # the sets of a shape are computed once
+            if id(shape) not in sets_of:
+                sets_of[id(shape)] = ConvexSets.of(shape)
+        one_parts, two_parts = chosen_sets(*(sets_of[id(shape)] for shape in row.shapes))
+        choices = [
+            [PairSide((int(body), int(frame)), part, (id(shape), number)) for number, part in enumerate(parts)]
+            for shape, body, frame, parts in zip(
+                row.shapes, table.bodies[rows[0]], table.frames[rows[0]], (one_parts, two_parts), strict=True
+            )
+        ]
         clearance = sum(shape.solid.set_back for shape in row.shapes if shape.solid) if one_parts and two_parts else 0.0
         guarded = is_guarded(one_parts, two_parts, len(numbers))
         for first, second in itertools.product(*choices):

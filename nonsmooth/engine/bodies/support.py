@@ -190,26 +190,25 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
 
 
 @kernel("b1(ws, i8, v3, f8)")
-def separates(ws: Workspace, group: int, n: Vector, near: float) -> bool:
-    """True if parts of a pair of shapes are as far apart along ``n`` as along their direction, up to ``near`` [m].
+def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
+    """True if two convex shapes are as far apart along ``n`` as along the direction of their pair, up to ``near`` [m].
 
-    The normal of a contact that touches has this property: along any other direction the parts overlap. ``n`` points
-    from the first body of the contact to the second, and ``group`` is the first pair of its shapes. A pair of shapes
-    that is not guarded, or that overlaps, as bodies on springs do, leaves the decision to its contacts.
+    The normal of a contact that touches has this property: along any other direction the shapes overlap. ``n`` points
+    from the first body of the contact to the second. The contacts themselves decide of shapes with several parts, of a
+    pair that is not guarded, and of shapes that overlap, as on springs.
     """
-    number = group
-    while number < ws.model.n_pairs and ws.pairs[number].group == group:
-        pair = ws.pairs[number]
-        known, along = known_direction(ws, pair), opposite(n) if pair.is_swapped else n
-        if not ws.pairs[group].is_guarded or dot(known, known) == 0.0:
-            return True
-        largest = separation_along(ws, number, known)
-        # feet may extend beyond the parts by the clearance
-        allowed = near + pair.clearance
-        if largest < -allowed or (largest <= allowed and separation_along(ws, number, along) >= -2.0 * allowed):
-            return True
-        number += 1
-    return False
+    pair = ws.pairs[number]
+    known = known_direction(ws, pair)
+    has_others = number + 1 < ws.model.n_pairs and ws.pairs[number + 1].group == number
+    if has_others or not pair.is_guarded or dot(known, known) == 0.0:
+        return True
+    largest = separation_along(ws, number, known)
+    # feet may extend beyond the parts by the clearance
+    allowed = near + pair.clearance
+    if largest < -allowed:
+        return True
+    along = opposite(n) if pair.is_swapped else n
+    return largest <= allowed and separation_along(ws, number, along) >= -2.0 * allowed
 
 
 @kernel("b1(ws, i8)")

@@ -170,7 +170,7 @@ def _value_and_slope(ws: Workspace, step: float, i: int) -> tuple[float, float]:
     """
     if i == NO_GUARD:
         pair = ws.pairs[ws.step.meeting]
-        return separation_along(ws, pair.index, known_direction(ws, pair)) - pair.clearance, rate_of(ws, pair)
+        return separation_along(ws, pair.index, known_direction(ws, pair)) - pair.level, rate_of(ws, pair)
     guard = ws.guards[i]
     value = guard.value - (guard.base if guard.is_deflated else 0.0)
     if is_gap(ws, i):

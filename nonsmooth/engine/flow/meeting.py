@@ -53,18 +53,21 @@ def watch_pairs(ws: Workspace, h: float) -> None:
     """Find the pairs whose separation is watched within the step of ``h`` [s], and from when on.
 
     It is watched while no contact of the shapes is closed. Parts that touch at the start are watched once they are
-    apart; if they stay next to each other, the contacts decide. Bodies must be evaluated at the end of the step.
+    apart; if they stay next to each other, the contacts decide. Feet close within the clearance of a pair: there the
+    contacts decide, but the parts themselves are watched, too. Bodies must be evaluated at the end of the step.
     """
+    enough = ADJACENT * ws.tolerance.gap
     for pair in ws.pairs:
         group = ws.pairs[pair.group]
         if pair.index == pair.group:
-            group.is_watched = group.is_guarded and not group.is_closed
-        pair.begin = 0.0
-        if group.is_watched and not group.is_apart:
-            if budget(ws, pair) <= ADJACENT * ws.tolerance.gap:
-                pair.begin = _begin_of(ws, h, pair)
-                _evaluate(ws, h, 1.0, pair)
-            group.is_watched = pair.begin < 1.0
+            group.is_searched = group.is_watched = group.is_guarded and not group.is_closed
+        pair.begin, pair.level = 0.0, pair.clearance
+        if group.is_searched and not group.is_apart and budget(ws, pair) <= enough:
+            pair.begin = _begin_of(ws, h, pair)
+            _evaluate(ws, h, 1.0, pair)
+            group.is_watched = group.is_watched and pair.begin < 1.0
+            if pair.begin == 1.0 and budget(ws, pair) + pair.clearance > enough:
+                pair.begin = pair.level = 0.0
 
 
 @entry_point("f8(ws, f8, f8)")
@@ -76,11 +79,11 @@ def first_meeting(ws: Workspace, h: float, high: float) -> float:
     found, ws.step.meeting = 0.0, NO_PAIR
     for pair in ws.pairs:
         a, b = ws.carriers[pair.carrier_a], ws.carriers[pair.carrier_b]
-        if not ws.pairs[pair.group].is_watched or pair.begin >= high:
+        if not ws.pairs[pair.group].is_searched or pair.begin >= high:
             continue
         speed = a.speed_at_start + a.speed_at_end + b.speed_at_start + b.speed_at_end
         # the parts cannot have moved so far
-        if budget(ws, pair) > high * h * speed:
+        if budget(ws, pair) + pair.clearance - pair.level > high * h * speed:
             continue
         theta = _first_root(ws, h, pair, high)
         if theta > 0.0:
@@ -101,20 +104,20 @@ def _evaluate(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
 
 @kernel("f8(ws, f8, f8, Pair)")
 def _gap_at(ws: Workspace, h: float, theta: float, pair: Pair) -> float:
-    """Separation along the direction of a pair at the fraction ``theta`` of the step, less its clearance [m]."""
+    """Separation along the direction of a pair at a fraction of the step, less that at which it meets [m]."""
     _evaluate(ws, h, theta, pair)
-    return float(predicted_separation(ws, pair, theta * h - pair.searched, 0.0) - pair.clearance)
+    return float(predicted_separation(ws, pair, theta * h - pair.searched, 0.0) - pair.level)
 
 
 @kernel("f8(ws, f8, f8, Pair)")
 def _renewed_gap(ws: Workspace, h: float, theta: float, pair: Pair) -> float:
-    """Largest separation at the fraction ``theta`` of the step, less the clearance of the pair [m].
+    """Largest separation at the fraction ``theta`` of the step, less that at which the pair meets [m].
 
-    Stores its direction. The clearance is the separation at which contacts may close.
+    Stores its direction.
     """
     _evaluate(ws, h, theta, pair)
     pair.drift, pair.searched = (0.0, 0.0, 0.0), theta * h
-    return float(renew_direction(ws, pair) - pair.clearance)
+    return float(renew_direction(ws, pair) - pair.level)
 
 
 @kernel("void(ws, f8, f8, Pair)")
@@ -236,6 +239,6 @@ def _stays_open(ws: Workspace, h: float, pair: Pair, theta: float, span: float, 
         elapsed = at * h - pair.searched
         _evaluate(ws, h, at, pair)
         gap = predicted_separation(ws, pair, elapsed, 0.0)
-        least = min(least, gap - pair.clearance, predicted_separation(ws, pair, elapsed, later) - pair.clearance)
+        least = min(least, gap - pair.level, predicted_separation(ws, pair, elapsed, later) - pair.level)
         bound = max(bound, acceleration * length_of_direction(ws, pair, elapsed) + speed_of_drift(ws, pair))
     return least - 0.5 * bound * half * half >= -ws.tolerance.gap
