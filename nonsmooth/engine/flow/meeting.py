@@ -188,7 +188,7 @@ def _first_root(ws: Workspace, h: float, pair: Pair, high: float) -> float:
             known = _renewed_gap(ws, h, theta, pair)
             # in a short part the gap is known up to its change in the time tolerance
             if known <= ws.tolerance.gap + (ws.tolerance.time * speed_of(ws, pair) if is_short else 0.0):
-                return _meeting_time(ws, h, pair, theta, known)
+                return _meeting_time(ws, h, pair, theta, known, acceleration)
             _measure_drift(ws, h, theta, pair)
             last = high if is_short else last
         elif not is_open:
@@ -213,15 +213,17 @@ def _cannot_reach(ws: Workspace, h: float, pair: Pair, high: float) -> bool:
     return gap > (high - begin) * h * (speed + speed_of(ws, pair))
 
 
-@kernel("f8(ws, f8, Pair, f8, f8)")
-def _meeting_time(ws: Workspace, h: float, pair: Pair, theta: float, gap: float) -> float:
+@kernel("f8(ws, f8, Pair, f8, f8, f8)")
+def _meeting_time(ws: Workspace, h: float, pair: Pair, theta: float, gap: float, acceleration: float) -> float:
     """Fraction of the step of ``h`` [s] at which parts meet that are evaluated at ``theta``.
 
-    There the ``gap`` [m] is zero within the tolerance.
+    There the ``gap`` [m] is zero within the tolerance, so that the motion up to its root is linear: as long as the
+    ``acceleration`` [m/s^2] changes the gap by no more than that tolerance.
     """
-    rate = rate_of(ws, pair)
-    # of a slow approach the root is not sharp: it stays within the time tolerance
-    later = min(-gap / rate, ws.tolerance.time) if rate < 0.0 else 0.0
+    rate, later = rate_of(ws, pair), 0.0
+    if rate < 0.0:
+        longest = math.sqrt(2.0 * ws.tolerance.gap / acceleration) if acceleration > 0.0 else math.inf
+        later = max(-longest, min(longest, -gap / rate))
     return float(max(theta + later / h, _SHORTEST * ws.tolerance.time / h))
 
 
