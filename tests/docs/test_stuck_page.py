@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import math
 import re
 import subprocess
 import sys
@@ -25,6 +26,8 @@ from laws import (
     NewtonImpact,
     Unilateral,
 )
+from tests.engine.test_pairs import HOLLOW
+from tests.engine.test_undecided_gap import message_of
 from tests.physics.test_compliant_laws import box_on_an_edge
 
 PAGE = Path(__file__).parents[2] / "docs" / "pages" / "stuck.md"
@@ -146,6 +149,19 @@ def _squeezed() -> None:
     ns.simulate(system, 0.1)
 
 
+def _passed() -> None:
+    """Hollow boxes facet to facet, one of them turned about the line of centres by a millionth of a radian."""
+    one, two = HOLLOW["hollow box"](), HOLLOW["hollow box"]()
+    system = ns.System([one, two], gravity=0.0)
+    system.contact(one, two, **RIGID)
+    half = 0.05 * math.sqrt(0.5)
+    w, z = math.cos(math.pi / 8.0), math.sin(math.pi / 8.0)
+    system.place(one, velocity=(1.0, 0.0, 0.0), orientation=(w, 0.0, 0.0, z))
+    tilt = 0.5e-6
+    system.place(two, position=(2.0 * half + 0.03, 0.0, 0.0), orientation=(w, tilt * w, -tilt * z, z))
+    ns.simulate(system, 0.06)
+
+
 def _quaternion() -> None:
     box = BoxBody(1.0, 1.0, 1.0)
     ns.System([box]).place(box, orientation=(1.0, 2.0, 0.0, 0.0))
@@ -174,6 +190,9 @@ CASES: tuple[Callable[[], Any], ...] = (
     lambda: HuntCrossley(stiffness=300.0, dissipation=1.0),
     _contact_at_a_joint,
     _squeezed,
+    _passed,
+    lambda: message_of("meeting", 0),
+    lambda: message_of("gap_search", 0),
     _quaternion,
     lambda: Coulomb(mu=0.3),  # type: ignore[call-arg]
     lambda: EnergeticImpact(e=0.5),  # type: ignore[call-arg]

@@ -1,4 +1,4 @@
-"""A gap that is looked at without end ends the run by the name of its contact."""
+"""A search for the closing of a gap, or for the meeting of two bodies, that has no end: the run names the bodies."""
 
 from __future__ import annotations
 
@@ -10,35 +10,48 @@ import pytest
 
 PROGRAM = """
 import nonsmooth as ns
-from bodies import BoxBody
+from bodies import BoxBody, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.flow import gap_search
+from nonsmooth.engine.flow import gap_search, meeting
 
-gap_search._MOST_EVALUATIONS = {most}
-one, two = BoxBody(0.05, 0.05, 0.05), BoxBody(0.05, 0.05, 0.05)
-system = ns.System([one, two], gravity=0.0)
-system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.5))
-system.place(one, velocity=(1.0, 0.0, 0.0), angular_velocity=(3.0, 2.0, 1.0))
-system.place(two, position=(0.2, 0.0, 0.0), orientation=ns.turned_about((0.0, 0.0, 1.0), 0.4))
+{search}._MOST_EVALUATIONS = {most}
+box, other = BoxBody(0.05, 0.05, 0.05), {other}
+system = ns.System([box, other])
+system.contact(box, other, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.5))
+system.place(box, position=(0.0, 0.0, 0.2), velocity=(0.0, 0.0, -1.0), angular_velocity=(3.0, 2.0, 1.0))
 try:
     print(ns.simulate(system, 0.12).status)
 except ns.RunFailed as error:
-    print(error)
+    print(f"RunFailed: {{error}}")
 """
+OTHERS = {"meeting": "BoxBody(0.05, 0.05, 0.05)", "gap_search": "Plate()"}
+"""Body that the box meets, by the module of the search. Two convex shapes have one guard, a plane and a box many."""
+MESSAGES = {
+    "meeting": (
+        "whether bodies meet within a step is not decided after ten thousand evaluations",
+        "The bodies 'box 1' and 'box 2' of the contact 'box 1 - box 2 (1)'",
+        "EventDriven(largest_step=...)",
+    ),
+    "gap_search": (
+        "whether a gap closes within a step is not decided after ten thousand evaluations",
+        "The contact 'plate - box (",
+        "EventDriven(tolerance=...)",
+    ),
+}
 
 
-def _said(most: int) -> str:
-    """Return what is said of a run with so many looks at most; as plain Python, whose constants can be changed."""
-    words = [sys.executable, "-c", PROGRAM.format(most=most)]
-    ran = subprocess.run(words, env=os.environ | {"NONSMOOTH_PLAIN": "1"}, capture_output=True, text=True, check=True)
+def message_of(search: str, most: int) -> str:
+    """Message of a run with at most so many evaluations; it is plain Python, whose constants can be changed."""
+    program = PROGRAM.format(search=search, most=most, other=OTHERS[search])
+    environment = os.environ | {"NONSMOOTH_PLAIN": "1"}
+    ran = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
     return ran.stdout
 
 
 @pytest.mark.slow
-def test_its_contact_and_its_step_are_named() -> None:
-    """A run that needs no more looks is not affected."""
-    said = _said(0)
-    assert "whether a gap closes within a step is not decided" in said
-    assert "The contact 'box 1 - box 2 (" in said
-    assert "EventDriven(tolerance=...)" in said
-    assert _said(1000) == "done\n"
+@pytest.mark.parametrize("search", MESSAGES)
+def test_bodies_and_step_are_named(search: str) -> None:
+    """A run that needs fewer evaluations is not affected."""
+    message = message_of(search, 0)
+    assert all(part in message for part in MESSAGES[search])
+    assert message_of(search, 1000) == "done\n"
