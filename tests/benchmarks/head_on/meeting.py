@@ -164,7 +164,7 @@ def _thickness(placed: Placed) -> float:
     return max(min(widths), 1e-3)
 
 
-def _judged(placed: Placed, solution: ns.Solution) -> tuple[str, str, float]:
+def _judged(placed: Placed, solution: ns.Solution, accuracy: float) -> tuple[str, str, float]:
     """Return mark, reason and relative speed of the second body of a run that came to its end."""
     meeting, v = placed.meeting, placed.meeting.speed
     one, two = (solution.of(body)[1][-1] for body in placed.bodies)
@@ -188,7 +188,7 @@ def _judged(placed: Placed, solution: ns.Solution) -> tuple[str, str, float]:
         return "~", f"momentum off by {np.abs(momentum).max():.2g}", gained
     right = masses[0] * (1.0 + E) / sum(masses)
     # discs of no thickness that meet edge on may just as well pass
-    if placed.is_central and clearance < -DEPTH and abs(gained - right) > SPEED:
+    if placed.is_central and clearance < -DEPTH and abs(gained - right) > accuracy:
         return "~", f"speed off by {gained - right:.2g}", gained
     if placed.instants is not None and gained > SPEED:
         first = float(events.time[events.cause == ns.Cause.IMPACT][0])
@@ -197,8 +197,11 @@ def _judged(placed: Placed, solution: ns.Solution) -> tuple[str, str, float]:
     return ".", "", gained
 
 
-def meet(meeting: Meeting, engine: ns.EventDriven | None = None) -> Verdict:
-    """Run a meeting until the first body alone would have flown twice the distance, and judge it."""
+def meet(meeting: Meeting, engine: ns.EventDriven | None = None, accuracy: float = SPEED) -> Verdict:
+    """Run a meeting until the first body alone would have flown twice the distance, and judge it.
+
+    The speed after a central impact must be right to the accuracy, relative to the speed before it.
+    """
     began, placed = time.process_time(), Placed.of(meeting)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -211,4 +214,4 @@ def meet(meeting: Meeting, engine: ns.EventDriven | None = None) -> Verdict:
             return Verdict("F", f"{type(error).__name__}: {error}", seconds=time.process_time() - began)
         if solution.status != "done":
             return Verdict("F", f"{solution.status}: {solution.message}", seconds=time.process_time() - began)
-        return Verdict(*_judged(placed, solution), time.process_time() - began)
+        return Verdict(*_judged(placed, solution, accuracy), time.process_time() - began)
