@@ -29,19 +29,29 @@ def _of(one: Piece, two: Piece, first: Pose, second: Pose) -> tuple[tuple[Vector
     return (kinds, numbers, one.corners, two.corners, axes, between), one.sweep + two.sweep
 
 
-def _gap(one: Piece, two: Piece, first: Pose, second: Pose) -> float:
+def _gap(one: Piece, two: Piece, first: Pose, second: Pose) -> tuple[float, Vector]:
     told, sweep = _of(one, two, first, second)
-    lower, _ = convex.bounds(*told, 0.0, sweep + FAR, np.array([0.0, 0.0, 1.0]))
+    way = np.array([0.0, 0.0, 1.0])
+    lower, _ = convex.bounds(*told, 0.0, sweep + FAR, way)
     if lower >= sweep + FAR:
-        return lower - sweep
+        return lower - sweep, way
     # faces that are parallel to an axis of a body are found exactly
     likely = np.concatenate([np.concatenate([axes.T, -axes.T]) for axes in (*told[4], first[1], second[1])])
-    return float(convex.overlap(*told, np.concatenate([likely, _SPREAD]), sweep))
+    return float(convex.overlap(*told, np.concatenate([likely, _SPREAD]), sweep, way)), way
+
+
+def separation(ones: list[Piece], twos: list[Piece], first: Pose, second: Pose) -> tuple[float, Vector]:
+    """Return the gap of two bodies [m], negative if they overlap, and its direction from the first to the second.
+
+    Of distant bodies the gap is a lower bound of at least ``FAR``.
+    """
+    found = (_gap(one, two, first, second) for one, two in itertools.product(ones, twos))
+    return min(found, key=lambda row: row[0])
 
 
 def gap(ones: list[Piece], twos: list[Piece], first: Pose, second: Pose) -> float:
-    """Return the gap of two bodies [m], negative if they overlap; of distant ones a lower bound of at least ``FAR``."""
-    return min(_gap(one, two, first, second) for one, two in itertools.product(ones, twos))
+    """Return the gap of two bodies [m], as :func:`separation` does."""
+    return separation(ones, twos, first, second)[0]
 
 
 def _shadow(one: Piece, two: Piece, first: Pose, second: Pose, way: Vector) -> float:
