@@ -26,7 +26,7 @@ from tests.benchmarks.random_systems.through import passed
 E = 0.5
 """Coefficient of restitution."""
 DISTANCE = 0.02
-"""Distance of the bodies at the start along the line of their motion [m]."""
+"""Usual distance of the bodies at the start along the line of their motion [m]."""
 SHIFTS = ((0.0, 0.0), (1e-12, 0.0), (1e-9, 1e-9), (1e-6, 0.0), (1e-6, 1e-6), (1e-3, 0.0), (5e-3, 3e-3))
 """Shifts of the second body across the line [m]."""
 TURNS = (0.0, 1e-9, 1e-6, 1e-3, 1e-2, 0.3, 0.5 * math.pi)
@@ -40,7 +40,25 @@ MARKS = {".": "right", "X": "passed", "F": "failed", "~": "wrong speed"}
 
 @dataclass(frozen=True)
 class Meeting:
-    """How two bodies meet: axis, shift [m] and turn [rad] of the second one, speed [m/s], orientation of all."""
+    """How two bodies meet.
+
+    Attributes
+    ----------
+    name : str
+        Name of the pair.
+    axis : int
+        Axis of the bodies along which the first one flies.
+    shift : tuple of float
+        Shift of the second one across the line [m].
+    turn : float
+        Angle of the second one about the line [rad].
+    speed : float
+        Speed of the first one [m/s].
+    world : tuple of float
+        Orientation of the first one, and of the line.
+    distance : float
+        Distance of the bodies at the start along the line [m].
+    """
 
     name: str
     axis: int
@@ -48,6 +66,7 @@ class Meeting:
     turn: float = 0.0
     speed: float = 1.0
     world: Turn = UPRIGHT
+    distance: float = DISTANCE
 
 
 @dataclass(frozen=True)
@@ -93,12 +112,12 @@ class Placed:
 
     @classmethod
     def of(cls, meeting: Meeting) -> Placed:
-        """Place the bodies of a meeting ``DISTANCE`` apart along the line."""
+        """Place the bodies of a meeting."""
         pair, along = PAIRS[meeting.name], np.eye(3)[meeting.axis]
         seen = pieces_of(pair.seen[0]()), pieces_of(pair.seen[1]())
         turn = about(along, meeting.turn)
         # turned about the line, a body reaches as far along it
-        apart = _reach(seen[0], along) + _reach(seen[1], -along) + DISTANCE
+        apart = _reach(seen[0], along) + _reach(seen[1], -along) + meeting.distance
         place = apart * along + np.roll([0.0, *meeting.shift], meeting.axis)
         axes = rotations(np.array([meeting.world]))[0]
         turns = meeting.world, product(meeting.world, turn)
@@ -133,7 +152,7 @@ class Placed:
             return None
         # cylinders end to end stand on their feet, at most one foot on another
         feet = sum(map(_feet, self.pieces)) if self.meeting.axis == 2 else 0.0
-        return (DISTANCE - feet) / self.meeting.speed, DISTANCE / self.meeting.speed
+        return (self.meeting.distance - feet) / self.meeting.speed, self.meeting.distance / self.meeting.speed
 
     def depth(self, q: Vector) -> tuple[float, int]:
         """Return the deepest overlap over some poses [m], and the number of the pose; the feet may be inside."""
