@@ -29,7 +29,7 @@ def _of(one: Piece, two: Piece, first: Pose, second: Pose) -> tuple[tuple[Vector
     return (kinds, numbers, one.corners, two.corners, axes, between), one.sweep + two.sweep
 
 
-def _gap(one: Piece, two: Piece, first: Pose, second: Pose) -> tuple[float, Vector]:
+def _gap(one: Piece, two: Piece, first: Pose, second: Pose, enough: float) -> tuple[float, Vector]:
     told, sweep = _of(one, two, first, second)
     way = np.array([0.0, 0.0, 1.0])
     lower, _ = convex.bounds(*told, 0.0, sweep + FAR, way)
@@ -37,21 +37,30 @@ def _gap(one: Piece, two: Piece, first: Pose, second: Pose) -> tuple[float, Vect
         return lower - sweep, way
     # faces that are parallel to an axis of a body are found exactly
     likely = np.concatenate([np.concatenate([axes.T, -axes.T]) for axes in (*told[4], first[1], second[1])])
+    value, found = max((float(convex._plane(*told, d)) - sweep, k) for k, d in enumerate(likely))
+    if value >= enough:
+        return value, likely[found]
     return float(convex.overlap(*told, np.concatenate([likely, _SPREAD]), sweep, way)), way
 
 
-def separation(ones: list[Piece], twos: list[Piece], first: Pose, second: Pose) -> tuple[float, Vector]:
+def separation(
+    ones: list[Piece], twos: list[Piece], first: Pose, second: Pose, enough: float = FAR
+) -> tuple[float, Vector]:
     """Return the gap of two bodies [m], negative if they overlap, and its direction from the first to the second.
 
-    Of distant bodies the gap is a lower bound of at least ``FAR``.
+    Of bodies that are ``enough`` apart it may be a lower bound [m], no less than that.
     """
-    found = (_gap(one, two, first, second) for one, two in itertools.product(ones, twos))
+    found = (_gap(one, two, first, second, enough) for one, two in itertools.product(ones, twos))
     return min(found, key=lambda row: row[0])
 
 
-def gap(ones: list[Piece], twos: list[Piece], first: Pose, second: Pose) -> float:
+def gap(ones: list[Piece], twos: list[Piece], first: Pose, second: Pose, enough: float = FAR) -> float:
     """Return the gap of two bodies [m], as :func:`separation` does."""
-    return separation(ones, twos, first, second)[0]
+    return separation(ones, twos, first, second, enough)[0]
+
+
+TOUCHES = -1e-11
+"""Gap of bodies that touch, but for round-off [m]."""
 
 
 def _shadow(one: Piece, two: Piece, first: Pose, second: Pose, way: Vector) -> float:

@@ -15,7 +15,7 @@ import nonsmooth as ns
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
-from tests.benchmarks.head_on.measured import gap, shadow_gap
+from tests.benchmarks.head_on.measured import TOUCHES, gap, shadow_gap
 from tests.benchmarks.head_on.pairs import PAIRS, Pair
 from tests.benchmarks.random_systems.convex import CORNERS
 from tests.benchmarks.random_systems.families.aligned import UPRIGHT, Turn, about, product
@@ -160,7 +160,7 @@ class Placed:
         one, two = (rotations(part[:, 3:7]) for part in (q[:, :n], q[:, n:]))
         deepest, at = -math.inf, 0
         for k, row in enumerate(q):
-            depth = -gap(*self.pieces, (row[:3], one[k]), (row[n : n + 3], two[k])) - allowed
+            depth = -gap(*self.pieces, (row[:3], one[k]), (row[n : n + 3], two[k]), TOUCHES) - allowed
             if depth > deepest:
                 deepest, at = depth, k
         return deepest, at
