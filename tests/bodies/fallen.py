@@ -50,5 +50,3 @@ def fallen() -> Fallen:
     for cube, pose in zip(cubes, poses, strict=True):
         system.place(cube, position=tuple(pose[:3]), orientation=tuple(pose[3:]))
     return Fallen(poses, listed(system))
-
-

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 import nonsmooth as ns
 from nonsmooth.engine.memory import blocks, owners
@@ -39,9 +40,9 @@ class Listed:
     second: Vector
 
     @property
-    def within(self) -> Vector:
+    def within(self) -> NDArray[np.bool_]:
         """Whether the points are within their features, shape [n]."""
-        return np.asarray(self.past <= 0.0)
+        return np.asarray(self.past <= 0.0, dtype=bool)
 
 
 def listed(system: ns.System) -> Listed:

@@ -70,9 +70,7 @@ class Pressed:
         return Listed(found.contact, found.bodies, found.gap, found.past, normal, *points)
 
 
-def stacked(
-    bodies: tuple[Body, Body], axis: int, depth: float, shift: Vector, turns: tuple[Turn, Turn]
-) -> Pressed:
+def stacked(bodies: tuple[Body, Body], axis: int, depth: float, shift: Vector, turns: tuple[Turn, Turn]) -> Pressed:
     """Return two bodies, the second one pressed in along an axis of the world and shifted across it."""
     way = np.eye(3)[axis]
     axes = rotations(np.array(turns))

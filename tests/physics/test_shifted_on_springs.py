@@ -8,8 +8,11 @@ from tests.physics.test_flush_on_springs import HALF, INDENTED, heights
 
 SHIFTS = [(name, shift, 0.0) for name in ("boxes", "hulls", "meshes") for shift in (1e-12, 1e-9, 1e-6)]
 TURNS = [(name, 0.0, turn) for name in ("boxes", "hulls", "meshes") for turn in (1e-9, 1e-6, 1e-3, 0.3)]
-SIDES = [("flush on one side", 0.01, 0.0), ("flush on one side", 0.01 + 1e-6, 0.0),
-         ("flush in one direction", 0.01, 0.0)]
+SIDES = [
+    ("flush on one side", 0.01, 0.0),
+    ("flush on one side", 0.01 + 1e-6, 0.0),
+    ("flush in one direction", 0.01, 0.0),
+]
 
 
 @pytest.mark.fast_cases(3)

@@ -1,1 +1,1 @@
-"""Pairs of bodies that meet head on, in line with their axes: does each collide as the closed form says?"""
+"""Pairs of bodies that meet head on, in line with their axes, and the closed forms of their collisions."""

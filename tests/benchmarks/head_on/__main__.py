@@ -1,10 +1,11 @@
-"""Pairs of bodies that meet head on: do they collide, when and with which speeds?
+"""Marks of pairs of bodies that meet head on.
 
-    python -m tests.benchmarks.head_on [--seed S --count N --only NAME,NAME --impact-tolerance T --verbose]
+    python -m tests.benchmarks.head_on [--seed S --count N --only "NAME;NAME" --impact-tolerance T --verbose]
 
-runs N drawn meetings of every pair: along an axis of the bodies, the second one shifted across by 0 to 5 mm and turned
-about the line by 0 to a quarter turn, in a random orientation of all, at 0.1, 1 or 10 m/s.  It prints a mark a run: . right, X
-passed through each other, F failed, ~ wrong speed, time or momentum; and, for each that is not right, why.
+runs N drawn meetings of every pair.  The first body flies along one of its axes.  The second one is at rest, shifted
+across by 0 to 5 mm and turned about the line by 0 to a quarter turn.  The speed is 0.1, 1 or 10 m/s.  Of two meetings
+one has another orientation of the world.  Each run has a mark: . right, X passed through each other, F failed, ~ wrong
+speed, time or momentum.  A run that is not right is listed with the reason.
 """
 
 import argparse
@@ -20,7 +21,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=1, help="seed of the draws")
     parser.add_argument("--count", type=int, default=20, help="meetings of every pair")
-    parser.add_argument("--only", help="names of pairs, with commas and semicolons: a name may have a comma")
+    parser.add_argument("--only", help="names of pairs, with semicolons between them")
     parser.add_argument("--impact-tolerance", type=float, default=1e-8, help="of the engine")
     parser.add_argument("--verbose", action="store_true", help="also print the runs that are right")
     given = parser.parse_args()

@@ -1,4 +1,4 @@
-"""Meeting: two bodies, one of which flies at the other one, and what is right of it."""
+"""Meeting: a body flies at another one, and the run is compared with the closed form."""
 
 from __future__ import annotations
 
@@ -185,7 +185,7 @@ def _thickness(placed: Placed) -> float:
 
 def _judged(placed: Placed, solution: ns.Solution, accuracy: float) -> tuple[str, str, float]:
     """Return mark, reason and relative speed of the second body of a run that came to its end."""
-    meeting, v = placed.meeting, placed.meeting.speed
+    v = placed.meeting.speed
     one, two = (solution.of(body)[1][-1] for body in placed.bodies)
     masses = [float(body.total_mass) for body in placed.bodies]  # type: ignore[attr-defined]
     gained = float(two[:3] @ placed.way) / v
