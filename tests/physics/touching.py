@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 import warnings
 from dataclasses import dataclass
 
@@ -16,11 +15,10 @@ from tests.benchmarks.head_on.pairs import PAIRS
 from tests.benchmarks.random_systems.families.aligned import UPRIGHT
 from tests.benchmarks.random_systems.gaps import farthest
 from tests.benchmarks.random_systems.pieces import pieces_of
+from tests.physics.limited import limited
 
 GRAVITY = 9.81
 """Gravity [m/s^2]."""
-SECONDS = 5.0
-"""Processor time after which a run is interrupted [s]: fifty times that of the usual ones."""
 
 
 def axes_of(name: str) -> tuple[int, ...]:
@@ -67,17 +65,6 @@ class Stacked:
     points: int
 
 
-def _limited(system: ns.System) -> ns.Solution:
-    """Return a run of 0.1 s that is interrupted after some seconds of processor time."""
-    began = time.process_time()
-
-    def watch(t: float, t_end: float) -> None:
-        if time.process_time() - began > SECONDS:
-            raise KeyboardInterrupt
-
-    return ns.simulate(system, 0.1, progress=watch)
-
-
 _UP = (ns.turned_about((0.0, 1.0, 0.0), -0.5 * np.pi), ns.turned_about((1.0, 0.0, 0.0), 0.5 * np.pi), UPRIGHT)
 """Orientations in which each of the axes of a body points up."""
 
@@ -94,7 +81,7 @@ def stacked(name: str, axis: int, turn: float = 0.0, shift: tuple[float, float] 
     height = max(farthest(piece, -np.eye(3)[axis]) for piece in placed.pieces[0]) * placed.way
     for body, turned, place in zip(placed.bodies, placed.turns, (height, height + placed.place), strict=True):
         system.place(body, orientation=turned, position=tuple(place))
-    solution = _limited(system)
+    solution = limited(system, 0.1)
     assert solution.status == "done", solution.message
     last = solution.history("normal_force", "mode", times=0.09)
     # equal bodies are told apart by what they are
