@@ -41,12 +41,18 @@ class Fallen:
 
 
 @functools.cache
-def fallen() -> Fallen:
-    """Poses of cubes 0.5 s after they fell in a heap of any orientations, computed by time stepping."""
+def fallen(of_all: bool = True) -> Fallen:
+    """Cubes 0.5 s after they fell in a heap of any orientations, computed by time stepping.
+
+    Parameters
+    ----------
+    of_all : bool
+        False for the contacts that a run lists: those of cubes that touch.
+    """
     poses = np.array(json.loads(_POSES.read_text(encoding="utf-8")))
     cubes = [BoxBody(HALF, HALF, HALF) for _ in poses]
     system = ns.System([Plate(), *cubes])
     system.contact_all(ns.ContactLaws(Unilateral(), Coulomb(0.2), EnergeticImpact(0.5)))
     for cube, pose in zip(cubes, poses, strict=True):
         system.place(cube, position=tuple(pose[:3]), orientation=tuple(pose[3:]))
-    return Fallen(poses, listed(system))
+    return Fallen(poses, listed(system, of_all))

@@ -45,10 +45,18 @@ class Listed:
         return np.asarray(self.past <= 0.0, dtype=bool)
 
 
-def listed(system: ns.System) -> Listed:
-    """Return the contacts on the neighbour list at the start, which need not be one that a run accepts."""
+def listed(system: ns.System, of_all: bool = True) -> Listed:
+    """Return the contacts on the neighbour list at the start, which need not be one that a run accepts.
+
+    Parameters
+    ----------
+    system : System
+        The system, placed.
+    of_all : bool
+        False for the list of a run, which leaves out the contacts of convex shapes that are apart.
+    """
     laid = lay_out(system, ns.EventDriven())
-    laid.list_contacts()
+    laid.list_contacts(of_all)
     laid.evaluate()
     rows = np.array(laid.memory[owners.ContactRecord.geometry][: len(laid.active)])
 

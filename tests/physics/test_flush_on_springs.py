@@ -68,6 +68,8 @@ def heights(name: str, shift: float = 0.0, turn: float = 0.0, bristles: bool = F
 
 CARRIED = [(name, 0.0, 0.0) for name in PAIRS if name != "flush on one side"]
 CARRIED += [("boxes", 1e-3, 0.0), ("boxes", 0.0, 0.5 * np.pi), ("hulls", 1e-3, 0.0)]
+CARRIED += [(name, 0.0, turn) for name in ("boxes", "hulls", "meshes") for turn in (1e-9, 0.3)]
+"""Pair, shift [m] and turn [rad] of the upper body."""
 
 
 @pytest.mark.fast_cases(3)

@@ -9,8 +9,10 @@ from tests.benchmarks.head_on.pairs import PAIRS
 from tests.physics.head_on import wrong
 from tests.physics.touching import axes_of, moved, stacked
 
-PUSHED = [name for name in PAIRS if name not in ("cylinder without feet", "cylinder, longer", "disc", "U", "L")]
-"""Pairs that collide at the start without parts or rims that end at the same place."""
+PUSHED = [name for name in PAIRS if name not in ("cylinder without feet", "cylinder, longer", "U", "L")]
+"""Pairs that collide at the start as in flight."""
+STILL = [name for name in PAIRS if name != "disc"]
+"""Pairs that stay as they are, in touch along any axis."""
 FLAT = ("cube", "brick", "hull", "mesh", "brick, hull")
 WIDER = ("cube, wider", "cube, wider twice", "cube, half as wide")
 STACKS: dict[tuple[str, float, tuple[float, float]], int] = {
@@ -25,7 +27,7 @@ STACKS: dict[tuple[str, float, tuple[float, float]], int] = {
 
 
 @pytest.mark.fast_cases(5)
-@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize("name", STILL)
 def test_bodies_that_move_alike_stay_as_they_are(name: str) -> None:
     """At rest, and with one velocity."""
     cases = [(axis, turn, speed) for axis in axes_of(name) for turn in (0.0, 1e-6, 0.3) for speed in (0.0, 1.0)]
