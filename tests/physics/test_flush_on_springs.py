@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 import nonsmooth as ns
-from bodies import BoxBody, CylinderBody, HullBody, MeshBody, Plate, Triangles
+from bodies import BoxBody, HullBody, MeshBody, Plate, Triangles
 from laws import Bristle, Frictionless, HuntCrossley
 from nonsmooth.interfaces import Body
 
@@ -44,10 +44,8 @@ PAIRS: dict[str, tuple[Make, Make]] = {
     "meshes": (_mesh, _mesh),
     "box on hull": (_hull, _box),
     "rounded boxes": (lambda: BoxBody(HALF, HALF, HALF, rounding=1e-3),) * 2,
-    "cylinders": (lambda: CylinderBody(HALF, HALF),) * 2,
     "smaller on larger": (_box, lambda: BoxBody(0.019, 0.019, HALF)),
     "flush in one direction": (_wide(0.03, HALF), _box),
-    "flush on one side": (_wide(0.03, 0.03), _box),
 }
 """Lower and upper body, both 4 cm high."""
 
@@ -66,7 +64,7 @@ def heights(name: str, shift: float = 0.0, turn: float = 0.0, bristles: bool = F
     return [float(solution.of(body)[0][-1, 2]) for body in bodies]
 
 
-CARRIED = [(name, 0.0, 0.0) for name in PAIRS if name != "flush on one side"]
+CARRIED = [(name, 0.0, 0.0) for name in PAIRS]
 CARRIED += [("boxes", 1e-3, 0.0), ("boxes", 0.0, 0.5 * np.pi), ("hulls", 1e-3, 0.0)]
 CARRIED += [(name, 0.0, turn) for name in ("boxes", "hulls", "meshes") for turn in (1e-9, 0.3)]
 """Pair, shift [m] and turn [rad] of the upper body."""
