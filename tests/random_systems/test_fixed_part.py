@@ -27,8 +27,7 @@ _SLOW_FLUSH = {
 }
 """The first ones of each family, and small heaps."""
 _TUMBLING = [range(k, k + 10) for k in range(0, 60, 10)]
-_DROPS = {"0 to 19": (0, 1, *range(3, 20)), "20 to 39": range(20, 40)}
-"""Without drop 2, of which one impulse in an event of several contacts is beyond its cone."""
+_DROPS = {"0 to 19": range(20), "20 to 39": range(20, 40)}
 
 
 def _ends_right(case_of: Callable[[int], Case], seeds: Iterable[int]) -> None:
