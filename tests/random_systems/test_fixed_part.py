@@ -1,7 +1,6 @@
 """The first systems and drops, by number: none may say done and be wrong, and what does not end says why.
 
-Whether a run ends, or in time, is not asked here: the command counts that.  Of the flush families only systems that are
-right are here.  Many others are wrong, as bodies that meet face to face may pass through each other.
+Whether a run ends, or in time, is not asked here: the command counts that.
 """
 
 from __future__ import annotations
@@ -17,19 +16,18 @@ from tests.benchmarks.random_systems.run import run
 
 _SECONDS = 1.5
 _FLUSH = {"head_on": (1, 16), "slide": (5, 6), "fall": (1, 2, 11), "at_rest": (2, 11), "stack": (5,)}
-"""Systems of boxes, hulls and balls that are right."""
+"""Systems of boxes, hulls and balls."""
 _SLOW_FLUSH = {
-    "head_on": (5, 9, 10, 15, 12, 13, 18),
-    "slide": (0, 2, 8, 10),
-    "fall": (4, 6, 8, 10),
-    "at_rest": (1, 3, 5, 8, 10),
-    "stack": (0, 7, 13),
-    "heap": (3, 6),
+    "head_on": range(20),
+    "slide": range(20),
+    "fall": range(20),
+    "at_rest": range(20),
+    "stack": range(14),
+    "heap": range(3, 7),
 }
-"""Larger ones, and systems of other bodies."""
+"""The first ones of each family, and small heaps."""
 _TUMBLING = [range(k, k + 10) for k in range(0, 60, 10)]
-_DROPS = {"0 to 19": (0, 1, *range(3, 20)), "20 to 39": range(20, 40)}
-"""Without drop 2, of which one impulse in an event of several contacts is beyond its cone."""
+_DROPS = {"0 to 19": range(20), "20 to 39": range(20, 40)}
 
 
 def _ends_right(case_of: Callable[[int], Case], seeds: Iterable[int]) -> None:
@@ -47,7 +45,7 @@ def test_small_systems_are_not_wrong_without_a_word(family: str, seeds: tuple[in
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
 @pytest.mark.parametrize(("family", "seeds"), _SLOW_FLUSH.items())
-def test_flush_systems_are_not_wrong_without_a_word(family: str, seeds: tuple[int, ...]) -> None:
+def test_flush_systems_are_not_wrong_without_a_word(family: str, seeds: Iterable[int]) -> None:
     _ends_right(functools.partial(generate.case_of, family=family), seeds)
 
 

@@ -278,9 +278,19 @@ def _climbed(
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
 def overlap(
-    kinds: Vector, numbers: Vector, one: Vector, two: Vector, axes: Vector, between: Vector, ways: Vector, sweep: float
+    kinds: Vector,
+    numbers: Vector,
+    one: Vector,
+    two: Vector,
+    axes: Vector,
+    between: Vector,
+    ways: Vector,
+    sweep: float,
+    d: Vector,
 ) -> float:
     """Return the gap of two solids along the best direction that a search from many finds [m]; negative inside.
+
+    Writes the direction, from the first to the second.
 
     The gap by direction has ridges where features change, along which small steps find no way up; so the ends of the
     search are climbed from by distances.
@@ -314,5 +324,9 @@ def overlap(
                         best[k, i] = trial[i]
                     step *= 2.0
                     break
-        found = max(found, _climbed(kinds, numbers, one, two, axes, between, best[k], values[k]))
+        value = _climbed(kinds, numbers, one, two, axes, between, best[k], values[k])
+        if value > found:
+            found = value
+            for i in range(3):
+                d[i] = best[k, i]
     return float(found) - sweep

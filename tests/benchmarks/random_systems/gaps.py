@@ -57,7 +57,7 @@ def _of_pieces(one: Piece, two: Piece, poses: tuple[Poses, Poses]) -> Iterator[O
         doubtful = doubtful[np.unique(np.linspace(0, len(doubtful) - 1, _LOOKED_AT).astype(int))]
     for k in doubtful:
         axes, ways = np.stack([first_axes[k], second_axes[k]]), directions()
-        gap = convex.overlap(kinds, numbers, corners, others, axes, between[k], ways, sweep)
+        gap = convex.overlap(kinds, numbers, corners, others, axes, between[k], ways, sweep, np.empty(3))
         yield Overlap(int(k), -gap, one.slack + two.slack)
 
 

@@ -13,12 +13,20 @@ _EVERY = 3
 """One of so many numbers belongs to a flush family."""
 
 
-def family_of(seed: int) -> str:
-    """Family of the system of a number, drawn apart from the system itself."""
-    if seed % _EVERY != _EVERY - 1:
-        return "tumbling"
+def flush_family_of(seed: int) -> str:
+    """Flush family of a number, if all systems are flush."""
     weights = np.array([weight for weight, _ in FLUSH.values()])
     return str(np.random.default_rng([20_263, seed]).choice(list(FLUSH), p=weights / weights.sum()))
+
+
+def family_of(seed: int) -> str:
+    """Family of the system of a number, drawn apart from the system itself."""
+    return flush_family_of(seed) if seed % _EVERY == _EVERY - 1 else "tumbling"
+
+
+def flush_case_of(seed: int) -> Case:
+    """Return the flush system of a number."""
+    return case_of(seed, flush_family_of(seed))
 
 
 def case_of(seed: int, family: str | None = None) -> Case:
