@@ -108,12 +108,13 @@ def chosen_sets(one: ConvexSets, two: ConvexSets) -> tuple[tuple[ConvexPart, ...
     """The parts of both shapes, or the pieces of a shape without parts unless their pairs are too many.
 
     Nothing passes through a surface, so its pieces decide as parts do. Over a half-space corners have contacts of their
-    own.
+    own, and the gap of a ball over a feature is its distance.
     """
     if one.parts and two.parts:
         return one.parts, two.parts
     first, second = one.parts or one.pieces, two.parts or two.pieces
-    if len(first) * len(second) > _MOST_PIECES or any(part.is_half_space for part in (*first, *second)):
+    has_own_gaps = any(part.is_half_space or part.is_ball for part in (*one.parts, *two.parts))
+    if has_own_gaps or len(first) * len(second) > _MOST_PIECES:
         return (), ()
     return first, second
 
