@@ -10,17 +10,15 @@ from nonsmooth.types import Floats
 
 from ...blocks import put
 from ..features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
-from ..features.vertex_face import DEEP, REACH
+from ..features.vertex_face import CLOSED, DEEP
 from ..features.writing import write_principal
 from .surface_search import depth_inside
 from .surface_vertex import ASTRAY
 
-_PARALLEL = 0.01
-"""Least sine of the angle between crossing edges; contacts of the vertices suffice for edges closer to parallel."""
 _PARALLEL_ROUNDED = 1e-5
 """Least sine of the angle between crossing edges if one is rounded.
 
-It can be smaller than for sharp edges, because the normal is the line between the edges, which stays accurate.
+Closer to parallel, the spheres about the ends of the edges hold the bodies.
 """
 _NEAR_ENDS = 4.0
 """Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
@@ -92,8 +90,8 @@ def write_edges(
     wx, wy, wz = bx - ax, by - ay, bz - az
     nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)
-    margin = REACH * size
-    parallel = _PARALLEL if radius == 0.0 else _PARALLEL_ROUNDED
+    margin = CLOSED * size
+    parallel = CLOSED if radius == 0.0 else _PARALLEL_ROUNDED
     s, t, over, past = 0.0, 0.0, 0.0, size * parallel
     if sine > 1e-3 * parallel:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
