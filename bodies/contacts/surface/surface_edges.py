@@ -113,7 +113,7 @@ def write_edges(
     minus = max(edge_astray(a, edge_a, at_a, -1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, 1.0, nx, ny, nz))
     if minus < plus:
         nx, ny, nz, plus = -nx, -ny, -nz, minus
-    # between the nearest points: the error of the normal of edges close to parallel does not count over their length
+    # measured between the nearest points, so that the length of the edges does not multiply the error of the normal
     px, py, pz = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
     gap = px * nx + py * ny + pz * nz
     depth = 0.0
