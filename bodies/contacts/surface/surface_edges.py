@@ -10,17 +10,15 @@ from nonsmooth.types import Floats
 
 from ...blocks import put
 from ..features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
-from ..features.vertex_face import DEEP, REACH
+from ..features.vertex_face import CLOSED, DEEP
 from ..features.writing import write_principal
 from .surface_search import depth_inside
 from .surface_vertex import ASTRAY
 
-_PARALLEL = 0.01
-"""Least sine of the angle between crossing edges; contacts of the vertices suffice for edges closer to parallel."""
 _PARALLEL_ROUNDED = 1e-5
 """Least sine of the angle between crossing edges if one is rounded.
 
-It can be smaller than for sharp edges, because the normal is the line between the edges, which stays accurate.
+Closer to parallel, the spheres about the ends of the edges hold the bodies.
 """
 _NEAR_ENDS = 4.0
 """Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
@@ -92,8 +90,8 @@ def write_edges(
     wx, wy, wz = bx - ax, by - ay, bz - az
     nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)
-    margin = REACH * size
-    parallel = _PARALLEL if radius == 0.0 else _PARALLEL_ROUNDED
+    margin = CLOSED * size
+    parallel = CLOSED if radius == 0.0 else _PARALLEL_ROUNDED
     s, t, over, past = 0.0, 0.0, 0.0, size * parallel
     if sine > 1e-3 * parallel:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
@@ -115,7 +113,9 @@ def write_edges(
     minus = max(edge_astray(a, edge_a, at_a, -1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, 1.0, nx, ny, nz))
     if minus < plus:
         nx, ny, nz, plus = -nx, -ny, -nz, minus
-    gap = wx * nx + wy * ny + wz * nz
+    # measured between the nearest points, so that the length of the edges does not multiply the error of the normal
+    px, py, pz = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
+    gap = px * nx + py * ny + pz * nz
     depth = 0.0
     if past <= 0.0 and (gap < 0.0 or plus > ASTRAY):
         depth = _depth(b, surface_b, ax + s * ex, ay + s * ey, az + s * ez)

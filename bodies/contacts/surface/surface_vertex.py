@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 from ..features.frames import point_in_world, vector_in_body, vector_in_world
-from ..features.vertex_face import DEEP, REACH
+from ..features.vertex_face import CLOSED, DEEP, REACH
 from .surface_search import (
     box_square,
     depth_inside,
@@ -162,7 +162,8 @@ def face_under(
     x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
-    margin = REACH * size
+    # a point by itself has no edges beside it
+    margin = (CLOSED if n_star > 0.0 else REACH) * size
     best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
     under, under_past, under_face = math.inf, 0.0, -1
     first = first_leaf(surface, patch, x, y, z)
