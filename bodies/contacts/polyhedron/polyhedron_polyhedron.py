@@ -95,6 +95,8 @@ def _evaluate(
         else:
             nx, ny, nz = tangent_of(ex, ey, ez)
         s, t, over, past = 0.0, 0.0, 0.0, 2.0 * margin
+    # between the nearest points: the starts of the lines are far apart along edges that are almost parallel
+    wx, wy, wz = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
     gap = wx * nx + wy * ny + wz * nz
     overlap = 0.0
     # a contact may close up to the margin past the end of an edge, so its normal is checked there, too
