@@ -45,8 +45,7 @@ _FAILED_CHECKS = {
     ),
     Status.PAIR_UNDECIDED: (
         "The bodies {first!r} and {second!r} of the {contact}: their separation is {found:.3g} m and hardly changes "
-        "within a step of {h:.3g} s. Take shorter steps, EventDriven(largest_step=...), or a smaller tolerance: "
-        "EventDriven(tolerance=...)."
+        "within a step of {h:.3g} s. Take shorter steps, EventDriven(largest_step=...), or place them farther apart."
     ),
     Status.JOINTS_APART: (
         "They are apart by {found:.3g} m or rad; the tolerances allow {allowed:.3g}. Leave out a joint that repeats "

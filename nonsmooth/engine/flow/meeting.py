@@ -156,7 +156,7 @@ def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
 
 @kernel("f8(ws, f8, Pair)")
 def _acceleration_within(ws: Workspace, h: float, pair: Pair) -> float:
-    """Bound of the acceleration of the moving part within the step of ``h`` [s], from those at its ends [m/s^2]."""
+    """Bound of the acceleration of the second part within the step of ``h`` [s], from those at its ends [m/s^2]."""
     _evaluate(ws, h, 1.0, pair)
     end = acceleration_bound(ws, pair, ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q)
     _evaluate(ws, h, 0.0, pair)
@@ -207,9 +207,8 @@ def _cannot_reach(ws: Workspace, h: float, pair: Pair, high: float) -> bool:
     """True if the parts cannot come as near as contacts need, up to the fraction ``high``, by their speeds."""
     begin = pair.begin
     pair.drift, pair.searched = (0.0, 0.0, 0.0), begin * h
-    gap = (
-        _renewed_gap(ws, h, begin, pair) if dot(pair.direction, pair.direction) == 0.0 else _gap_at(ws, h, begin, pair)
-    )
+    is_known = dot(pair.direction, pair.direction) > 0.0
+    gap = _gap_at(ws, h, begin, pair) if is_known else _renewed_gap(ws, h, begin, pair)
     speed = speed_of(ws, pair)
     gap += _gap_at(ws, h, high, pair)
     return gap > (high - begin) * h * (speed + speed_of(ws, pair))

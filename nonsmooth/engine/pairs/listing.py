@@ -1,10 +1,15 @@
-"""Which of the declared contacts stand in slots: all of a small system, those near each other of a large one.
+"""Neighbour list: which of the declared contacts are active.
 
-A unit is a frame that carries bounded shapes, all within a ball about its origin.  The list holds the pairs of units
-whose balls are nearer than a margin, found by sorting the balls along an axis and sweeping over them, and contacts with
-unbounded shapes, walls: those of units whose balls are nearer than the margin where the wall is below a plane at rest,
-all of others.  It stands until some unit has moved by half the margin; of a unit with pools of features
-(:mod:`nonsmooth.engine.pairs.candidates`), until some point of it has.
+All contacts of a small system are active. In a large one, every frame that carries bounded shapes has a bounding sphere
+about its origin, and the list is made as follows:
+
+1. Bounding spheres are sorted along an axis, and a sweep finds the pairs that are nearer than a margin.
+2. The contacts of such a pair become active, except those of shapes that are apart
+   (:mod:`nonsmooth.engine.pairs.apart`).
+3. A half-space at rest has contacts with the spheres nearer than the margin, and any other half-space with all.
+
+The list is valid until a sphere has moved by half the margin. If features of its shapes are searched for
+(:mod:`nonsmooth.engine.pairs.candidates`), no point of the shapes may have moved farther than that.
 """
 
 from __future__ import annotations
@@ -23,16 +28,16 @@ from nonsmooth.engine.pairs.apart import find_apart
 from nonsmooth.engine.pairs.candidates import are_near, find_candidates, has_no_features
 
 _SPENT = 0.6
-"""A list is drawn anew when a unit has used up this part of its way."""
+"""Part of the allowed displacement of a sphere after which the list is made anew."""
 _NARROWEST = 2.0**-12
-"""Least part of its widest margin that the list may have, where pools cannot hold what is nearer."""
+"""Least margin of the list, relative to the widest one, if there are more candidate features than contacts for them."""
 _ACCELERATION = 2.0
-"""By how much a unit is taken to speed up within a step; the step is checked afterwards."""
+"""Assumed ratio of the speed of a sphere within a step to that at its start. The end of the step is checked."""
 
 
 @kernel("b1(ws, i8, i8)")
 def _enter(ws: Workspace, row: int, declared: int) -> bool:
-    """Put a declared contact of a row into the next slot, unless it is empty; return 0 if there is no slot."""
+    """Make a declared contact of a row active, if it has features. False if there is no slot left."""
     if has_no_features(ws, row, declared):
         return True
     if ws.island.n_contacts == ws.model.n_slots:
@@ -43,10 +48,10 @@ def _enter(ws: Workspace, row: int, declared: int) -> bool:
     write_history(ws, contact)
     contact.is_touching = False
     contact.version_a = NOT_EVALUATED
-    # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
+    # a kinematics leaves out numbers that are always zero; the contact that had the slot may have written them
     for i in range(PAIR):
         contact.geometry[i] = 0.0
-    # Jacobians keep zeros where other bodies of an articulation stand
+    # the Jacobians are zero in the columns of the other bodies of an articulation
     for side in range(2):
         n_u = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].n_u
         jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
@@ -58,7 +63,7 @@ def _enter(ws: Workspace, row: int, declared: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def _enter_row(ws: Workspace, row: int) -> bool:
-    """Enter all contacts of a row, unless its shapes are apart; return 0 if there is no slot."""
+    """Make all contacts of a row active, unless its shapes are apart. False if there are too few slots."""
     pair = ws.rows[row].pair
     if pair != NO_PAIR and ws.pairs[pair].is_apart:
         return True
@@ -69,10 +74,10 @@ def _enter_row(ws: Workspace, row: int) -> bool:
 
 
 @kernel("b1(ws, i8, i8)")
-def _enter_pair(ws: Workspace, one: int, two: int) -> bool:
-    """Enter the contacts of two units, if there are any; return 0 if there is no slot."""
-    unit = ws.spheres[one]
-    low, high = unit.first_partner, unit.end_partner
+def _enter_spheres(ws: Workspace, one: int, two: int) -> bool:
+    """Make the contacts of the shapes in two bounding spheres active. False if there are too few slots."""
+    sphere = ws.spheres[one]
+    low, high = sphere.first_partner, sphere.end_partner
     end = high
     while low < high:
         middle = (low + high) // 2
@@ -90,7 +95,7 @@ def _enter_pair(ws: Workspace, one: int, two: int) -> bool:
 
 @kernel("b1(F, i8)")
 def _is_still(floats: Floats, place: int) -> bool:
-    """Return 1 if a frame neither moves nor begins to."""
+    """True if a frame has no velocity and no acceleration."""
     frame = frame_at(floats, place)
     moves = dot(frame.velocity, frame.velocity) + dot(frame.spin, frame.spin)
     moves += dot(frame.acceleration, frame.acceleration) + dot(frame.spin_acceleration, frame.spin_acceleration)
@@ -99,27 +104,27 @@ def _is_still(floats: Floats, place: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def _is_clear(ws: Workspace, number: int) -> bool:
-    """Return 1 if the ball of a unit is farther above a wall at rest than the margin: a closed contact has none."""
-    wall = ws.half_spaces[number]
-    frame, unit = frame_at(ws.floats, wall.frame), ws.spheres[wall.sphere]
+    """True if a sphere is farther above a half-space at rest than the margin: none of its contacts is closed."""
+    half_space = ws.half_spaces[number]
+    frame, sphere = frame_at(ws.floats, half_space.frame), ws.spheres[half_space.sphere]
     third = frame.rotation[2], frame.rotation[5], frame.rotation[8]
-    height = dot(third, minus(unit.place, frame.origin)) - wall.ceiling
-    return height - unit.radius > ws.island.list_margin
+    height = dot(third, minus(sphere.place, frame.origin)) - half_space.ceiling
+    return height - sphere.radius > ws.island.list_margin
 
 
 @kernel("f8(ws, i8, i8)")
 def _begin(ws: Workspace, number: int, axis: int) -> float:
-    """Return where the ball of a unit begins along an axis."""
-    unit = ws.spheres[number]
-    return float(unit.places[axis] - unit.radius)
+    """Least coordinate of a bounding sphere along an axis [m]."""
+    sphere = ws.spheres[number]
+    return float(sphere.places[axis] - sphere.radius)
 
 
 @kernel("void(ws, i8)")
-def _sort_units(ws: Workspace, axis: int) -> None:
-    """Sort the units by where their balls begin along an axis; they nearly are, from the last time."""
+def _sort_spheres(ws: Workspace, axis: int) -> None:
+    """Sort the spheres by their least coordinates along an axis. They are nearly sorted from the last time."""
     for i in range(1, ws.model.n_spheres):
-        unit = ws.island.sphere_order[i]
-        begin = _begin(ws, unit, axis)
+        number = ws.island.sphere_order[i]
+        begin = _begin(ws, number, axis)
         j = i - 1
         while j >= 0:
             other = ws.island.sphere_order[j]
@@ -127,11 +132,12 @@ def _sort_units(ws: Workspace, axis: int) -> None:
                 break
             ws.island.sphere_order[j + 1] = other
             j -= 1
-        ws.island.sphere_order[j + 1] = unit
+        ws.island.sphere_order[j + 1] = number
 
 
 @kernel("i8(ws)")
 def _widest_axis(ws: Workspace) -> int:
+    """Axis along which the centres of the spheres extend farthest: 0, 1 or 2."""
     best, widest = 0, -1.0
     for axis in range(3):
         low, high = math.inf, -math.inf
@@ -177,7 +183,7 @@ def list_with(ws: Workspace, touching: int) -> Status:
 
 @entry_point("Status(ws)")
 def fill_list(ws: Workspace) -> Status:
-    """Fill the slots for the present state; return the status.
+    """Make the list at the present state, by the pairs that are known to be apart; return the status.
 
     With the status ``LIST_FULL`` the histories are kept, and the call can be repeated in a memory with more slots.
     """
@@ -190,11 +196,11 @@ def fill_list(ws: Workspace) -> Status:
         ws.island.n_histories = 0
         return Status.RUNNING
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-    for unit in ws.spheres:
-        frame = frame_at(ws.floats, unit.frame)
-        unit.place = frame.origin
+    for sphere in ws.spheres:
+        frame = frame_at(ws.floats, sphere.frame)
+        sphere.place = frame.origin
         for i in range(9):
-            unit.axes[i] = frame.rotation[i]
+            sphere.axes[i] = frame.rotation[i]
     margin = ws.island.list_margin
     ws.island.list_margin = min(ws.options.widest_margin, 2.0 * ws.island.list_margin)
     status = find_candidates(ws)
@@ -205,61 +211,62 @@ def fill_list(ws: Workspace) -> Status:
         return status
     frame = still = -1
     for i in range(ws.model.n_half_spaces):
-        wall = ws.half_spaces[i]
-        # the walls of one frame follow one another
-        if wall.frame != frame:
-            frame, still = wall.frame, _is_still(ws.floats, wall.frame)
-        clear = still == 1 and wall.is_steady and _is_clear(ws, i)
-        if not clear and not _enter_row(ws, wall.row):
+        half_space = ws.half_spaces[i]
+        # the half-spaces of one frame are adjacent
+        if half_space.frame != frame:
+            frame, still = half_space.frame, _is_still(ws.floats, half_space.frame)
+        clear = still == 1 and half_space.is_steady and _is_clear(ws, i)
+        if not clear and not _enter_row(ws, half_space.row):
             return _full(ws, margin)
     axis = _widest_axis(ws)
-    _sort_units(ws, axis)
+    _sort_spheres(ws, axis)
     for i in range(ws.model.n_spheres):
         one = ws.island.sphere_order[i]
-        unit = ws.spheres[one]
-        end = unit.places[axis] + unit.radius + ws.island.list_margin
+        sphere = ws.spheres[one]
+        end = sphere.places[axis] + sphere.radius + ws.island.list_margin
         for j in range(i + 1, ws.model.n_spheres):
             two = ws.island.sphere_order[j]
             if _begin(ws, two, axis) > end:
                 break
-            if are_near(ws, one, two) and not _enter_pair(ws, min(one, two), max(one, two)):
+            if are_near(ws, one, two) and not _enter_spheres(ws, min(one, two), max(one, two)):
                 return _full(ws, margin)
     ws.island.n_histories = 0
     return Status.RUNNING
 
 
 @kernel("f8(ws, i8)")
-def _way(ws: Workspace, number: int) -> float:
-    """Return how far a unit is from where it was listed, and its farthest point if turning counts."""
-    unit = ws.spheres[number]
-    frame = frame_at(ws.floats, unit.frame)
-    way, lever = distance(frame.origin, unit.place), unit.feature_radius
-    if lever > 0.0:
+def _displacement(ws: Workspace, number: int) -> float:
+    """Displacement of a sphere since the list was made [m], that of its features included if they are searched for."""
+    sphere = ws.spheres[number]
+    frame = frame_at(ws.floats, sphere.frame)
+    moved, radius = distance(frame.origin, sphere.place), sphere.feature_radius
+    if radius > 0.0:
         square = 0.0
         for i in range(9):
-            square += (frame.rotation[i] - unit.axes[i]) ** 2
-        way += lever * math.sqrt(0.5 * square)
-    return float(way)
+            square += (frame.rotation[i] - sphere.axes[i]) ** 2
+        moved += radius * math.sqrt(0.5 * square)
+    return float(moved)
 
 
 @kernel("f8(ws, i8)")
-def _unit_speed(ws: Workspace, number: int) -> float:
-    unit = ws.spheres[number]
-    frame = frame_at(ws.floats, unit.frame)
+def _speed(ws: Workspace, number: int) -> float:
+    """Speed of a sphere, that of its features included if they are searched for [m/s]."""
+    sphere = ws.spheres[number]
+    frame = frame_at(ws.floats, sphere.frame)
     speed = math.sqrt(dot(frame.velocity, frame.velocity))
-    if unit.feature_radius > 0.0:
-        speed += unit.feature_radius * math.sqrt(dot(frame.spin, frame.spin))
+    if sphere.feature_radius > 0.0:
+        speed += sphere.feature_radius * math.sqrt(dot(frame.spin, frame.spin))
     return speed
 
 
 @kernel("f8(ws)")
 def longest_step(ws: Workspace) -> float:
-    """Return for how long the list holds, the bodies being evaluated; 0 if it must be drawn anew."""
+    """Time for which the list is valid [s], 0 if it must be made anew. Bodies must be evaluated."""
     longest = math.inf
     for number in range(ws.model.n_spheres):
-        unit, way, speed = ws.spheres[number], _way(ws, number), _unit_speed(ws, number)
-        left = 0.5 * ws.island.list_margin - way
-        unit.distance, unit.speed = way, speed
+        sphere, moved, speed = ws.spheres[number], _displacement(ws, number), _speed(ws, number)
+        left = 0.5 * ws.island.list_margin - moved
+        sphere.distance, sphere.speed = moved, speed
         if left < 0.5 * (1.0 - _SPENT) * ws.island.list_margin:
             return 0.0
         if speed * longest * _ACCELERATION > left:
@@ -269,12 +276,13 @@ def longest_step(ws: Workspace) -> float:
 
 @kernel("b1(ws, f8)")
 def overran_list(ws: Workspace, h: float) -> bool:
-    """Return 1 if some unit may have left its way in a step of ``h``, the bodies being evaluated at its end.
+    """True if a sphere may have moved too far in a step of ``h`` [s]. Bodies must be evaluated at its end.
 
-    No point of a path of length l between two points is farther off than half of l and of the ends' distances.
+    On a path of length l between two points, the distance from a third point is at most half of l plus half the sum of
+    the distances of both ends.
     """
-    for unit in ws.spheres:
-        path = h * max(unit.speed, _unit_speed(ws, unit.index))
-        if unit.distance + _way(ws, unit.index) + path > ws.island.list_margin:
+    for sphere in ws.spheres:
+        path = h * max(sphere.speed, _speed(ws, sphere.index))
+        if sphere.distance + _displacement(ws, sphere.index) + path > ws.island.list_margin:
             return True
     return False
