@@ -101,7 +101,6 @@ def _evaluate(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
     """Evaluate the two bodies of a pair at the fraction ``theta`` of the step of ``h`` [s]."""
     evaluate_within(ws, h, theta, ws.carriers[pair.carrier_a].body)
     evaluate_within(ws, h, theta, ws.carriers[pair.carrier_b].body)
-    ws.totals.n_gap_evaluations += 1
 
 
 @kernel("f8(ws, f8, f8, Pair)")

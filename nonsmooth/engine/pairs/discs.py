@@ -62,7 +62,9 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
     current = to_part(ws.floats, pair.frame_a, pair.part_a, between)
-    previous = pair.between if pair.margin > 0.0 else current
+    # a pair that was watched in the last step has not met, on whatever curve the centre moved
+    is_known = pair.margin > 0.0 and not ws.pairs[pair.group].is_watched
+    previous = pair.between if is_known else current
     pair.between = current
     offset = _offset_in_plane(previous, current, pair.allowed)
     if offset < 0.0:

@@ -71,7 +71,7 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     size: float = real(_PARAMETER, "m", "Size of the smaller part.")
     margin: float = real(_REUSED, "m", "Distance that the parts may move before the pair is evaluated again.")
     is_searched: bool = question(Life.STEP, "The step is searched for its first meeting.")
-    is_watched: bool = question(Life.STEP, "Its separation is watched within the step, in place of its contacts.")
+    is_watched: bool = question(_REUSED, "Its separation is watched within the step, in place of its contacts.")
     level: float = real(Life.STEP, "m", "Separation at which it meets in the step.")
     begin: float = real(Life.STEP, "1", "Fraction of the step from which its separation is watched.")
     is_near: bool = question(Life.STEP, "Its shapes touch within the tolerances.")
