@@ -16,6 +16,7 @@ from nonsmooth.engine.events.averaging import (
     end_averaging,
     is_stalled,
 )
+from nonsmooth.engine.events.causes import cause_at_start, cause_of, cause_of_closing
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import NO_PHASES, begin_event, record_event, record_samples
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
@@ -28,12 +29,10 @@ from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
-    contact_at,
     contact_of,
     end_of,
     first_end_guard,
     first_user_guard,
-    is_friction_guard,
     normal_of,
 )
 from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
@@ -48,57 +47,12 @@ from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE, NO_PAIR
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Limit, Mode, Status
-from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import length
 from nonsmooth.engine.pairs.apart import find_apart
 from nonsmooth.engine.pairs.listing import list_touching, list_with, longest_step
 from nonsmooth.engine.pairs.motion import bound_carriers
-
-_VANISHED = 1e-9
-"""Normal force up to which friction at its static bound means a lift-off, relative to the force at the step's start.
-
-The static bound vanishes with the normal force. So friction reaches the bound in every lift-off, too.
-"""
-
-
-@kernel("Cause(ContactRecord)")
-def _cause_of_closing(contact: ContactRecord) -> Cause:
-    """Cause of the event in which a contact closes: a rigid one collides, a compliant one only touches."""
-    return Cause.TOUCH if contact.is_compliant else Cause.IMPACT
-
-
-@kernel("Cause(ws, i8)")
-def cause_of(ws: Workspace, guard: int) -> Cause:
-    """Cause of the event in which guard ``guard``, a normal or friction guard, fires.
-
-    The static bound vanishes with the normal force. So friction that reaches the bound at zero force is a lift-off.
-    """
-    contact = contact_at(ws, guard)
-    # the normal guard is the gap of an open contact, and the force of a closed one
-    if not is_friction_guard(ws, guard):
-        return _cause_of_closing(contact) if contact.mode == Mode.OPEN else Cause.LIFT_OFF
-    if contact.mode != Mode.STICK:
-        return Cause.SLIP_TO_STICK
-    normal = normal_of(ws, contact)
-    return Cause.LIFT_OFF if normal.value <= _VANISHED * normal.initial else Cause.STICK_TO_SLIP
-
-
-@kernel("Cause(ws, i8)")
-def cause_at_start(ws: Workspace, which: int) -> Cause:
-    """Cause of an event of contact ``which`` at the start of a step: its gap is closed, or a guard is negative."""
-    contact = ws.contacts[which]
-    # the only guard of an open contact is its gap
-    if contact.mode == Mode.OPEN:
-        return _cause_of_closing(contact)
-    # each guard's at_end is its value at the end of the last step, which is the start of this one.
-    # a negative end guard means that the contact point is past the end of an edge or a face
-    if end_of(ws, contact).at_end < 0.0:
-        return Cause.FEATURE_END
-    # two causes remain: a negative normal guard (the contact pulls), or a negative friction guard (beyond the bound)
-    pulls = normal_of(ws, contact).at_end < 0.0
-    return Cause.LIFT_OFF if pulls else Cause.STICK_TO_SLIP
-
 
 _SPACINGS = 4.0 * 2.0**-52
 """Least difference of two times, relative to the time: a smaller difference is round-off."""
@@ -223,7 +177,7 @@ def _meet(ws: Workspace, h: float) -> Status:
     # no feature touches: the features of the parts are evaluated from now on, as they are next to each other
     if which == NO_CONTACT:
         return Status.RUNNING
-    return _carry_out(ws, _cause_of_closing(ws.contacts[which]), which)
+    return _carry_out(ws, cause_of_closing(ws.contacts[which]), which)
 
 
 @kernel("Status(ws)")
