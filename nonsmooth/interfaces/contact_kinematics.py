@@ -65,6 +65,16 @@ class ContactKinematics(Component, ABC):
         """Plain function ``evaluate(a, b, out, ...)`` that writes the geometry block of the contact: point 2 above."""
 
     @property
+    def bound(self) -> Callable[..., None] | None:
+        """Plain function that tells how far the bodies must move before the contact can close; None if that is unknown.
+
+        ``bound(a, b, out, ...)`` has the arguments of the evaluator. It writes to ``out[0]`` a distance [m]: the
+        contact stays open while the largest displacements of a point of either body add up to less. Among convex
+        bodies a contact is left out until they have moved that far.
+        """
+        return None
+
+    @property
     def candidates(self) -> CandidateSearch | None:
         """Search that finds the pair of features of this contact; None if the pair never changes."""
         return None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -276,9 +276,37 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
     if is_geometry and contact.kinematics.candidates is not None:
         # what a search finds: kind and numbers of two features, and the distance up to which they are valid
         block.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
+    if is_geometry and (bound := contact.kinematics.bound) is not None:
+        made.fields[_CONTACT.bound_function] = _address_of_bound(contact, bound, values, tables)
     if with_state is not None:
         place = start + _place_of_state(with_state, values)
         block.mark_written(_CONTACT.inner_states_copy, place, len(with_state.initial_state))
+
+
+def _address_of_bound(
+    contact: Contact, bound: Callable[..., None], values: Sequence[float], tables: Mapping[str, SharedNumbers]
+) -> int:
+    """Compile the bound of a contact, which reads the parameters of its evaluator, ``values``; return the address.
+
+    Raises
+    ------
+    InvalidInput
+        If its arguments are not those of the evaluator.
+    """
+    kinematics = contact.kinematics
+    wanted, found = (parameter_names(function, "pair") for function in (kinematics.evaluator, bound))
+    if found != wanted:
+        raise InvalidInput(
+            f"{type(kinematics).__name__}.bound",
+            "must have the arguments of the evaluator",
+            found,
+            f"Name its arguments after a, b and out {', '.join(wanted)}.",
+        )
+    owner, available = f"{type(kinematics).__name__} ({contact})", kinematics.parameters()
+    # a trial of each bound would take longer than all the rest
+    if not tables:
+        try_out(bound, "pair", available, values, PAIR, owner, FRAMES)
+    return bind(bound, "pair", {**available, **dict.fromkeys(tables, ())}, owner)[0]
 
 
 def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) -> None:

@@ -140,6 +140,32 @@ def _evaluate(
     write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
 
 
+def _bound(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    n_faces: float,
+    faces: Floats,
+    n_edges: float,
+    edges: Floats,
+    ends: Floats,
+    sweep: float,
+    x_v: float,
+    y_v: float,
+    z_v: float,
+    n_star: float,
+    star: Floats,
+    radius: float,
+    size: float,
+) -> None:
+    own, other = (a, b) if swap == 1.0 else (b, a)
+    px, py, pz = point_in_world(own, x_v, y_v, z_v)
+    x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
+    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    out[0] = distance - sweep - radius
+
+
 write_vertex = compiled(_evaluate)
 """Compiled function that writes the geometry block of a vertex over a swept core; other contacts call it, too."""
 
@@ -246,6 +272,11 @@ class SweptVertex(ContactKinematics):
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
         return _evaluate
+
+    @property
+    def bound(self) -> Callable[..., None]:
+        """Distance of the vertex from the core, less both radii."""
+        return _bound
 
     @property
     def features(self) -> tuple[str, ...]:

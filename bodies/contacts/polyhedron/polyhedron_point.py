@@ -17,7 +17,7 @@ from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Polytope
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.polytope_tables import FACE, Numbers, face_table, vertex_table
-from ..features.vertex_face import nearest_face
+from ..features.vertex_face import height_over, nearest_face
 from ..features.writing import write_flat, write_round
 from .polyhedron_sphere import PolyhedronSphere
 
@@ -73,6 +73,38 @@ def _evaluate_reversed(
     _write_face_tangent(b, out, faces, f)
     write_round(out, SIDE_A, 0.0)
     write_flat(out, SIDE_B)
+
+
+def _bound(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    vertex: float,
+    size: float,
+) -> None:
+    v = 3 * int(vertex)
+    px, py, pz = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
+    out[0] = height_over(a, n_faces, faces, px, py, pz)
+
+
+def _bound_reversed(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    vertex: float,
+    size: float,
+) -> None:
+    v = 3 * int(vertex)
+    px, py, pz = point_in_world(a, vertices[v], vertices[v + 1], vertices[v + 2])
+    out[0] = height_over(b, n_faces, faces, px, py, pz)
 
 
 @dataclass(frozen=True)
@@ -141,6 +173,11 @@ class PolyhedronPoint(ContactKinematics):
         return _evaluate
 
     @property
+    def bound(self) -> Callable[..., None]:
+        """The height of the vertex over the faces."""
+        return _bound
+
+    @property
     def features(self) -> tuple[str, ...]:
         """Names of the pairs of features: each face of the polyhedron with the vertex of the other body."""
         return self.tables.features
@@ -181,6 +218,11 @@ class PointPolyhedron(ContactKinematics):
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
         return _evaluate_reversed
+
+    @property
+    def bound(self) -> Callable[..., None]:
+        """The height of the vertex over the faces."""
+        return _bound_reversed
 
     @property
     def features(self) -> tuple[str, ...]:

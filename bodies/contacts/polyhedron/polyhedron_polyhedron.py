@@ -16,6 +16,7 @@ from nonsmooth.types import Floats
 
 from ...blocks import put
 from ...shapes.polyhedron import Polyhedron
+from ..features.bounds import edges_bound
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
 from ..features.vertex_face import CLOSED, DEEP, height_over
@@ -139,6 +140,21 @@ def _evaluate(
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, 0.0)
 
 
+def _bound(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    size: float,
+) -> None:
+    out[0] = edges_bound(a, b, edge_a, edge_b, True)
+
+
 @final
 @dataclass(frozen=True)
 class PolyhedronPolyhedron(ContactKinematics):
@@ -216,6 +232,11 @@ class PolyhedronPolyhedron(ContactKinematics):
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
         return _evaluate
+
+    @property
+    def bound(self) -> Callable[..., None]:
+        """Distance of the edges, and of their normals."""
+        return _bound
 
     @property
     def features(self) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from nonsmooth.types import Floats
 
 from ...blocks import put
 from ...shapes.polyhedron import SweptPolytope
+from ..features.bounds import edges_bound
 from ..features.frames import point_in_world, tangent_of, vector_in_world, write_tangent
 from ..features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
 from ..features.swept_vertex import END, SweptVertex, size_of
@@ -110,6 +111,23 @@ def _evaluate(
     write_principal(out, SIDE_B, fx, fy, fz, 0.0, 1.0, 1.0, radius_b)
 
 
+def _bound(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    radius_a: float,
+    radius_b: float,
+    size: float,
+) -> None:
+    out[0] = edges_bound(a, b, edge_a, edge_b, n_faces_a > 0.0 and n_faces_b > 0.0) - radius_a - radius_b
+
+
 @final
 @dataclass(frozen=True)
 class SweptSwept(ContactKinematics):
@@ -186,6 +204,11 @@ class SweptSwept(ContactKinematics):
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
         return _evaluate
+
+    @property
+    def bound(self) -> Callable[..., None]:
+        """Distance of the edges, and of their normals."""
+        return _bound
 
     @property
     def features(self) -> tuple[str, ...]:

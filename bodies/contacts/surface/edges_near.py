@@ -7,7 +7,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
+from ..features.bounds import square_of_lines
 from ..features.frames import vector_in_body, vector_in_world
 from .surface_edges import edge_astray
 from .surface_near import is_node_near, seen_from
@@ -36,20 +36,6 @@ def _passes_box(
         if two < d:
             high = min(high, two / d)
     return low <= high
-
-
-@compiled
-def _square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
-    """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q."""
-    (wx, wy, wz), (ex, ey, ez), (fx, fy, fz) = w, e, f
-    across = ex * fx + ey * fy + ez * fz
-    along_e, along_f = wx * ex + wy * ey + wz * ez, wx * fx + wy * fy + wz * fz
-    sine = 1.0 - across * across
-    s = min(max((along_e - across * along_f) / sine, 0.0), p) if sine > 0.0 else 0.0
-    t = min(max(s * across - along_f, 0.0), q)
-    s = min(max(along_e + t * across, 0.0), p)
-    x, y, z = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
-    return x * x + y * y + z * z
 
 
 @compiled
@@ -107,7 +93,7 @@ def edges_across(
             one = int(surface[EDGES]) + EDGE * e
             wx, wy, wz = px - surface[one], py - surface[one + 1], pz - surface[one + 2]
             ex, ey, ez, p = surface[one + 3], surface[one + 4], surface[one + 5], surface[one + 6]
-            square = _square_of_lines((wx, wy, wz), (ex, ey, ez), p, (fx, fy, fz), q)
+            square = square_of_lines((wx, wy, wz), (ex, ey, ez), p, (fx, fy, fz), q)
             if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
                 out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, float(e), number
                 n += 1

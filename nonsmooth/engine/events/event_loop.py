@@ -200,7 +200,7 @@ def _step(ws: Workspace) -> Status:
     which = _due_at_start(ws)
     if which >= 0:
         return _carry_out(ws, cause_at_start(ws, which), which)
-    ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else math.inf
+    ws.step.listed_step = longest_step(ws)
     if ws.step.listed_step == 0.0:
         return list_touching(ws)
     orient_slips(ws, at_end=True)

@@ -142,7 +142,7 @@ def _limit(ws: Workspace, wanted: float, h: float) -> Limit:
 @kernel("b1(ws, f8)")
 def _overran(ws: Workspace, h: float) -> bool:
     """True if the bodies move farther in the step of ``h`` [s] than the neighbour list is valid for."""
-    if ws.model.n_spheres == 0:
+    if ws.model.n_spheres + ws.model.n_pairs == 0:
         return False
     evaluate_driven_bodies(ws, ws.island.time + h, ws.step.y_new.start)
     return overran_list(ws, h)

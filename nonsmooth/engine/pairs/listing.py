@@ -21,18 +21,45 @@ from nonsmooth.engine.bodies.declared import store_histories, write_history, wri
 from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
 from nonsmooth.engine.memory.blocks import PAIR
 from nonsmooth.engine.memory.layout import NO_PAIR
-from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.native.kernel import Floats, Workspace, entry_point, frame_at, kernel
+from nonsmooth.engine.memory.modes import Mode, Status
+from nonsmooth.engine.native.kernel import (
+    ContactRecord,
+    Floats,
+    Pair,
+    Workspace,
+    at,
+    call_pair,
+    entry_point,
+    frame_at,
+    kernel,
+)
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 from nonsmooth.engine.pairs.apart import find_apart
 from nonsmooth.engine.pairs.candidates import are_near, find_candidates, has_no_features
+from nonsmooth.engine.pairs.motion import speed_of_parts
+from nonsmooth.engine.pairs.overlaps import displacement_bound, known_separation
 
 _SPENT = 0.6
 """Part of the allowed displacement of a sphere after which the list is made anew."""
 _NARROWEST = 2.0**-12
 """Least margin of the list, relative to the widest one, if there are more candidate features than contacts for them."""
+_REACH = 0.1
+"""Displacement of two convex shapes for which a list is enough, relative to the size of the smaller one.
+
+A larger one lists more contacts, a smaller one lists them more often."""
 _ACCELERATION = 2.0
 """Assumed ratio of the speed of a sphere within a step to that at its start. The end of the step is checked."""
+
+
+@kernel("b1(ws, ContactRecord)")
+def _is_far(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if an open contact of convex shapes stays open while these move by the reach of their pair."""
+    if contact.mode != Mode.OPEN or contact.bound_function == 0 or contact.pair == NO_PAIR:
+        return False
+    a, b = at(ws.floats, contact.frame_a), at(ws.floats, contact.frame_b)
+    call_pair(contact.bound_function, a, b, at(ws.floats, contact.geometry_parameters), contact.geometry)
+    # the first number of the block is the bound
+    return bool(contact.gap - contact.reach > ws.pairs[contact.pair].reach)
 
 
 @kernel("b1(ws, i8, i8)")
@@ -46,6 +73,8 @@ def _enter(ws: Workspace, row: int, declared: int) -> bool:
     contact = ws.contacts[c]
     write_parameters(ws, row, declared, contact)
     write_history(ws, contact)
+    if _is_far(ws, contact):
+        return True
     contact.is_touching = False
     contact.version_a = NOT_EVALUATED
     # a kinematics leaves out numbers that are always zero; the contact that had the slot may have written them
@@ -162,7 +191,7 @@ def _full(ws: Workspace, margin: float) -> Status:
 def list_near(ws: Workspace) -> Status:
     """List the contacts of all bodies near each other, whether their shapes are apart or not; return the status."""
     for pair in ws.pairs:
-        pair.is_apart = False
+        pair.is_apart, pair.reach = False, math.inf
     return fill_list(ws)
 
 
@@ -178,6 +207,11 @@ def list_with(ws: Workspace, touching: int) -> Status:
     # the pairs need the bodies, and the modes of the contacts that are listed
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     find_apart(ws, touching)
+    for pair in ws.pairs:
+        # compliant bodies may overlap, and their features be as deep in each other
+        depth = max(0.0, -known_separation(ws, pair.index)) if pair.is_guarded and not pair.is_apart else 0.0
+        pair.reach = _REACH * pair.size + depth if pair.is_guarded else math.inf
+        pair.listed = displacement_bound(ws, pair)
     return fill_list(ws)
 
 
@@ -190,12 +224,12 @@ def fill_list(ws: Workspace) -> Status:
     store_histories(ws)
     ws.island.follows_a_step = False
     ws.totals.n_listings += 1
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     if ws.model.n_spheres == 0:
         for row in range(ws.model.n_rows):
             _enter_row(ws, row)
         ws.island.n_histories = 0
         return Status.RUNNING
-    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for sphere in ws.spheres:
         frame = frame_at(ws.floats, sphere.frame)
         sphere.place = frame.origin
@@ -271,7 +305,22 @@ def longest_step(ws: Workspace) -> float:
             return 0.0
         if speed * longest * _ACCELERATION > left:
             longest = left / (_ACCELERATION * speed)
+    for pair in ws.pairs:
+        if not _is_limited(ws, pair):
+            continue
+        left = pair.listed + pair.reach - displacement_bound(ws, pair)
+        speed = speed_of_parts(ws, ws.carriers[pair.carrier_a]) + speed_of_parts(ws, ws.carriers[pair.carrier_b])
+        if left < (1.0 - _SPENT) * pair.reach:
+            return 0.0
+        if speed * longest * _ACCELERATION > left:
+            longest = left / (_ACCELERATION * speed)
     return longest
+
+
+@kernel("b1(ws, Pair)")
+def _is_limited(ws: Workspace, pair: Pair) -> bool:
+    """True if a displacement of two parts limits the time for which their listed contacts are enough."""
+    return pair.is_guarded and pair.index == pair.group and not pair.is_apart and pair.reach < math.inf
 
 
 @kernel("b1(ws, f8)")
@@ -285,4 +334,10 @@ def overran_list(ws: Workspace, h: float) -> bool:
         path = h * max(sphere.speed, _speed(ws, sphere.index))
         if sphere.distance + _displacement(ws, sphere.index) + path > ws.island.list_margin:
             return True
+    for pair in ws.pairs:
+        if _is_limited(ws, pair):
+            a, b = ws.carriers[pair.carrier_a], ws.carriers[pair.carrier_b]
+            path = h * (max(a.speed_at_start, speed_of_parts(ws, a)) + max(b.speed_at_start, speed_of_parts(ws, b)))
+            if displacement_bound(ws, pair) + path > pair.listed + pair.reach:
+                return True
     return False

@@ -18,7 +18,7 @@ import math
 
 from nonsmooth.engine.bodies.support import known_direction, support_offset, turned
 from nonsmooth.engine.memory.blocks import FRAME
-from nonsmooth.engine.native.kernel import Pair, Workspace, frame_at, kernel
+from nonsmooth.engine.native.kernel import Carrier, Pair, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 
@@ -148,9 +148,15 @@ def acceleration_bound(ws: Workspace, pair: Pair, du: int) -> float:
     return _size(linear) + (_size(angular) + dot(spin, spin)) * ws.carriers[pair.carrier_b].radius
 
 
+@kernel("f8(ws, Carrier)")
+def speed_of_parts(ws: Workspace, carrier: Carrier) -> float:
+    """Bound of the speed of all points of the parts of a carrier [m/s]. Its body must be evaluated."""
+    frame = frame_at(ws.floats, carrier.frame)
+    return _size(frame.velocity) + _size(frame.spin) * carrier.radius
+
+
 @kernel()
 def bound_carriers(ws: Workspace) -> None:
     """Write bounds of the speeds of all parts of each carrier at the end of a step [m/s]. Bodies must be evaluated."""
     for carrier in ws.carriers:
-        frame = frame_at(ws.floats, carrier.frame)
-        carrier.speed_at_end = _size(frame.velocity) + _size(frame.spin) * carrier.radius
+        carrier.speed_at_end = speed_of_parts(ws, carrier)

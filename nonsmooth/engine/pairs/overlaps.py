@@ -71,12 +71,12 @@ def add_displacements(ws: Workspace) -> None:
         carrier.distance += distance(frame.origin, carrier.place) + carrier.radius * math.sqrt(0.5 * square)
         carrier.place = frame.origin
         farthest = max(farthest, carrier.distance)
-    # with a margin of 0 every pair is evaluated anew
+    # with a margin of 0 every pair is evaluated anew, and the list is made anew
     if farthest > _LARGEST_DISPLACEMENT:
         for carrier in ws.carriers:
             carrier.distance = 0.0
         for pair in ws.pairs:
-            pair.margin = 0.0
+            pair.margin, pair.listed = 0.0, -math.inf
 
 
 @kernel("f8(ws, Pair)")

@@ -62,6 +62,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     reach: float = real(_PARAMETER, "m", "Gap up to which a compliant contact acts.")
     geometry_function: int = address(_PARAMETER, "Address of the function that writes the geometry.")
     geometry_parameters: int = whole(_PARAMETER, "Offset of the parameters of the geometry.")
+    bound_function: int = address(_PARAMETER, "Address of the function that bounds how soon the contact closes, or 0.")
     is_compliant: bool = question(_PARAMETER, "Normal force depends on gap and rate.", inside=("normal_function", 0))
     normal_function: int = address(_PARAMETER, "Address of the normal law of a compliant contact, else 0.")
     geometry: Floats = row(_REUSED, blocks.GEOMETRY, "", "Block that the kinematics writes, by parts below.")

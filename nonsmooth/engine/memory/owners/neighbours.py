@@ -69,6 +69,8 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     are_both_flat: bool = question(_PARAMETER, "Both parts are discs without thickness.")
     allowed: float = real(_PARAMETER, "m", "Overlap that the laws of the pair allow.")
     size: float = real(_PARAMETER, "m", "Size of the smaller part.")
+    reach: float = real(_REUSED, "m", "Displacement of the parts for which the listed contacts are enough.")
+    listed: float = real(_REUSED, "m", "Bound of the displacement of the parts when the contacts were listed.")
     margin: float = real(_REUSED, "m", "Distance that the parts may move before the pair is evaluated again.")
     is_searched: bool = question(Life.STEP, "The step is searched for its first meeting.")
     is_watched: bool = question(_REUSED, "Its separation is watched within the step, in place of its contacts.")

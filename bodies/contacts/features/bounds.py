@@ -1,0 +1,109 @@
+"""How far two bodies must move before a vertex and a face, or two edges, can touch.
+
+A contact that cannot close before the bodies have moved by the margin of its pair needs no place among the active ones.
+A bound is at most the sum of the largest displacements of a point of either body until the features touch:
+
+1. The distance of two features decreases by no more than their points move.
+2. Two convex edges touch only along a common normal. The normals of an edge are an arc between those of its faces. If
+   the arcs of both edges are an angle apart, the bodies must turn by that angle first. A body that turns by an angle
+   displaces one of its points by at least half of the length of any of its edges times the angle, about any centre.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from .frames import point_in_world, vector_in_world
+from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
+
+
+@compiled
+def _dot(a: Vector3, b: Vector3) -> float:
+    """Return the product of two vectors."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@compiled
+def _cross(a: Vector3, b: Vector3) -> Vector3:
+    """Return the cross product of two vectors."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@compiled
+def square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
+    """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q."""
+    across, along_e, along_f = _dot(e, f), _dot(w, e), _dot(w, f)
+    sine = 1.0 - across * across
+    s = min(max((along_e - across * along_f) / sine, 0.0), p) if sine > 0.0 else 0.0
+    t = min(max(s * across - along_f, 0.0), q)
+    s = min(max(along_e + t * across, 0.0), p)
+    x, y, z = w[0] + t * f[0] - s * e[0], w[1] + t * f[1] - s * e[1], w[2] + t * f[2] - s * e[2]
+    return x * x + y * y + z * z
+
+
+@compiled
+def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends: tuple[Vector3, Vector3]) -> float:
+    """Return a lower bound of the angle between the unit vector ``n`` and the normals of an edge [rad].
+
+    ``along`` is the unit vector of the edge. ``inward`` are the unit vectors into its faces, ``ends`` the normals of
+    these.
+    """
+    if max(_dot(n, inward[0]), _dot(n, inward[1])) <= 0.0:
+        # n is above the arc: the sine of its angle with the plane of the arc
+        return abs(_dot(n, along))
+    nearest = math.inf
+    for i in range(2):
+        end = ends[0] if i == 0 else ends[1]
+        x, y, z = n[0] - end[0], n[1] - end[1], n[2] - end[2]
+        # a chord is shorter than the angle
+        nearest = min(nearest, math.sqrt(x * x + y * y + z * z))
+    return nearest
+
+
+@compiled
+def _between_arcs(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats) -> float:
+    """Return a lower bound of the angle between the normals of one edge and the opposite normals of the other [rad]."""
+    e = vector_in_world(a, edge_a[ALONG], edge_a[ALONG + 1], edge_a[ALONG + 2])
+    f = vector_in_world(b, edge_b[ALONG], edge_b[ALONG + 1], edge_b[ALONG + 2])
+    into_a = (
+        vector_in_world(a, edge_a[INTO_FIRST], edge_a[INTO_FIRST + 1], edge_a[INTO_FIRST + 2]),
+        vector_in_world(a, edge_a[INTO_SECOND], edge_a[INTO_SECOND + 1], edge_a[INTO_SECOND + 2]),
+    )
+    # the vectors into the faces of the second body, reversed, for its opposite normals
+    into_b = (
+        vector_in_world(b, -edge_b[INTO_FIRST], -edge_b[INTO_FIRST + 1], -edge_b[INTO_FIRST + 2]),
+        vector_in_world(b, -edge_b[INTO_SECOND], -edge_b[INTO_SECOND + 1], -edge_b[INTO_SECOND + 2]),
+    )
+    ends_a = _cross(e, into_a[0]), _cross(into_a[1], e)
+    ends_b = _cross(f, into_b[0]), _cross(into_b[1], f)
+    c = _cross(e, f)
+    for sign in (1.0, -1.0):
+        x = sign * c[0], sign * c[1], sign * c[2]
+        # the arcs cross: the common normal belongs to both
+        if max(max(_dot(x, into_a[0]), _dot(x, into_a[1])), max(_dot(x, into_b[0]), _dot(x, into_b[1]))) <= 0.0:
+            return 0.0
+    return min(
+        min(_from_arc(ends_a[0], f, into_b, ends_b), _from_arc(ends_a[1], f, into_b, ends_b)),
+        min(_from_arc(ends_b[0], e, into_a, ends_a), _from_arc(ends_b[1], e, into_a, ends_a)),
+    )
+
+
+@compiled
+def edges_bound(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats, have_faces: bool) -> float:
+    """Return by how much the bodies must move before two edges touch [m].
+
+    Without faces (``have_faces``) an edge has all normals about it.
+    """
+    ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
+    bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
+    e = vector_in_world(a, edge_a[ALONG], edge_a[ALONG + 1], edge_a[ALONG + 2])
+    f = vector_in_world(b, edge_b[ALONG], edge_b[ALONG + 1], edge_b[ALONG + 2])
+    found = math.sqrt(square_of_lines((bx - ax, by - ay, bz - az), e, edge_a[LENGTH], f, edge_b[LENGTH]))
+    if have_faces:
+        radius = 0.5 * min(edge_a[LENGTH], edge_b[LENGTH])
+        found = max(found, radius * _between_arcs(a, b, edge_a, edge_b))
+    return found
