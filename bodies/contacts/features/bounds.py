@@ -86,24 +86,22 @@ def _between_arcs(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats) -> float
         # the arcs cross: the common normal belongs to both
         if max(max(_dot(x, into_a[0]), _dot(x, into_a[1])), max(_dot(x, into_b[0]), _dot(x, into_b[1]))) <= 0.0:
             return 0.0
-    return min(
+    found = min(
         min(_from_arc(ends_a[0], f, into_b, ends_b), _from_arc(ends_a[1], f, into_b, ends_b)),
         min(_from_arc(ends_b[0], e, into_a, ends_a), _from_arc(ends_b[1], e, into_a, ends_a)),
     )
+    return float(found)
 
 
 @compiled
-def edges_bound(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats, have_faces: bool) -> float:
+def edges_bound(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats) -> float:
     """Return by how much the bodies must move before two edges touch [m].
 
-    Without faces (``have_faces``) an edge has all normals about it.
+    Of an edge without faces, the segment of a capsule, only the distance counts: its vectors into the faces are 0.
     """
     ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
     bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
     e = vector_in_world(a, edge_a[ALONG], edge_a[ALONG + 1], edge_a[ALONG + 2])
     f = vector_in_world(b, edge_b[ALONG], edge_b[ALONG + 1], edge_b[ALONG + 2])
-    found = math.sqrt(square_of_lines((bx - ax, by - ay, bz - az), e, edge_a[LENGTH], f, edge_b[LENGTH]))
-    if have_faces:
-        radius = 0.5 * min(edge_a[LENGTH], edge_b[LENGTH])
-        found = max(found, radius * _between_arcs(a, b, edge_a, edge_b))
-    return found
+    distance = math.sqrt(square_of_lines((bx - ax, by - ay, bz - az), e, edge_a[LENGTH], f, edge_b[LENGTH]))
+    return float(max(distance, 0.5 * min(edge_a[LENGTH], edge_b[LENGTH]) * _between_arcs(a, b, edge_a, edge_b)))

@@ -14,7 +14,7 @@ from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball, patches_for_body
 from ...shapes.triangle_mesh import TriangleMesh
 from ..surface.mesh_point import MeshPoint, PointMesh
-from ..surface.surface_edges import evaluate_edges
+from ..surface.surface_edges import bound_of_edges, evaluate_edges
 from ..surface.surface_pairs import SurfacePairs
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
@@ -121,6 +121,11 @@ class MeshMesh(ContactKinematics):
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
         return evaluate_edges
+
+    @property
+    def bound(self) -> Callable[..., None]:
+        """Distance of the edges, and of their normals."""
+        return bound_of_edges
 
     @property
     def features(self) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from ...shapes.triangle_mesh import TriangleMesh
 from ..features.polytope_tables import edge_rows
 from ..features.polytope_tables import star_of as star_of_vertex
 from ..features.swept_vertex import SweptVertex
-from ..surface.surface_edges import evaluate_edges
+from ..surface.surface_edges import bound_of_edges, evaluate_edges
 from ..surface.surface_pairs import features_of_core
 from ..surface.surface_tables import star_of
 from .mesh_mesh import DEPARTURES, MeshEdges, are_many, sharp_contacts
@@ -70,6 +70,11 @@ class MeshSwept(ContactKinematics):
     def evaluator(self) -> Callable[..., None]:
         """The closed form."""
         return evaluate_edges
+
+    @property
+    def bound(self) -> Callable[..., None]:
+        """Distance of the edges, and of their normals."""
+        return bound_of_edges
 
     @property
     def features(self) -> tuple[str, ...]:

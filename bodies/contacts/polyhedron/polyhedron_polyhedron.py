@@ -152,7 +152,7 @@ def _bound(
     faces_b: Floats,
     size: float,
 ) -> None:
-    out[0] = edges_bound(a, b, edge_a, edge_b, True)
+    out[0] = edges_bound(a, b, edge_a, edge_b)
 
 
 @final

@@ -125,7 +125,7 @@ def _bound(
     radius_b: float,
     size: float,
 ) -> None:
-    out[0] = edges_bound(a, b, edge_a, edge_b, n_faces_a > 0.0 and n_faces_b > 0.0) - radius_a - radius_b
+    out[0] = edges_bound(a, b, edge_a, edge_b) - radius_a - radius_b
 
 
 @final

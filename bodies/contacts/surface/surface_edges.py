@@ -9,6 +9,7 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ...blocks import put
+from ..features.bounds import edges_bound
 from ..features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
 from ..features.vertex_face import CLOSED, DEEP
 from ..features.writing import write_principal
@@ -60,6 +61,21 @@ def evaluate_edges(
 ) -> None:
     """Write the geometry block of two edges, with their rows at index 0; other arguments as in :func:`write_edges`."""
     write_edges(a, b, out, edge_a, 0, edge_b, 0, surface_a, surface_b, radius, size)
+
+
+def bound_of_edges(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    edge_a: Floats,
+    edge_b: Floats,
+    surface_a: Floats,
+    surface_b: Floats,
+    radius: float,
+    size: float,
+) -> None:
+    """Write by how much the bodies must move before two edges touch [m]; arguments as in :func:`evaluate_edges`."""
+    out[0] = edges_bound(a, b, edge_a, edge_b) - radius
 
 
 @compiled
