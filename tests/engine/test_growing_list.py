@@ -44,6 +44,7 @@ def _boxes() -> ns.System:
 def few(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a memory begin with few slots."""
     monkeypatch.setattr(broad_phase, "LEAST_SLOTS", 0)
+    monkeypatch.setattr(broad_phase, "CONTACTS_PER_SPHERE", 1)
 
 
 @pytest.fixture
