@@ -1,7 +1,8 @@
 """Touching contacts at an instant: which contacts take part in an event.
 
 A closed contact touches. An open contact touches if its gap is within the gap tolerance, or within the distance that
-the gap changes in the time tolerance at its present rate. Only touching contacts have Jacobians.
+the gap changes in the time tolerance at its present rate. Of several contacts at one point one touches. Only touching
+contacts have Jacobians.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import copy_inner_states, evaluate_compliant_force
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian, evaluate_kinematics
+from nonsmooth.engine.bodies.same_point import leave_out_coincident
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 
@@ -29,28 +31,26 @@ def find_touching(ws: Workspace) -> bool:
     while has_ended:
         is_approaching, has_ended = False, False
         for contact in ws.contacts:
-            # the call comes first: it must evaluate every contact
-            is_approaching = _touches_and_approaches(ws, contact) or is_approaching
+            evaluate_kinematics(ws, contact.index)
+            contact.is_touching = _does_touch(ws, contact)
+        leave_out_coincident(ws)
+        for contact in ws.contacts:
             if contact.is_touching:
+                is_approaching = _approaches(ws, contact) or is_approaching
                 has_ended = end_own_steps_of(ws, contact.index) > 0 or has_ended
     return is_approaching
 
 
 @kernel("b1(ws, ContactRecord)")
-def _touches_and_approaches(ws: Workspace, contact: ContactRecord) -> bool:
-    """Write whether a contact touches, and evaluate it in that case. True if it touches, is rigid and approaches.
+def _approaches(ws: Workspace, contact: ContactRecord) -> bool:
+    """Evaluate a contact that touches. True if it is rigid and approaches.
 
     A compliant contact has no impact, so its approach does not count.
     """
-    c = contact.index
-    evaluate_kinematics(ws, c)
-    contact.is_touching = _does_touch(ws, contact)
-    if not contact.is_touching:
-        return False
-    evaluate_jacobian(ws, c)
-    evaluate_bias(ws, c, rows=3)
+    evaluate_jacobian(ws, contact.index)
+    evaluate_bias(ws, contact.index, rows=3)
     if contact.is_compliant:
-        evaluate_compliant_force(ws, c)
+        evaluate_compliant_force(ws, contact.index)
     return not contact.is_compliant and contact.normal_rate < -ws.tolerance.velocity
 
 

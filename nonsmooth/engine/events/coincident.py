@@ -1,36 +1,15 @@
 """Coincident contacts: two pairs of features of the same bodies at one place, while one replaces the other.
 
-A body that rolls from an edge onto a face touches with both as long as their margins overlap. Their gap rates differ by
-the turning times the distance of their points, which is tiny. No impulse can distinguish such contacts, and a collision
-of one against the other would be an artefact. So they are treated as one contact: the one that approaches replaces the
-other.
+A body that rolls from an edge onto a face touches with both as long as their margins overlap. A collision of one
+against the other would be an artefact. So they are treated as one contact: the one that approaches replaces the other.
 """
 
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import start_inner_states
+from nonsmooth.engine.bodies.same_point import coincide
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
-from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
-from nonsmooth.engine.numerics.vectors import dot, minus
-
-_LARGEST_DIFFERENCE = 1e-5
-"""Difference of normals, and of points relative to the size of the smaller body, up to which contacts coincide.
-
-The relative error of the energy of an approach is its square, which is below the energy tolerances.
-"""
-
-
-@kernel("b1(ContactRecord, ContactRecord)")
-def _coincide(one: ContactRecord, other: ContactRecord) -> bool:
-    """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
-    if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
-        return False
-    if one.is_compliant or other.is_compliant:
-        return False
-    # the length of the difference of two unit normals is the angle between them if that is small
-    turned, moved = minus(one.normal, other.normal), minus(one.point_b, other.point_b)
-    is_close = dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
-    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and is_close
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
 @kernel("i8(ws, i8)")
@@ -41,7 +20,7 @@ def closed_coincident(ws: Workspace, c: int) -> int:
     """
     for other in ws.contacts:
         is_closed = other.mode != Mode.OPEN and other.normal_rate >= -ws.tolerance.velocity
-        if is_closed and _coincide(ws.contacts[c], other):
+        if is_closed and coincide(ws.contacts[c], other):
             return other.index
     return NO_CONTACT
 
@@ -54,7 +33,7 @@ def has_replaced(ws: Workspace, c: int) -> bool:
     """
     was_closed, is_closed = False, False
     for other in ws.contacts:
-        if other.index == c or _coincide(ws.contacts[c], other):
+        if other.index == c or coincide(ws.contacts[c], other):
             is_closed = is_closed or other.mode != Mode.OPEN
             # the code of an open contact is 0
             was_closed = was_closed or other.code_before != 0

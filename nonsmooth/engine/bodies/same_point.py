@@ -1,0 +1,54 @@
+"""Contacts at one point: several pairs of features of the same bodies, with the same normal.
+
+Where the borders of two faces cross, a vertex over a face and two edges that cross are the same point. Their gap rates
+differ by the turning times the distance of their points, which is tiny. No impulse can distinguish them, so one of them
+takes part in an event, and the others stay open. When its features end, another one takes its place.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.memory.layout import NO_PAIR
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
+from nonsmooth.engine.numerics.vectors import dot, minus
+
+_LARGEST_DIFFERENCE = 1e-5
+"""Difference of normals, and of points relative to the size of the smaller body, up to which contacts coincide.
+
+The relative error of the energy of an approach is its square, which is below the energy tolerances.
+"""
+
+
+@kernel("b1(ContactRecord, ContactRecord)")
+def coincide(one: ContactRecord, other: ContactRecord) -> bool:
+    """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
+    if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
+        return False
+    if one.is_compliant or other.is_compliant:
+        return False
+    # the length of the difference of two unit normals is the angle between them if that is small
+    turned, moved = minus(one.normal, other.normal), minus(one.point_b, other.point_b)
+    is_close = dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
+    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and is_close
+
+
+@kernel()
+def leave_out_coincident(ws: Workspace) -> None:
+    """Let an open contact of convex shapes take no part if it is at the point of another one that takes part.
+
+    A closed contact takes part in any case. Of open ones it is the one that approaches fastest.
+    """
+    for contact in ws.contacts:
+        is_open = contact.is_touching and contact.mode == Mode.OPEN
+        if is_open and contact.pair != NO_PAIR and ws.pairs[contact.pair].is_guarded and _is_redundant(ws, contact):
+            contact.is_touching = False
+
+
+@kernel("b1(ws, ContactRecord)")
+def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if another contact takes part at the point of an open one, and approaches as fast within the tolerance."""
+    for other in ws.contacts:
+        is_as_fast = other.is_touching and other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
+        if is_as_fast and other.pair == contact.pair and coincide(contact, other):
+            return True
+    return False
