@@ -2,14 +2,17 @@
 
 Where the borders of two faces cross, a vertex over a face and two edges that cross are the same point. Their gap rates
 differ by the turning times the distance of their points, which is tiny. No impulse can distinguish them, so one of them
-takes part in an event, and the others stay open. When its features end, another one takes its place.
+takes part in an event, and the others stay open. When its features end, another one takes its place. The last of them
+is kept, a vertex over faces: its features end where its point may become two.
 """
 
 from __future__ import annotations
 
+from nonsmooth.engine.bodies.kinematics import sliding_of
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import dot, minus
 
 _LARGEST_DIFFERENCE = 1e-5
@@ -46,9 +49,15 @@ def leave_out_coincident(ws: Workspace) -> None:
 
 @kernel("b1(ws, ContactRecord)")
 def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if another contact takes part at the point of an open one, and approaches as fast within the tolerance."""
+    """True if another contact takes part at the point of an open one, and approaches as fast within the tolerance.
+
+    Their points must move together. If a corner slides past an edge, two crossings of edges begin at its point.
+    """
+    slow = NEGLIGIBLE * ws.tolerance.velocity
     for other in ws.contacts:
         is_as_fast = other.is_touching and other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
         if is_as_fast and other.pair == contact.pair and coincide(contact, other):
-            return True
+            apart = minus(sliding_of(ws, contact), sliding_of(ws, other))
+            if dot(apart, apart) <= slow * slow:
+                return True
     return False
