@@ -100,9 +100,9 @@ def test_a_hull_of_the_corners_rocks_like_the_box() -> None:
     np.testing.assert_allclose(two.u, one.u, rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize(("angle", "points"), [(0.0, 16), (0.25 * np.pi, 8), (0.2, 8)])
+@pytest.mark.parametrize(("angle", "points"), [(0.0, 4), (0.25 * np.pi, 8), (0.2, 8)])
 def test_a_box_on_a_box_stays(angle: float, points: int) -> None:
-    """However it is turned: aligned corners, four times each as vertices and crossings, or the crossings of edges."""
+    """However it is turned: on the aligned corners, or on the crossings of edges, each of them once."""
     plate, low, top = Plate(), BoxBody(0.01, 0.01, 0.01), BoxBody(0.01, 0.01, 0.01)
     system = ns.System([plate, low, top])
     for pair in ((plate, low), (low, top)):
