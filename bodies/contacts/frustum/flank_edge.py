@@ -21,7 +21,6 @@ from .frustum import FLANK, center_in_world, write_part
 from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
-    overlap_at,
     past_end,
     size_of_both,
     write_crossing,
@@ -74,11 +73,10 @@ def evaluate_flank_edge(
         # no normal of the side is perpendicular to the edge, or the edge is parallel to the side: no valid crossing
         over = size
     qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
-    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, (qx, qy, qz), (px, py, pz), (cx, cy, cz))
-    steep = abs(crossing)
-    past = past_end(gap, over, steep, astray_of_edge(b, edge, axes, nx, ny, nz), overlap, size)
+    steep, astray = abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz)
+    past = past_end(a, b, frustum, n_faces, faces, gap, over, steep, astray, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz), overlap, size)
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz), size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), (ux, uy, uz), cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])

@@ -12,11 +12,14 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
-from ..features.frames import point_in_world, vector_in_world
+from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.polytope_tables import FACE
+from ..features.vertex_face import plane_height
 from ..features.writing import write_flat, write_principal, write_round
 from ..plane.plane_rim import FLATTEST
 from ..surface.mesh_point import Corner
@@ -112,6 +115,24 @@ def least_height(frustum: Floats, height: float, cosine: float) -> float:
 
 
 @compiled
+def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float, faces: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and a polyhedron in ``b`` along the normals of its faces [m].
+
+    It is negative if none of the planes of the faces separates the bodies.
+    """
+    x, y, z = axis_in_world(a, frustum)
+    x, y, z = vector_in_body(b, x, y, z)
+    cx, cy, cz = center_in_world(a, frustum)
+    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    best = -math.inf
+    for i in range(int(n_faces)):
+        f = FACE * i
+        cosine = faces[f] * x + faces[f + 1] * y + faces[f + 2] * z
+        best = max(best, least_height(frustum, plane_height(faces, f, cx, cy, cz), cosine))
+    return best
+
+
+@compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
     """Write the curvature matrices (slide, turn) of a part of a frustum at the contact point to the geometry block.
 
@@ -174,7 +195,7 @@ _WAYS = 12
 """Number of unit vectors that stand for edges of an apex (down the side of the cone) or of a foot (along the cap).
 
 An apex or a foot is treated as a corner with these edges, evenly spaced around the axis.  A face can touch it only if
-no edge points into the face steeper than :data:`bodies.contacts.surface.surface_vertex.ASTRAY`.  The steepest of 12
+no edge points into the face steeper than :data:`bodies.contacts.features.edge_crossing.ASTRAY`.  The steepest of 12
 edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all directions.
 """
 

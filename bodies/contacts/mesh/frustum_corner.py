@@ -18,6 +18,7 @@ from ...meshes.features import Features
 from ...meshes.patches import patches_for_body
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, point_in_world, vector_in_body, write_tangent
 from ..features.vertex_face import DEEP, REACH
 from ..features.writing import write_round
@@ -34,7 +35,6 @@ from ..frustum.frustum import (
 )
 from ..surface.surface_search import depth_inside
 from ..surface.surface_tables import Numbers, star_lengths, star_of, surface_numbers
-from ..surface.surface_vertex import ASTRAY
 
 
 @compiled

@@ -11,13 +11,13 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import LOW, SIDE, SIN, SWEEP
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, vector_in_body
 from ..features.vertex_face import DEEP
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from ..frustum.frustum_writing import astray_of_rim
 from ..surface.surface_search import in_triangle
 from ..surface.surface_tables import CORNER, CORNERS, FACE, FACES
-from ..surface.surface_vertex import ASTRAY
 from .frustum_corner import over_part
 from .surface_rim import lowest_on_rim
 from .swept_pairs import steepest

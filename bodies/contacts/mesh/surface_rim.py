@@ -11,6 +11,7 @@ from nonsmooth.types import Floats
 
 from ...blocks import put
 from ...shapes.frustum import AXIS, HIGH, LOW, SIDE, SWEEP
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.vertex_face import REACH
 from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
@@ -30,7 +31,7 @@ from ..surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from ..surface.surface_vertex import ASTRAY, over_face, touched_face
+from ..surface.surface_vertex import over_face, touched_face
 
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
