@@ -133,6 +133,29 @@ def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float,
 
 
 @compiled
+def least_over(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
+    """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
+    (nx, ny, nz), (x, y, z) = normal, place
+    base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
+    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    least = math.inf
+    for i in range(int(n_vertices)):
+        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
+    return base + least
+
+
+@compiled
+def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: float, vertices: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and vertices in ``b`` along the normals of its caps [m]."""
+    ax, ay, az = axis_in_world(a, frustum)
+    place = center_in_world(a, frustum)
+    best = least_over(a, b, n_vertices, vertices, (-ax, -ay, -az), place) + frustum[LOW]
+    if frustum[1] > 0.0:
+        best = max(best, least_over(a, b, n_vertices, vertices, (ax, ay, az), place) - frustum[HIGH])
+    return best
+
+
+@compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
     """Write the curvature matrices (slide, turn) of a part of a frustum at the contact point to the geometry block.
 

@@ -8,16 +8,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3, put
+from ...blocks import put
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import Polyhedron
-from ..features.frames import across, point_in_world, vector_in_body, write_tangent
+from ..features.frames import across, point_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
 from ..features.vertex_face import REACH, height_over
 from ..features.writing import write_round
@@ -28,6 +27,7 @@ from .frustum import (
     LOW_CAP,
     axis_in_world,
     center_in_world,
+    least_over,
     part_names,
     part_number,
     tip_past_rim,
@@ -37,18 +37,6 @@ from .frustum_swept import FrustumSwept, check_number
 from .frustum_writing import size_of_both
 from .rim_edge import RimEdge
 from .rim_face import RimFace
-
-
-@compiled
-def _least(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
-    """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
-    (nx, ny, nz), (x, y, z) = normal, place
-    base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
-    nx, ny, nz = vector_in_body(b, nx, ny, nz)
-    least = math.inf
-    for i in range(int(n_vertices)):
-        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
-    return base + least
 
 
 def _evaluate(
@@ -86,7 +74,7 @@ def _evaluate(
             radial, axial, height = cosine, sine, cosine * dr + sine * dz
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        best = max(best, _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
+        best = max(best, least_over(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
         highest = max(highest, height)
     found, gap, past = LOW_CAP, 0.0, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
@@ -101,7 +89,7 @@ def _evaluate(
             beyond = max(-up, up - frustum[SIDE])
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        if _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)) < best - margin:
+        if least_over(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)) < best - margin:
             continue
         if height < 0.0:
             # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it

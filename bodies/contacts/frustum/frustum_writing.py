@@ -23,7 +23,15 @@ from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
 from ..features.vertex_face import REACH
 from ..features.writing import write_principal, write_sweep
 from ..smooth.smooth_core import Axes, back, forth
-from .frustum import axis_in_world, center_in_world, middle_in_world, nearest_part, separation_over_faces, write_part
+from .frustum import (
+    axis_in_world,
+    center_in_world,
+    middle_in_world,
+    nearest_part,
+    separation_over_caps,
+    separation_over_faces,
+    write_part,
+)
 
 Point: TypeAlias = tuple[float, float, float]
 PARALLEL = 1e-6
@@ -202,6 +210,8 @@ def past_end(
     frustum: Floats,
     n_faces: float,
     faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
     gap: float,
     over: float,
     sine: float,
@@ -213,11 +223,14 @@ def past_end(
     The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over`` the distance past the ends
     of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.  ``astray`` is
     the sine of the angle between the contact normal and the fans of normals of the features.  A crossing below zero is
-    not valid if the cores overlap less along the normal of one of the ``faces``.
+    not valid if the cores overlap less along the normal of a cap of the frustum or of one of the ``faces`` of the core
+    with the edge.  A core that need not be convex has no vertices here.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
-    if past <= 0.0 and gap < -REACH * size:
-        past = max(past, separation_over_faces(a, b, frustum, n_faces, faces) - gap - REACH * size)
+    if past <= 0.0 and gap < -REACH * size and n_vertices > 0.0:
+        best = separation_over_faces(a, b, frustum, n_faces, faces)
+        best = max(best, separation_over_caps(a, b, frustum, n_vertices, vertices))
+        past = max(past, best - gap - REACH * size)
     return past
 
 

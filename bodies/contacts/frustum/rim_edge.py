@@ -19,7 +19,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
+from ..features.polytope_tables import LENGTH, ConvexCore, Numbers, edge_rows
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
 from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, write_part
@@ -94,6 +94,8 @@ def evaluate_rim_edge(
     radius: float,
     n_faces: float,
     faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
     size: float,
 ) -> None:
     """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses one half of a rim."""
@@ -157,7 +159,7 @@ def evaluate_rim_edge(
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
         over = size
     qx, qy, qz = forth(axes, px, py, pz)
-    past = past_end(a, b, frustum, n_faces, faces, gap, over, crossing, astray, size)
+    past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, crossing, astray, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, (nx, ny, nz), (qx, qy, qz), size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
@@ -185,8 +187,8 @@ class RimEdge(ContactKinematics):
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
         Radius about the edge [m].
-    faces : tuple of float
-        All faces of the second body's core; empty for a segment.
+    core : ConvexCore
+        Faces and vertices of the second body's core; empty for a surface that need not be convex.
     size : float
         Size of the bodies [m].
     name : str
@@ -200,7 +202,7 @@ class RimEdge(ContactKinematics):
     half: float
     edge: Numbers
     radius: float
-    faces: Numbers
+    core: ConvexCore
     size: float
     name: str
 
@@ -209,20 +211,20 @@ class RimEdge(ContactKinematics):
         """Return the contacts of both halves of each rim with each edge."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        numbers, faces, size = first.frustum, face_table(second.core), size_of_both(first, second)
+        numbers, core, size = first.frustum, ConvexCore.of(second.core), size_of_both(first, second)
         return tuple(
             contact
             for i, row in enumerate(edge_rows(second.core))
-            for contact in cls.of_rims(numbers, row, second.sweep, faces, size, f"edge {i}")
+            for contact in cls.of_rims(numbers, row, second.sweep, core, size, f"edge {i}")
         )
 
     @classmethod
     def of_rims(
-        cls, frustum: Numbers, edge: Numbers, radius: float, faces: Numbers, size: float, name: str
+        cls, frustum: Numbers, edge: Numbers, radius: float, core: ConvexCore, size: float, name: str
     ) -> tuple[RimEdge, ...]:
         """Return the contacts of both halves of each rim with one edge; a disc has one rim, an apex is not a rim."""
         rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
-        return tuple(cls(frustum, rim, half, edge, radius, faces, size, name) for rim in rims for half in (1.0, -1.0))
+        return tuple(cls(frustum, rim, half, edge, radius, core, size, name) for rim in rims for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both bodies by the names of the evaluator's arguments."""
@@ -232,8 +234,7 @@ class RimEdge(ContactKinematics):
             "half": self.half,
             "edge": self.edge,
             "radius": self.radius,
-            "n_faces": float(len(self.faces) // FACE),
-            "faces": self.faces or (0.0,),
+            **self.core.values(),
             "size": self.size,
         }
 

@@ -12,13 +12,13 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
+from ...blocks import put
 from ...shapes.point import Point
 from ...shapes.polyhedron import Polyhedron
 from ..features.frames import point_in_world, tangent_of, vector_in_world
-from ..features.polytope_tables import FACE, face_table, vertex_table
+from ..features.polytope_tables import FACE, ConvexCore
 from ..features.vertex_face import nearest_face
 from ..features.writing import write_flat, write_round
-from .convex_cores import Cores
 from .polyhedron_sphere import PolyhedronSphere
 
 
@@ -49,10 +49,8 @@ def _evaluate(
     )
     f, v = FACE * int(face), 3 * int(vertex)
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, faces_a[f], faces_a[f + 1], faces_a[f + 2])
-    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(
-        b, vertices_b[v], vertices_b[v + 1], vertices_b[v + 2]
-    )
+    put(out, NORMAL, *vector_in_world(a, faces_a[f], faces_a[f + 1], faces_a[f + 2]))
+    put(out, POINT_B, *point_in_world(b, vertices_b[v], vertices_b[v + 1], vertices_b[v + 2]))
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     _write_face_tangent(a, out, faces_a, f)
@@ -80,10 +78,8 @@ def _evaluate_reversed(
     )
     f, v = FACE * int(face), 3 * int(vertex)
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(b, -faces_b[f], -faces_b[f + 1], -faces_b[f + 2])
-    out[POINT_A], out[POINT_A + 1], out[POINT_A + 2] = point_in_world(
-        a, vertices_a[v], vertices_a[v + 1], vertices_a[v + 2]
-    )
+    put(out, NORMAL, *vector_in_world(b, -faces_b[f], -faces_b[f + 1], -faces_b[f + 2]))
+    put(out, POINT_A, *point_in_world(a, vertices_a[v], vertices_a[v + 1], vertices_a[v + 2]))
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     _write_face_tangent(b, out, faces_b, f)
@@ -95,18 +91,18 @@ def _evaluate_reversed(
 class _Tables:
     """Faces and vertices of both bodies, with the number of one vertex of the body that does not have the faces."""
 
-    cores: Cores
+    cores: tuple[ConvexCore, ConvexCore]
     face_body: int
     vertex: int
     size: float
 
     def values(self) -> dict[str, Value]:
-        return {**self.cores.values(), "vertex": float(self.vertex), "size": self.size}
+        one, two = self.cores
+        return {**one.values("_a"), **two.values("_b"), "vertex": float(self.vertex), "size": self.size}
 
     @property
     def features(self) -> tuple[str, ...]:
-        n_faces = len(self.cores.faces[self.face_body]) // FACE
-        return tuple(f"face {i} and vertex {self.vertex}" for i in range(n_faces))
+        return tuple(f"face {i} and vertex {self.vertex}" for i in range(self.cores[self.face_body].n_faces))
 
 
 @final
@@ -138,13 +134,13 @@ class PolyhedronPoint(ContactKinematics):
         if first.rounding > 0.0:
             return (PolyhedronSphere.of_ball(first, (second.x, second.y, second.z), 0.0),)
         own = first.core
-        cores = Cores((face_table(own), ()), (vertex_table(own), (second.x, second.y, second.z)))
+        cores = ConvexCore.of(own), ConvexCore.of_point(second.x, second.y, second.z)
         return (cls(_Tables(cores, 0, 0, own.size)),)
 
     @classmethod
-    def of_vertices(cls, cores: Cores, size: float) -> tuple[PolyhedronPoint, ...]:
+    def of_vertices(cls, cores: tuple[ConvexCore, ConvexCore], size: float) -> tuple[PolyhedronPoint, ...]:
         """Return the contacts of all vertices of the second polyhedron; ``size`` is that of the larger body [m]."""
-        return tuple(cls(_Tables(cores, 0, i, size)) for i in range(len(cores.vertices[1]) // 3))
+        return tuple(cls(_Tables(cores, 0, i, size)) for i in range(cores[1].n_vertices))
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -181,13 +177,13 @@ class PointPolyhedron(ContactKinematics):
         assert isinstance(first, Point)
         assert isinstance(second, Polyhedron)
         own = second.polytope
-        cores = Cores(((), face_table(own)), ((first.x, first.y, first.z), vertex_table(own)))
+        cores = ConvexCore.of_point(first.x, first.y, first.z), ConvexCore.of(own)
         return (cls(_Tables(cores, 1, 0, own.size)),)
 
     @classmethod
-    def of_vertices(cls, cores: Cores, size: float) -> tuple[PointPolyhedron, ...]:
+    def of_vertices(cls, cores: tuple[ConvexCore, ConvexCore], size: float) -> tuple[PointPolyhedron, ...]:
         """Return the contacts of all vertices of the first polyhedron; ``size`` is that of the larger body [m]."""
-        return tuple(cls(_Tables(cores, 1, i, size)) for i in range(len(cores.vertices[0]) // 3))
+        return tuple(cls(_Tables(cores, 1, i, size)) for i in range(cores[0].n_vertices))
 
     @property
     def evaluator(self) -> Callable[..., None]:

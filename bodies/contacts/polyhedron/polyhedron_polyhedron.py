@@ -14,11 +14,11 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import Polyhedron
-from ..features.polytope_tables import Numbers, edge_rows
+from ..features.polytope_tables import ConvexCore, Numbers, edge_rows
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
 from ..surface.surface_pairs import SurfacePairs, features_of_core
-from .convex_cores import Cores, cross_convex_edges
+from .convex_cores import cross_convex_edges
 from .polyhedron_point import PointPolyhedron, PolyhedronPoint
 from .swept_swept import MOST_CONTACTS, SweptSwept
 
@@ -82,7 +82,7 @@ class PolyhedronPolyhedron(ContactKinematics):
     ----------
     edge_a, edge_b : tuple of float
         Rows of the edges (:data:`bodies.contacts.features.polytope_tables.EDGE`).
-    cores : Cores
+    cores : tuple of ConvexCore
         Faces and vertices of both bodies.
     number_a, number_b : int
         Numbers of the edges in their bodies.
@@ -99,7 +99,7 @@ class PolyhedronPolyhedron(ContactKinematics):
     )
     edge_a: Numbers
     edge_b: Numbers
-    cores: Cores
+    cores: tuple[ConvexCore, ConvexCore]
     number_a: int
     number_b: int
     size: float
@@ -109,7 +109,8 @@ class PolyhedronPolyhedron(ContactKinematics):
         return {
             "edge_a": self.edge_a,
             "edge_b": self.edge_b,
-            **self.cores.values(),
+            **self.cores[0].values("_a"),
+            **self.cores[1].values("_b"),
             "size": self.size,
         }
 
@@ -130,7 +131,7 @@ class PolyhedronPolyhedron(ContactKinematics):
         n = len(one.edges) * len(two.edges) + len(one.vertices) + len(two.vertices)
         if n > MOST_CONTACTS:
             return SurfacePairs.of_surfaces(features_of_core(one), features_of_core(two), (first.extent, second.extent))
-        cores = Cores.of(one, two)
+        cores = ConvexCore.of(one), ConvexCore.of(two)
         crossings = (
             cls(row_a, row_b, cores, i, j, size)
             for i, row_a in enumerate(edge_rows(one))

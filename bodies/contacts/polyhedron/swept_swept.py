@@ -16,10 +16,10 @@ from nonsmooth.types import Floats
 from ...shapes.polyhedron import SweptPolytope
 from ..features.edge_crossing import PARALLEL_ROUNDED
 from ..features.frames import write_tangent
-from ..features.polytope_tables import Numbers, edge_rows
+from ..features.polytope_tables import ConvexCore, Numbers, edge_rows
 from ..features.swept_vertex import END, SweptVertex, size_of
 from ..features.writing import write_principal
-from .convex_cores import Cores, cross_convex_edges
+from .convex_cores import cross_convex_edges
 
 MOST_CONTACTS = 4000
 """Largest number of contacts of two shapes without a search.
@@ -91,7 +91,7 @@ class SweptSwept(ContactKinematics):
     ----------
     edge_a, edge_b : tuple of float
         Rows of the edges (:data:`bodies.contacts.features.polytope_tables.EDGE`).
-    cores : Cores
+    cores : tuple of ConvexCore
         Faces and vertices of both cores.
     number_a, number_b : int
         Numbers of the edges in their shapes.
@@ -104,7 +104,7 @@ class SweptSwept(ContactKinematics):
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
     edge_a: Numbers
     edge_b: Numbers
-    cores: Cores
+    cores: tuple[ConvexCore, ConvexCore]
     number_a: int
     number_b: int
     radius_a: float
@@ -116,7 +116,8 @@ class SweptSwept(ContactKinematics):
         return {
             "edge_a": self.edge_a,
             "edge_b": self.edge_b,
-            **self.cores.values(),
+            **self.cores[0].values("_a"),
+            **self.cores[1].values("_b"),
             "radius_a": self.radius_a,
             "radius_b": self.radius_b,
             "size": self.size,
@@ -136,7 +137,8 @@ class SweptSwept(ContactKinematics):
                 f"{len(one.edges)} edges against {len(two.edges)} make {n}",
                 "Take polyhedra with fewer edges, or a smooth shape.",
             )
-        cores, radii, size = Cores.of(one, two), (first.sweep, second.sweep), size_of(first, second)
+        cores, radii = (ConvexCore.of(one), ConvexCore.of(two)), (first.sweep, second.sweep)
+        size = size_of(first, second)
         crossings = (
             cls(row_a, row_b, cores, i, j, *radii, size)
             for i, row_a in enumerate(edge_rows(one))
