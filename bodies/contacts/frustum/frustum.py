@@ -17,7 +17,7 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
-from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.frames import across, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE
 from ..features.vertex_face import plane_height
 from ..features.writing import write_flat, write_principal, write_round
@@ -153,6 +153,31 @@ def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: floa
     if frustum[1] > 0.0:
         best = max(best, least_over(a, b, n_vertices, vertices, (ax, ay, az), place) - frustum[HIGH])
     return best
+
+
+@compiled
+def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vector3) -> float:
+    """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m]."""
+    (nx, ny, nz), (cx, cy, cz), (kx, ky, kz) = n, center_in_world(a, first), center_in_world(b, second)
+    ax, ay, az = axis_in_world(a, first)
+    bx, by, bz = axis_in_world(b, second)
+    height = nx * (kx - cx) + ny * (ky - cy) + nz * (kz - cz)
+    height = least_height(first, height, -nx * ax - ny * ay - nz * az)
+    return least_height(second, height, nx * bx + ny * by + nz * bz)
+
+
+@compiled
+def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
+    """Return the largest separation of two frustums along normals of the second [m]: of caps and of side.
+
+    Of the side, the normal across the axis that points to the centre of the first is taken.
+    """
+    bx, by, bz = axis_in_world(b, second)
+    (cx, cy, cz), (kx, ky, kz) = center_in_world(a, first), center_in_world(b, second)
+    _, _, ex, ey, ez = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
+    best = separation_along(a, first, b, second, (bx, by, bz))
+    best = max(best, separation_along(a, first, b, second, (-bx, -by, -bz)))
+    return max(best, separation_along(a, first, b, second, (ex, ey, ez)))
 
 
 @compiled

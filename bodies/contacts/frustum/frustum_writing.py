@@ -27,7 +27,7 @@ from .frustum import (
     axis_in_world,
     center_in_world,
     middle_in_world,
-    nearest_part,
+    separation_by,
     separation_over_caps,
     separation_over_faces,
     write_part,
@@ -53,27 +53,14 @@ def past_border(over: float, astray: float, size: float) -> float:
 
 
 @compiled
-def past_overlap(one: Floats, first: Floats, other: Floats, second: Floats, gap: float, p: Point, size: float) -> float:
-    """Return the distance of a contact point past the boundary of an overlap of the cores [m]; negative if it is valid.
+def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, size: float) -> float:
+    """Return a length [m] that is positive if two cores overlap less than by ``gap`` [m] along another direction.
 
-    ``gap`` is the gap of the cores [m].  If it is negative, the point that lies half as deep in the frustum ``one``,
-    from the contact point ``p`` on its core towards its middle, must be inside of the core of ``other``.  The contact
-    point itself may lie on a border of that core, in an overlap as well as beside the other body.  An overlap beyond
-    the middle belongs to other features.
+    The directions are those of :func:`bodies.contacts.frustum.frustum.separation_by`.
     """
-    if gap >= 0.0:
+    if gap >= -REACH * size:
         return -size
-    x, y, z = middle_in_world(one, first)
-    x, y, z = x - p[0], y - p[1], z - p[2]
-    part = -0.5 * gap / math.sqrt(x * x + y * y + z * z)
-    if part > 1.0:
-        return size
-    ax, ay, az = axis_in_world(other, second)
-    kx, ky, kz = center_in_world(other, second)
-    x, y, z = p[0] + part * x - kx, p[1] + part * y - ky, p[2] + part * z - kz
-    along, away, _, _, _ = across(x, y, z, ax, ay, az)
-    outside, _, _, _ = nearest_part(second, along, away)
-    return float(outside - REACH * size)
+    return max(separation_by(a, first, b, second), separation_by(b, second, a, first)) - gap - REACH * size
 
 
 @compiled

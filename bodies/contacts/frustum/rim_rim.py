@@ -24,7 +24,7 @@ from ..features.polytope_tables import Numbers
 from ..features.vertex_face import REACH
 from ..smooth.smooth_core import axes_in_world, back, forth
 from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
-from .frustum_writing import PARALLEL, astray_of_rim, past_border, write_side, write_two
+from .frustum_writing import PARALLEL, astray_of_rim, past_border, past_depth, write_side, write_two
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
@@ -40,8 +40,6 @@ _COPLANAR = 3e-11
 
 It is a few gap tolerances: discs that are farther apart pass each other or cross.
 """
-_DEEPEST = 0.25
-"""Largest depth of an overlap at a crossing, relative to the bodies; deeper, other features are in contact."""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 """Intervals into which half of a rim is sampled, most rounds of sampling, most Newton steps."""
 
@@ -196,11 +194,7 @@ def _evaluate(
         past = max(past, size)
     if gap < 0.0:
         past = max(past, size * (astray - PARALLEL))
-    # rims that cross at a small angle overlap by less than its square times their radii, along another direction
-    least = min(radius, wide)
-    for body in (first, second):
-        least = min(least, body[HIGH] - body[LOW]) if body[SIDE] > 0.0 else least
-    past = max(past, -gap - _DEEPEST * crossing * crossing * least)
+    past = max(past, past_depth(a, first, b, second, gap, size))
     if are_discs and gap < 0.0 and not is_edge_to_edge:
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
         linked = _link_depth(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
