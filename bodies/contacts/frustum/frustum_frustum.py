@@ -13,10 +13,10 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import HIGH, LOW, SIDE, Frustum
+from ...shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
 from ..features.frames import across, point_in_world
 from ..features.polytope_tables import Numbers
-from ..features.vertex_face import REACH
+from ..features.vertex_face import CLOSED, REACH
 from .apex_frustum import ApexFrustum
 from .flank_flank import FlankFlank
 from .frustum import (
@@ -29,7 +29,7 @@ from .frustum import (
     separation_by,
     set_back,
 )
-from .frustum_writing import past_border, past_depth, past_disc, write_side, write_two
+from .frustum_writing import past_depth, past_disc, write_side, write_two
 from .rim_flank import RimFlank
 from .rim_rim import RimRim
 
@@ -64,7 +64,9 @@ def _evaluate(
     px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
     along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
     gap = up * (along - height)
-    past = past_border(away - wide, 0.0, size)
+    # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
+    margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
+    past = away - wide - margin * size
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
     else:

@@ -18,7 +18,7 @@ from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import Polyhedron
 from ..features.frames import across, point_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
-from ..features.vertex_face import REACH, height_over
+from ..features.vertex_face import CLOSED, height_over
 from ..features.writing import write_round
 from .flank_edge import FlankEdge
 from .frustum import (
@@ -61,7 +61,7 @@ def _evaluate(
     along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
     cosine, sine = frustum[COS], frustum[SIN]
     dr, dz = away - frustum[0], along - frustum[LOW]
-    margin = REACH * size
+    margin = CLOSED * size
     flat = frustum[SIDE] == 0.0
     best, highest = -math.inf, -math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
