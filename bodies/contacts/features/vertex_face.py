@@ -24,9 +24,6 @@ is also the least sine of the angle between crossing edges.  With one number for
 aligned never lack a contact: if the angle between their edges is smaller, their vertices are within the distance.
 """
 
-DEEP = 1e-6
-"""Least depth of an overlap, relative to the size of the bodies; errors of a step at rest cause smaller depths."""
-
 
 @compiled
 def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[float, float, float]:
