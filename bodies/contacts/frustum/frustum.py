@@ -141,7 +141,7 @@ def least_over(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal
     least = math.inf
     for i in range(int(n_vertices)):
         least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
-    return base + least
+    return float(base + least)
 
 
 @compiled
@@ -163,7 +163,7 @@ def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vec
     bx, by, bz = axis_in_world(b, second)
     height = nx * (kx - cx) + ny * (ky - cy) + nz * (kz - cz)
     height = least_height(first, height, -nx * ax - ny * ay - nz * az)
-    return least_height(second, height, nx * bx + ny * by + nz * bz)
+    return float(least_height(second, height, nx * bx + ny * by + nz * bz))
 
 
 @compiled
@@ -177,7 +177,7 @@ def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
     _, _, ex, ey, ez = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
     best = separation_along(a, first, b, second, (bx, by, bz))
     best = max(best, separation_along(a, first, b, second, (-bx, -by, -bz)))
-    return max(best, separation_along(a, first, b, second, (ex, ey, ez)))
+    return float(max(best, separation_along(a, first, b, second, (ex, ey, ez))))
 
 
 @compiled

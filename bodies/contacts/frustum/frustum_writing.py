@@ -60,7 +60,8 @@ def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, 
     """
     if gap >= -REACH * size:
         return -size
-    return max(separation_by(a, first, b, second), separation_by(b, second, a, first)) - gap - REACH * size
+    best = max(separation_by(a, first, b, second), separation_by(b, second, a, first))
+    return float(best - gap - REACH * size)
 
 
 @compiled
