@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 
 import numpy as np
+
+from nonsmooth.parameters import SharedNumbers, Value
 
 from ...shapes.polytope import Polytope
 
@@ -28,6 +31,51 @@ def face_table(polytope: Polytope) -> Numbers:
     vertices = np.array(polytope.vertices)
     rows = [(*plane, plane[3] - float(np.min(vertices @ plane[:3]))) for plane in polytope.planes]
     return tuple(itertools.chain(*rows))
+
+
+@dataclass(frozen=True)
+class ConvexCore:
+    """Faces and vertices of a convex core; a segment has no faces.
+
+    Attributes
+    ----------
+    faces : SharedNumbers
+        Rows of all faces (:data:`FACE`).
+    vertices : SharedNumbers
+        All vertices [m].
+    """
+
+    faces: SharedNumbers
+    vertices: SharedNumbers
+
+    @classmethod
+    def of(cls, polytope: Polytope) -> ConvexCore:
+        """Return the numbers of a polyhedron or a segment."""
+        return cls(SharedNumbers(face_table(polytope)), SharedNumbers(vertex_table(polytope)))
+
+    @classmethod
+    def of_point(cls, *place: float) -> ConvexCore:
+        """Return the numbers of a point without faces, or of nothing if no place is given."""
+        return cls(SharedNumbers(()), SharedNumbers(place))
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces."""
+        return len(self.faces) // FACE
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return len(self.vertices) // 3
+
+    def values(self, side: str = "") -> dict[str, Value]:
+        """Return the numbers by the names of the evaluators' arguments, which end with ``side``."""
+        return {
+            f"n_faces{side}": float(self.n_faces),
+            f"faces{side}": self.faces or (0.0,),
+            f"n_vertices{side}": float(self.n_vertices),
+            f"vertices{side}": self.vertices or (0.0,),
+        }
 
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:
