@@ -97,9 +97,9 @@ class SingleSteps(Engine):
         """As the inner engine."""
         return self.inner.counts(n_slots)
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         """As the inner engine."""
-        return self.inner.settings(time_scale)
+        return self.inner.settings(scales)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Continue by single steps; ends as the inner engine, or if it does nothing because it waits for the end."""

@@ -46,7 +46,7 @@ class Midpoint(Engine):
         """Return nothing."""
         return {}
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         """Return the error of a step that explains what the account of energy lacks."""
         return {Tolerance.relative: 1e-5, Tolerance.impact: 1e-5}
 
