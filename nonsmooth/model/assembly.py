@@ -113,7 +113,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     counts = _counts(system, parts)
     slot_counts = functools.partial(_slot_counts, engine, counts["n_u"], counts["n_y"])
     counts |= slot_counts(parts.broad_phase.n_slots)
-    scales = scales_of(system, frozenset(parts.table.bodies.ravel().tolist()))
+    scales = scales_of(system)
     settings = settings_of(engine, scales)
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)

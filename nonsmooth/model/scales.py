@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
 
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.scales import EARTH, Scales
 from nonsmooth.system.system import System
 
 
-def scales_of(system: System, in_contact: Collection[int]) -> Scales:
+def scales_of(system: System) -> Scales:
     """Size of the smallest free body, typical acceleration, and shortest time of the prescribed motions of a system.
 
-    ``in_contact`` are the numbers of the bodies with contacts. Other free bodies count only if no free body has one.
+    Free bodies without contacts count only if no free body has one.
 
     The acceleration is the largest of three: gravity; v^2 / L of each free body, with its speed v at the start and its
     size L; and L / T^2, with the shortest time T of the prescribed motions. It is at most that of a fall on Earth. It
     is that of a fall on Earth, too, if all three are zero or the system has loads: the speeds are unknown then.
     """
-    free = {number: body for number, body in enumerate(system.bodies) if body.n_u > 0}
-    counting = [body for number, body in free.items() if number in in_contact] or [*free.values()]
-    length = min(map(_size, counting), default=1.0)
-    speeds = [_speed(system, body) ** 2 / _size(body) for body in free.values()]
+    free = [body for body in system.bodies if body.n_u > 0]
+    in_contact = {id(body) for row in system.contacts.rows for body in row.bodies}
+    length = min(map(_size, [body for body in free if id(body) in in_contact] or free), default=1.0)
+    speeds = [_speed(system, body) ** 2 / _size(body) for body in free]
     found = max(math.hypot(*system.gravity), length / system.time_scale**2, *speeds)
     is_known = found > 0.0 and not system.loads
     return Scales(length, min(EARTH, found) if is_known else EARTH, system.time_scale)

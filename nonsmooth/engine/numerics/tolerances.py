@@ -12,6 +12,8 @@ VELOCITY, RELATIVE_VELOCITY = 2e-8, 2e-7
 """Largest default tolerance of velocities [m/s], and the same relative to sqrt(a L)."""
 TIME, RELATIVE_TIME = 1e-12, 1e-10
 """Largest default tolerance of times [s], and the same relative to sqrt(L / a)."""
+SPACING = 4.0 * 2.0**-52
+"""Least difference of two times or lengths, relative to them: a smaller difference is round-off."""
 ALLOWED = 1e3
 """Largest accumulated error that is allowed, in tolerances. Steps and events within their tolerances add up to less."""
 NEGLIGIBLE = 1.0 / ALLOWED
