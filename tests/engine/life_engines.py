@@ -26,6 +26,7 @@ from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.memory.tables import OWNERS
 from nonsmooth.engine.native.kernel import PLAIN, entry_addresses, prototype_of
 from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.interfaces import Scales
 from nonsmooth.interfaces.engine import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 

@@ -15,7 +15,7 @@ from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 
 RADIUS, SPEED, CONTACT_TIME = 0.01, 1.0, 1e-3
 CROWDED = 1e-2 * CONTACT_TIME / 100

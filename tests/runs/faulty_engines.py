@@ -16,7 +16,7 @@ from nonsmooth.engine.memory.owners import (
     Request,
     Tolerance,
 )
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 from nonsmooth.parameters import parameter
 from nonsmooth.steps import FloatRow, Life, Singleton, array, per
 from tests.runs.own_engine import Midpoint

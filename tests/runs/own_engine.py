@@ -20,7 +20,7 @@ from nonsmooth.engine.memory.owners import (
     Totals,
 )
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 from nonsmooth.parameters import parameter
 from nonsmooth.system.system import System
 

@@ -18,7 +18,7 @@ from nonsmooth.engine.memory.owners import (
     Tolerance,
     Totals,
 )
-from nonsmooth.interfaces import EndCause, Measure
+from nonsmooth.interfaces import EndCause, Measure, Scales
 from nonsmooth.parameters import parameter
 from nonsmooth.steps import Life, Singleton, real
 from tests.runs.faulty_engines import Blind

@@ -10,7 +10,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.event_rows import CODE_HEAD
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 from nonsmooth.steps import FloatRow, Life, Singleton, array, per
 from nonsmooth.system.system import System
 
