@@ -53,12 +53,34 @@ class EventDriven(Engine):
 
     tolerance: float = parameter(1e-9, doc="relative error of a step of the flow", above=0.0, maximum=1e-2)
     impact_tolerance: float = parameter(1e-8, doc="relative error of a step inside an impact", above=0.0, maximum=1e-2)
-    time_tolerance: float | None = parameter(None, doc="accuracy of event times", unit="s", above=0.0, maximum=1e-3)
-    gap_tolerance: float | None = parameter(None, doc="gap that counts as closed", unit="m", above=0.0, maximum=1e-3)
-    velocity_tolerance: float | None = parameter(
-        None, doc="relative velocity that counts as zero", unit="m/s", above=0.0, maximum=1e-2
+    time_tolerance: float | None = parameter(
+        None,
+        doc="accuracy of event times; by default 1e-10 of the time scale, at most 1e-12 s",
+        unit="s",
+        above=0.0,
+        maximum=1e-3,
     )
-    largest_step: float | None = parameter(None, doc="largest step of the flow", unit="s", above=0.0, maximum=1e9)
+    gap_tolerance: float | None = parameter(
+        None,
+        doc="gap that counts as closed; by default 1e-9 of the smallest body, at most 1e-12 m",
+        unit="m",
+        above=0.0,
+        maximum=1e-3,
+    )
+    velocity_tolerance: float | None = parameter(
+        None,
+        doc="relative velocity that counts as zero; by default 2e-7 of the speed scale, at most 2e-8 m/s",
+        unit="m/s",
+        above=0.0,
+        maximum=1e-2,
+    )
+    largest_step: float | None = parameter(
+        None,
+        doc="largest step of the flow; by default ten time scales, at most 0.1 s",
+        unit="s",
+        above=0.0,
+        maximum=1e9,
+    )
     steps_per_period: float = parameter(4.0, doc="least steps per time scale of a prescribed motion", minimum=1.0)
     painleve: str = parameter(
         "impact",

@@ -30,7 +30,7 @@ from nonsmooth.model.laying import ArticulationLayout, articulations, lay_bodies
 from nonsmooth.model.laying_contacts import Groups, groups_of, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
 from nonsmooth.model.row_table import RowTable
-from nonsmooth.model.scales import scales_of
+from nonsmooth.model.scales import check_gap_tolerance, scales_of
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
@@ -115,6 +115,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     counts |= slot_counts(parts.broad_phase.n_slots)
     scales = scales_of(system)
     settings = settings_of(engine, scales)
+    check_gap_tolerance(system, settings.get(owners.Tolerance.gap, 0.0))
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
     # by these addresses functions of the engine call each other if they are compiled separately

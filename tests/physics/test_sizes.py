@@ -101,3 +101,10 @@ def test_an_open_joint_at_the_start_is_refused_at_any_size(size: float) -> None:
         else:
             with pytest.raises(InvalidInput, match="must have the residual 0"):
                 ns.simulate(system, 1e-3 * math.sqrt(size))
+
+
+def test_a_gap_tolerance_that_is_large_for_a_body_is_refused() -> None:
+    """The message names the smallest body."""
+    system, _ = SYSTEMS["two_balls"](similar(1e-6 / SIZE, same_gravity=True))
+    with pytest.raises(InvalidInput, match=r"gap_tolerance must be at most 1e-07 of the smallest body, 'ball 1'"):
+        ns.simulate(system, 1e-5, engine=ns.EventDriven(gap_tolerance=1e-12))

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 GAP, RELATIVE_GAP = 1e-12, 1e-9
 """Largest default tolerance of gaps [m], and the same relative to L."""
+LARGEST_RELATIVE_GAP = 1e-7
+"""Largest tolerance of gaps that a user may give, relative to L. With more, cubes collide flush at wrong points."""
 VELOCITY, RELATIVE_VELOCITY = 2e-8, 2e-7
 """Largest default tolerance of velocities [m/s], and the same relative to sqrt(a L)."""
 TIME, RELATIVE_TIME = 1e-12, 1e-10
