@@ -17,7 +17,7 @@ from nonsmooth.types import Floats
 from ...blocks import Vector3, put
 from ...shapes.frustum import COS, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.edge_crossing import ASTRAY
+from ..features.edge_crossing import ASTRAY, PARALLEL
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
 from ..features.vertex_face import REACH
@@ -34,12 +34,6 @@ from .frustum import (
 )
 
 Point: TypeAlias = tuple[float, float, float]
-PARALLEL = 1e-6
-"""Least sine of the angle between two features that cross.
-
-At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
-of the angle times the size: far less than the gap tolerance.
-"""
 
 
 @compiled

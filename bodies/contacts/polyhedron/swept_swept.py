@@ -14,7 +14,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
-from ..features.edge_crossing import PARALLEL_ROUNDED
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import write_tangent
 from ..features.polytope_tables import ConvexCore, Numbers, edge_rows
 from ..features.swept_vertex import END, SweptVertex, size_of
@@ -60,7 +60,7 @@ def _evaluate(
         vertices_a,
         n_vertices_b,
         vertices_b,
-        PARALLEL_ROUNDED,
+        PARALLEL,
         -END * size,
         size,
     )

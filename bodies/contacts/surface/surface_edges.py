@@ -8,7 +8,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ..features.edge_crossing import PARALLEL_ROUNDED, cross_edges
+from ..features.edge_crossing import PARALLEL, cross_edges
 from ..features.frames import write_tangent
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
@@ -37,7 +37,7 @@ def write_edges(
     (:func:`bodies.contacts.features.edge_crossing.cross_edges`), and if they overlap near their ends.  The rows of the
     edges begin at the indices ``at_a`` and ``at_b``.
     """
-    margin, parallel = CLOSED * size, CLOSED if radius == 0.0 else PARALLEL_ROUNDED
+    margin, parallel = CLOSED * size, CLOSED if radius == 0.0 else PARALLEL
     p, e, f, n, gap, over, past = cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, margin, size)
     if gap < 0.0:
         past = max(past, over - _NEAR_ENDS * gap - margin)
