@@ -16,7 +16,7 @@ from nonsmooth.types import Floats
 from ...shapes.polyhedron import SweptPolytope
 from ..features.edge_crossing import PARALLEL
 from ..features.frames import write_tangent
-from ..features.polytope_tables import ConvexCore, Numbers, edge_rows
+from ..features.polytope_tables import ConvexCore
 from ..features.swept_vertex import END, SweptVertex, size_of
 from ..features.writing import write_principal
 from .convex_cores import cross_convex_edges
@@ -33,8 +33,8 @@ def _evaluate(
     a: Floats,
     b: Floats,
     out: Floats,
-    edge_a: Floats,
-    edge_b: Floats,
+    edge_a: float,
+    edge_b: float,
     n_faces_a: float,
     faces_a: Floats,
     n_faces_b: float,
@@ -43,11 +43,15 @@ def _evaluate(
     vertices_a: Floats,
     n_vertices_b: float,
     vertices_b: Floats,
+    n_edges_a: float,
+    edges_a: Floats,
+    n_edges_b: float,
+    edges_b: Floats,
     radius_a: float,
     radius_b: float,
     size: float,
 ) -> None:
-    p, e, f, n, gap, _, past = cross_convex_edges(
+    p, e, f, n, gap, _, _, past = cross_convex_edges(
         a,
         b,
         edge_a,
@@ -60,6 +64,10 @@ def _evaluate(
         vertices_a,
         n_vertices_b,
         vertices_b,
+        n_edges_a,
+        edges_a,
+        n_edges_b,
+        edges_b,
         PARALLEL,
         -END * size,
         size,
@@ -89,10 +97,8 @@ class SweptSwept(ContactKinematics):
 
     Attributes
     ----------
-    edge_a, edge_b : tuple of float
-        Rows of the edges (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     cores : tuple of ConvexCore
-        Faces and vertices of both cores.
+        Faces, vertices and edges of both cores.
     number_a, number_b : int
         Numbers of the edges in their shapes.
     radius_a, radius_b : float
@@ -102,8 +108,6 @@ class SweptSwept(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    edge_a: Numbers
-    edge_b: Numbers
     cores: tuple[ConvexCore, ConvexCore]
     number_a: int
     number_b: int
@@ -114,10 +118,10 @@ class SweptSwept(ContactKinematics):
     def parameters(self) -> dict[str, Value]:
         """Return edges, cores, radii and size."""
         return {
-            "edge_a": self.edge_a,
-            "edge_b": self.edge_b,
-            **self.cores[0].values("_a"),
-            **self.cores[1].values("_b"),
+            "edge_a": float(self.number_a),
+            "edge_b": float(self.number_b),
+            **self.cores[0].values_with_edges("_a"),
+            **self.cores[1].values_with_edges("_b"),
             "radius_a": self.radius_a,
             "radius_b": self.radius_b,
             "size": self.size,
@@ -139,11 +143,7 @@ class SweptSwept(ContactKinematics):
             )
         cores, radii = (ConvexCore.of(one), ConvexCore.of(two)), (first.sweep, second.sweep)
         size = size_of(first, second)
-        crossings = (
-            cls(row_a, row_b, cores, i, j, *radii, size)
-            for i, row_a in enumerate(edge_rows(one))
-            for j, row_b in enumerate(edge_rows(two))
-        )
+        crossings = (cls(cores, i, j, *radii, size) for i in range(len(one.edges)) for j in range(len(two.edges)))
         return *crossings, *SweptVertex.between(first, second)
 
     @property
