@@ -31,7 +31,7 @@ NEAR_ENDS = 4.0
 Closer to an end, the edges may pass each other without an overlap of the bodies.
 """
 
-Crossing: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, float, float, float, float]
+Crossing: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, float, float, float]
 """Crossing of two edges, in the world: see :func:`cross_edges`."""
 
 
@@ -67,8 +67,7 @@ def cross_edges(
     """Return the crossing of an edge of each body, in the world.
 
     The crossing is: nearest point of the first line [m], unit vectors along both lines, normal, gap along the normal,
-    distance of the nearest points past the ends of the edges [m], sine of the angle from the normal to those of the
-    edges, and distance past the boundary of the features [m].
+    distance of the nearest points past the ends of the edges, and distance past the boundary of the features [m].
 
     The normal is perpendicular to both edges, with the sign for which it is nearer to the normals of the edges.  Edges
     without faces have no sign, so their gap is positive.  The distance past the boundary is positive if a nearest point
@@ -109,4 +108,4 @@ def cross_edges(
     if minus < plus or (minus == plus and gap < 0.0):
         nx, ny, nz, gap, plus = -nx, -ny, -nz, -gap, minus
     p = ax + s * ex, ay + s * ey, az + s * ez
-    return p, (ex, ey, ez), (fx, fy, fz), (nx, ny, nz), gap, over, plus, max(past, size * (plus - ASTRAY))
+    return p, (ex, ey, ez), (fx, fy, fz), (nx, ny, nz), gap, over, max(past, size * (plus - ASTRAY))

@@ -5,31 +5,52 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
+from ...blocks import Vector3
 from ..features.edge_crossing import Crossing, cross_edges
-from ..features.polytope_tables import EDGE
+from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.polytope_tables import ALONG, EDGE, INTO_FIRST, INTO_SECOND, START
 from ..features.vertex_face import height_over, separation_of_faces
 
 
 @compiled
+def _in_first(a: Floats, b: Floats, edges: Floats, at: int) -> Vector3:
+    """Return the components, along the axes of the first body, of a vector of a row of edges of the second body."""
+    x, y, z = vector_in_world(b, edges[at], edges[at + 1], edges[at + 2])
+    x, y, z = vector_in_body(a, x, y, z)
+    return x, y, z
+
+
+@compiled
 def _separation_of_edges(
-    a: Floats,
-    b: Floats,
-    n_edges_a: float,
-    edges_a: Floats,
-    n_edges_b: float,
-    edges_b: Floats,
-    parallel: float,
-    size: float,
+    a: Floats, b: Floats, n_edges_a: float, edges_a: Floats, n_edges_b: float, edges_b: Floats, parallel: float
 ) -> float:
-    """Return the largest separation of two cores along the common normals of their edges [m]."""
+    """Return the largest separation of two cores along normals that an edge of each has in common [m]."""
     best = -math.inf
-    for i in range(int(n_edges_a)):
-        for j in range(int(n_edges_b)):
-            _, _, _, _, gap, _, astray, _ = cross_edges(a, b, edges_a, EDGE * i, edges_b, EDGE * j, parallel, 0.0, size)
-            if astray <= 0.0:
-                best = max(best, gap)
+    for k in range(int(n_edges_b)):
+        at = EDGE * k
+        fx, fy, fz = _in_first(a, b, edges_b, at + ALONG)
+        ux, uy, uz = _in_first(a, b, edges_b, at + INTO_FIRST)
+        vx, vy, vz = _in_first(a, b, edges_b, at + INTO_SECOND)
+        qx, qy, qz = point_in_world(b, edges_b[at], edges_b[at + 1], edges_b[at + 2])
+        qx, qy, qz = vector_in_body(a, qx - a[POSITION], qy - a[POSITION + 1], qz - a[POSITION + 2])
+        for i in range(int(n_edges_a)):
+            e, one, two = EDGE * i + ALONG, EDGE * i + INTO_FIRST, EDGE * i + INTO_SECOND
+            x = edges_a[e + 1] * fz - edges_a[e + 2] * fy
+            y = edges_a[e + 2] * fx - edges_a[e] * fz
+            z = edges_a[e] * fy - edges_a[e + 1] * fx
+            # a normal of an edge leads into none of its faces
+            p = x * edges_a[one] + y * edges_a[one + 1] + z * edges_a[one + 2]
+            q = x * edges_a[two] + y * edges_a[two + 1] + z * edges_a[two + 2]
+            r, s = -x * ux - y * uy - z * uz, -x * vx - y * vy - z * vz
+            is_ahead, is_behind = max(p, q, r, s) <= 0.0, min(p, q, r, s) >= 0.0
+            sine = math.sqrt(x * x + y * y + z * z)
+            if (is_ahead or is_behind) and sine > parallel:
+                t = EDGE * i + START
+                gap = (x * (qx - edges_a[t]) + y * (qy - edges_a[t + 1]) + z * (qz - edges_a[t + 2])) / sine
+                best = max(best, gap if is_ahead else -gap)
     return best
 
 
@@ -63,7 +84,7 @@ def cross_convex_edges(
     them.  If both nearest points are outside of the other core, the normals of all pairs of edges count, too.  The
     numbers of the cores are those of :class:`bodies.contacts.features.polytope_tables.ConvexCore`.
     """
-    p, e, f, n, gap, over, astray, past = cross_edges(
+    p, e, f, n, gap, over, past = cross_edges(
         a, b, edges_a, EDGE * int(edge_a), edges_b, EDGE * int(edge_b), parallel, margin, size
     )
     if past <= 0.0 and gap < -abs(margin):
@@ -72,6 +93,6 @@ def cross_convex_edges(
         q = p[0] + gap * n[0], p[1] + gap * n[1], p[2] + gap * n[2]
         outside = min(height_over(b, n_faces_b, faces_b, *p), height_over(a, n_faces_a, faces_a, *q))
         if outside > abs(margin):
-            best = max(best, _separation_of_edges(a, b, n_edges_a, edges_a, n_edges_b, edges_b, parallel, size))
+            best = max(best, _separation_of_edges(a, b, n_edges_a, edges_a, n_edges_b, edges_b, parallel))
         past = max(past, best - gap - abs(margin))
-    return p, e, f, n, gap, over, astray, past
+    return p, e, f, n, gap, over, past

@@ -43,7 +43,7 @@ def _evaluate(
     edges_b: Floats,
     size: float,
 ) -> None:
-    p, e, f, n, gap, _, _, past = cross_convex_edges(
+    p, e, f, n, gap, _, past = cross_convex_edges(
         a,
         b,
         edge_a,

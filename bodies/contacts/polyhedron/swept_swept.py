@@ -51,7 +51,7 @@ def _evaluate(
     radius_b: float,
     size: float,
 ) -> None:
-    p, e, f, n, gap, _, _, past = cross_convex_edges(
+    p, e, f, n, gap, _, past = cross_convex_edges(
         a,
         b,
         edge_a,

@@ -32,7 +32,7 @@ def write_edges(
     edges begin at the indices ``at_a`` and ``at_b``.
     """
     margin, parallel = CLOSED * size, CLOSED if radius == 0.0 else PARALLEL
-    p, e, f, n, gap, over, _, past = cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, margin, size)
+    p, e, f, n, gap, over, past = cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, margin, size)
     if gap < 0.0:
         past = max(past, over - NEAR_ENDS * gap - margin)
     gap -= radius
