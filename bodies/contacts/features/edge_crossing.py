@@ -18,8 +18,17 @@ ASTRAY = 0.25
 An edge, a rim or a corner has a range of outward normals, between the normals of its adjacent surfaces.  The margin
 lets a contact be followed before it can close, and a spring before it lets go.
 """
-PARALLEL_ROUNDED = 1e-5
-"""Least sine of the angle between crossing edges if one is rounded; closer to parallel, the balls at their ends hold.
+PARALLEL = 1e-6
+"""Least sine of the angle between two features that cross and are round or rounded.
+
+At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
+of the angle times the size: far less than the gap tolerance.
+"""
+
+NEAR_ENDS = 4.0
+"""Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
+
+Closer to an end, the edges may pass each other without an overlap of the bodies.
 """
 
 Crossing: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, float, float, float]

@@ -13,10 +13,11 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN, Frustum
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import tangent_of
 from ..features.polytope_tables import Numbers
 from .frustum import FLANK, axis_in_world, center_in_world, set_back
-from .frustum_writing import PARALLEL, past_border, past_depth, write_side, write_two
+from .frustum_writing import past_border, past_depth, write_side, write_two
 
 
 @compiled

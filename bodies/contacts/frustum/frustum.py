@@ -152,7 +152,7 @@ def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: floa
     best = least_over(a, b, n_vertices, vertices, (-ax, -ay, -az), place) + frustum[LOW]
     if frustum[1] > 0.0:
         best = max(best, least_over(a, b, n_vertices, vertices, (ax, ay, az), place) - frustum[HIGH])
-    return best
+    return float(best)
 
 
 @compiled

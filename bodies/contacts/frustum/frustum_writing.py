@@ -17,9 +17,9 @@ from nonsmooth.types import Floats
 from ...blocks import Vector3, put
 from ...shapes.frustum import COS, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.edge_crossing import ASTRAY
+from ..features.edge_crossing import ASTRAY, PARALLEL, edge_astray
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
-from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
+from ..features.polytope_tables import ALONG, START
 from ..features.vertex_face import REACH
 from ..features.writing import write_principal, write_sweep
 from ..smooth.smooth_core import Axes, back, forth
@@ -34,12 +34,6 @@ from .frustum import (
 )
 
 Point: TypeAlias = tuple[float, float, float]
-PARALLEL = 1e-6
-"""Least sine of the angle between two features that cross.
-
-At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
-of the angle times the size: far less than the gap tolerance.
-"""
 
 
 @compiled
@@ -185,10 +179,8 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
     The contact normal (nx, ny, nz), in the axes of the frustum, points from the frustum to the edge.  The fan lies
     between the normals of the two faces of the edge.
     """
-    ux, uy, uz = vector_in_world(b, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
-    vx, vy, vz = vector_in_world(b, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     nx, ny, nz = forth(axes, nx, ny, nz)
-    return float(max(-nx * ux - ny * uy - nz * uz, -nx * vx - ny * vy - nz * vz))
+    return float(edge_astray(b, edge, 0, -1.0, nx, ny, nz))
 
 
 @compiled

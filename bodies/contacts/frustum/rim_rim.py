@@ -19,11 +19,12 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import across
 from ..features.polytope_tables import Numbers
 from ..smooth.smooth_core import axes_in_world, back, forth
 from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
-from .frustum_writing import PARALLEL, astray_of_rim, past_border, past_depth, write_side, write_two
+from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""

@@ -14,8 +14,8 @@ from ...blocks import Vector3
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_body
 from ...shapes.frustum import SWEEP
+from ..features.edge_crossing import edge_astray
 from ..features.frames import across, vector_in_body
-from ..features.polytope_tables import INTO_FIRST, INTO_SECOND
 from ..features.vertex_face import CLOSED
 from ..frustum.frustum import center_in_world, nearest_part
 from ..smooth.smooth_core import Axes, axes_in_world
@@ -58,11 +58,7 @@ def judge_crossing(
     if out[PAST_END] > 0.0:
         return
     if gap >= -CLOSED * size:
-        x, y, z = vector_in_body(b, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
-        astray = max(
-            -x * edge[INTO_FIRST] - y * edge[INTO_FIRST + 1] - z * edge[INTO_FIRST + 2],
-            -x * edge[INTO_SECOND] - y * edge[INTO_SECOND + 1] - z * edge[INTO_SECOND + 2],
-        )
+        astray = edge_astray(b, edge, 0, -1.0, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
         beyond = size * (astray - _ASTRAY)
     elif _is_aside(b, out, frustum, axes_in_world(a, frustum), center_in_world(a, frustum), surface):
         beyond = -gap

@@ -15,7 +15,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import Polyhedron
 from ..features.bounds import edges_bound
-from ..features.polytope_tables import ConvexCore, Numbers, edge_rows
+from ..features.polytope_tables import EDGE, ConvexCore
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
 from ..surface.surface_pairs import SurfacePairs, features_of_core
@@ -28,8 +28,8 @@ def _evaluate(
     a: Floats,
     b: Floats,
     out: Floats,
-    edge_a: Floats,
-    edge_b: Floats,
+    edge_a: float,
+    edge_b: float,
     n_faces_a: float,
     faces_a: Floats,
     n_faces_b: float,
@@ -38,6 +38,10 @@ def _evaluate(
     vertices_a: Floats,
     n_vertices_b: float,
     vertices_b: Floats,
+    n_edges_a: float,
+    edges_a: Floats,
+    n_edges_b: float,
+    edges_b: Floats,
     size: float,
 ) -> None:
     p, e, f, n, gap, _, past = cross_convex_edges(
@@ -53,6 +57,10 @@ def _evaluate(
         vertices_a,
         n_vertices_b,
         vertices_b,
+        n_edges_a,
+        edges_a,
+        n_edges_b,
+        edges_b,
         CLOSED,
         CLOSED * size,
         size,
@@ -74,8 +82,8 @@ def _bound(
     a: Floats,
     b: Floats,
     out: Floats,
-    edge_a: Floats,
-    edge_b: Floats,
+    edge_a: float,
+    edge_b: float,
     n_faces_a: float,
     faces_a: Floats,
     n_faces_b: float,
@@ -84,9 +92,13 @@ def _bound(
     vertices_a: Floats,
     n_vertices_b: float,
     vertices_b: Floats,
+    n_edges_a: float,
+    edges_a: Floats,
+    n_edges_b: float,
+    edges_b: Floats,
     size: float,
 ) -> None:
-    out[0] = edges_bound(a, b, edge_a, edge_b)
+    out[0] = edges_bound(a, b, edges_a, EDGE * int(edge_a), edges_b, EDGE * int(edge_b))
 
 
 @final
@@ -100,10 +112,8 @@ class PolyhedronPolyhedron(ContactKinematics):
 
     Attributes
     ----------
-    edge_a, edge_b : tuple of float
-        Rows of the edges (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     cores : tuple of ConvexCore
-        Faces and vertices of both bodies.
+        Faces, vertices and edges of both bodies.
     number_a, number_b : int
         Numbers of the edges in their bodies.
     size : float
@@ -117,8 +127,6 @@ class PolyhedronPolyhedron(ContactKinematics):
             "two given edges face each other in hardly any random pose; the tests make poses from edges that cross",
         )
     )
-    edge_a: Numbers
-    edge_b: Numbers
     cores: tuple[ConvexCore, ConvexCore]
     number_a: int
     number_b: int
@@ -127,10 +135,10 @@ class PolyhedronPolyhedron(ContactKinematics):
     def parameters(self) -> dict[str, Value]:
         """Return edges, cores and size."""
         return {
-            "edge_a": self.edge_a,
-            "edge_b": self.edge_b,
-            **self.cores[0].values("_a"),
-            **self.cores[1].values("_b"),
+            "edge_a": float(self.number_a),
+            "edge_b": float(self.number_b),
+            **self.cores[0].values_with_edges("_a"),
+            **self.cores[1].values_with_edges("_b"),
             "size": self.size,
         }
 
@@ -152,11 +160,7 @@ class PolyhedronPolyhedron(ContactKinematics):
         if n > MOST_CONTACTS:
             return SurfacePairs.of_surfaces(features_of_core(one), features_of_core(two), (first.extent, second.extent))
         cores = ConvexCore.of(one), ConvexCore.of(two)
-        crossings = (
-            cls(row_a, row_b, cores, i, j, size)
-            for i, row_a in enumerate(edge_rows(one))
-            for j, row_b in enumerate(edge_rows(two))
-        )
+        crossings = (cls(cores, i, j, size) for i in range(len(one.edges)) for j in range(len(two.edges)))
         return *crossings, *PolyhedronPoint.of_vertices(cores, size), *PointPolyhedron.of_vertices(cores, size)
 
     @property

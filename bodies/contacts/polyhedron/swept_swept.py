@@ -15,9 +15,9 @@ from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import PARALLEL_ROUNDED
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import write_tangent
-from ..features.polytope_tables import ConvexCore, Numbers, edge_rows
+from ..features.polytope_tables import EDGE, ConvexCore
 from ..features.swept_vertex import END, SweptVertex, size_of
 from ..features.writing import write_principal
 from .convex_cores import cross_convex_edges
@@ -34,8 +34,8 @@ def _evaluate(
     a: Floats,
     b: Floats,
     out: Floats,
-    edge_a: Floats,
-    edge_b: Floats,
+    edge_a: float,
+    edge_b: float,
     n_faces_a: float,
     faces_a: Floats,
     n_faces_b: float,
@@ -44,6 +44,10 @@ def _evaluate(
     vertices_a: Floats,
     n_vertices_b: float,
     vertices_b: Floats,
+    n_edges_a: float,
+    edges_a: Floats,
+    n_edges_b: float,
+    edges_b: Floats,
     radius_a: float,
     radius_b: float,
     size: float,
@@ -61,7 +65,11 @@ def _evaluate(
         vertices_a,
         n_vertices_b,
         vertices_b,
-        PARALLEL_ROUNDED,
+        n_edges_a,
+        edges_a,
+        n_edges_b,
+        edges_b,
+        PARALLEL,
         -END * size,
         size,
     )
@@ -81,8 +89,8 @@ def _bound(
     a: Floats,
     b: Floats,
     out: Floats,
-    edge_a: Floats,
-    edge_b: Floats,
+    edge_a: float,
+    edge_b: float,
     n_faces_a: float,
     faces_a: Floats,
     n_faces_b: float,
@@ -91,11 +99,16 @@ def _bound(
     vertices_a: Floats,
     n_vertices_b: float,
     vertices_b: Floats,
+    n_edges_a: float,
+    edges_a: Floats,
+    n_edges_b: float,
+    edges_b: Floats,
     radius_a: float,
     radius_b: float,
     size: float,
 ) -> None:
-    out[0] = edges_bound(a, b, edge_a, edge_b) - radius_a - radius_b
+    distance = edges_bound(a, b, edges_a, EDGE * int(edge_a), edges_b, EDGE * int(edge_b))
+    out[0] = distance - radius_a - radius_b
 
 
 @final
@@ -111,10 +124,8 @@ class SweptSwept(ContactKinematics):
 
     Attributes
     ----------
-    edge_a, edge_b : tuple of float
-        Rows of the edges (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     cores : tuple of ConvexCore
-        Faces and vertices of both cores.
+        Faces, vertices and edges of both cores.
     number_a, number_b : int
         Numbers of the edges in their shapes.
     radius_a, radius_b : float
@@ -124,8 +135,6 @@ class SweptSwept(ContactKinematics):
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    edge_a: Numbers
-    edge_b: Numbers
     cores: tuple[ConvexCore, ConvexCore]
     number_a: int
     number_b: int
@@ -136,10 +145,10 @@ class SweptSwept(ContactKinematics):
     def parameters(self) -> dict[str, Value]:
         """Return edges, cores, radii and size."""
         return {
-            "edge_a": self.edge_a,
-            "edge_b": self.edge_b,
-            **self.cores[0].values("_a"),
-            **self.cores[1].values("_b"),
+            "edge_a": float(self.number_a),
+            "edge_b": float(self.number_b),
+            **self.cores[0].values_with_edges("_a"),
+            **self.cores[1].values_with_edges("_b"),
             "radius_a": self.radius_a,
             "radius_b": self.radius_b,
             "size": self.size,
@@ -161,11 +170,7 @@ class SweptSwept(ContactKinematics):
             )
         cores, radii = (ConvexCore.of(one), ConvexCore.of(two)), (first.sweep, second.sweep)
         size = size_of(first, second)
-        crossings = (
-            cls(row_a, row_b, cores, i, j, *radii, size)
-            for i, row_a in enumerate(edge_rows(one))
-            for j, row_b in enumerate(edge_rows(two))
-        )
+        crossings = (cls(cores, i, j, *radii, size) for i in range(len(one.edges)) for j in range(len(two.edges)))
         return *crossings, *SweptVertex.between(first, second)
 
     @property

@@ -9,16 +9,10 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import PARALLEL_ROUNDED, cross_edges
+from ..features.edge_crossing import NEAR_ENDS, PARALLEL, cross_edges
 from ..features.frames import write_tangent
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
-
-_NEAR_ENDS = 4.0
-"""Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
-
-Closer to an end, the edges may pass each other without an overlap of the bodies.
-"""
 
 
 def evaluate_edges(
@@ -32,7 +26,7 @@ def bound_of_edges(
     a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats, radius: float, size: float
 ) -> None:
     """Write by how much the bodies must move before two edges touch [m]; arguments as in :func:`evaluate_edges`."""
-    out[0] = edges_bound(a, b, edge_a, edge_b) - radius
+    out[0] = edges_bound(a, b, edge_a, 0, edge_b, 0) - radius
 
 
 @compiled
@@ -45,10 +39,10 @@ def write_edges(
     (:func:`bodies.contacts.features.edge_crossing.cross_edges`), and if they overlap near their ends.  The rows of the
     edges begin at the indices ``at_a`` and ``at_b``.
     """
-    margin, parallel = CLOSED * size, CLOSED if radius == 0.0 else PARALLEL_ROUNDED
+    margin, parallel = CLOSED * size, CLOSED if radius == 0.0 else PARALLEL
     p, e, f, n, gap, over, past = cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, margin, size)
     if gap < 0.0:
-        past = max(past, over - _NEAR_ENDS * gap - margin)
+        past = max(past, over - NEAR_ENDS * gap - margin)
     gap -= radius
     if past > 0.0:
         gap = math.hypot(gap, past)

@@ -69,7 +69,7 @@ def add_displacements(ws: Workspace) -> None:
         carrier.distance += distance(frame.origin, carrier.place) + carrier.radius * math.sqrt(0.5 * square)
         carrier.place = frame.origin
         farthest = max(farthest, carrier.distance)
-    # the sums restart before their round-off reaches the gap tolerance; a margin of 0 makes each pair evaluated and listed anew
+    # the sums restart before their round-off reaches the gap tolerance; each pair is evaluated and listed anew
     if SPACING * farthest > ws.tolerance.gap:
         for carrier in ws.carriers:
             carrier.distance = 0.0
