@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.engine.memory.owners import Island, Options, Tolerance
 from nonsmooth.engine.memory.solvers import SOLVERS, pivoted_contacts, solver_of
+from nonsmooth.engine.numerics.tolerances import GAP, RELATIVE_GAP, RELATIVE_TIME, RELATIVE_VELOCITY, TIME, VELOCITY
 from nonsmooth.interfaces.engine import Engine
+from nonsmooth.interfaces.scales import Scales
 from nonsmooth.parameters import parameter
 
 if TYPE_CHECKING:
@@ -33,6 +35,10 @@ class PainlevePolicy(StrEnum):
 
 
 _POLICIES = tuple(PainlevePolicy)
+_LARGEST_STEP = 0.1
+"""Largest step [s] of the default options."""
+_LARGEST_RELATIVE_STEP = 10.0
+"""The same, relative to the time scale of the system."""
 
 
 @final
@@ -40,17 +46,41 @@ _POLICIES = tuple(PainlevePolicy)
 class EventDriven(Engine):
     """Integrates between events, finds each of them, and solves there for impulses and new modes.
 
-    Its tolerances and limits are numerical, not physical; the defaults suit bodies from millimetres to metres.
+    Its tolerances and limits are numerical, not physical. By default, those of gaps, velocities and times, and the
+    largest step, follow from the sizes of the system: the smallest free body and its typical acceleration
+    (:class:`~nonsmooth.interfaces.Scales`).
     """
 
     tolerance: float = parameter(1e-9, doc="relative error of a step of the flow", above=0.0, maximum=1e-2)
     impact_tolerance: float = parameter(1e-8, doc="relative error of a step inside an impact", above=0.0, maximum=1e-2)
-    time_tolerance: float = parameter(1e-12, doc="accuracy of event times", unit="s", above=0.0, maximum=1e-3)
-    gap_tolerance: float = parameter(1e-12, doc="gap that counts as closed", unit="m", above=0.0, maximum=1e-3)
-    velocity_tolerance: float = parameter(
-        2e-8, doc="relative velocity that counts as zero", unit="m/s", above=0.0, maximum=1e-2
+    time_tolerance: float | None = parameter(
+        None,
+        doc="accuracy of event times; by default 1e-10 of the time scale, at most 1e-12 s",
+        unit="s",
+        above=0.0,
+        maximum=1e-3,
     )
-    largest_step: float = parameter(0.1, doc="largest step of the flow", unit="s", above=0.0, maximum=1e9)
+    gap_tolerance: float | None = parameter(
+        None,
+        doc="gap that counts as closed; by default 1e-9 of the smallest body, at most 1e-12 m",
+        unit="m",
+        above=0.0,
+        maximum=1e-3,
+    )
+    velocity_tolerance: float | None = parameter(
+        None,
+        doc="relative velocity that counts as zero; by default 2e-7 of the speed scale, at most 2e-8 m/s",
+        unit="m/s",
+        above=0.0,
+        maximum=1e-2,
+    )
+    largest_step: float | None = parameter(
+        None,
+        doc="largest step of the flow; by default ten time scales, at most 0.1 s",
+        unit="s",
+        above=0.0,
+        maximum=1e9,
+    )
     steps_per_period: float = parameter(4.0, doc="least steps per time scale of a prescribed motion", minimum=1.0)
     painleve: str = parameter(
         "impact",
@@ -82,18 +112,23 @@ class EventDriven(Engine):
         """
         return {"n_pivoted": pivoted_contacts(solver_of(self.solver), n_slots)}
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
-        """Return solver, policy, tolerances and first steps [s] as numbers of the workspace."""
-        step = min(self.largest_step, time_scale / self.steps_per_period)
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
+        """Return solver, policy, tolerances and first steps [s] as numbers of the workspace.
+
+        An option that is None follows from the sizes of the system, and is at most the value for a body of 1 mm.
+        """
+        time = _given(self.time_tolerance, min(TIME, RELATIVE_TIME * scales.time))
+        largest_step = _given(self.largest_step, min(_LARGEST_STEP, _LARGEST_RELATIVE_STEP * scales.time))
+        step = min(largest_step, scales.period / self.steps_per_period)
         return {
             Options.solver: solver_of(self.solver),
             Options.painleve_policy: _POLICIES.index(self.painleve),
             Tolerance.relative: self.tolerance,
             Tolerance.impact: self.impact_tolerance,
-            Tolerance.time: self.time_tolerance,
-            Tolerance.resolution: self.time_tolerance,
-            Tolerance.gap: self.gap_tolerance,
-            Tolerance.velocity: self.velocity_tolerance,
+            Tolerance.time: time,
+            Tolerance.resolution: time,
+            Tolerance.gap: _given(self.gap_tolerance, min(GAP, RELATIVE_GAP * scales.length)),
+            Tolerance.velocity: _given(self.velocity_tolerance, min(VELOCITY, RELATIVE_VELOCITY * scales.speed)),
             Tolerance.largest_step: step,
             Island.free_step: step,
             Island.closed_step: step,
@@ -102,3 +137,8 @@ class EventDriven(Engine):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Call the compiled entry point ``advance``; the result is its status."""
         return int(call("advance", most_steps, int(pauses_before_end)))
+
+
+def _given(option: float | None, by_size: float) -> float:
+    """Value of an option, or the value that follows from the sizes of the system if the option is None."""
+    return by_size if option is None else option

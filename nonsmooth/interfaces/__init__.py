@@ -15,6 +15,7 @@ from nonsmooth.interfaces.load import Load
 from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.motion import Motion
 from nonsmooth.interfaces.normal_law import CompliantNormalLaw, NormalLaw, RigidNormalLaw
+from nonsmooth.interfaces.scales import Scales
 from nonsmooth.interfaces.scenario import Run, Scenario
 from nonsmooth.interfaces.shape import Shape
 from nonsmooth.interfaces.tangential_law import TangentialLaw
@@ -45,6 +46,7 @@ __all__ = [
     "NormalLaw",
     "RigidNormalLaw",
     "Run",
+    "Scales",
     "Scenario",
     "Shape",
     "StatefulFrictionLaw",

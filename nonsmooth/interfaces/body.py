@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.interfaces.look import Look
+from nonsmooth.interfaces.scales import EARTH
 from nonsmooth.interfaces.shape import Shape
 from nonsmooth.parameters import Component
 
@@ -115,10 +116,11 @@ class Body(Component, ABC):
         """Sizes of q and u below which the tolerance of a step is absolute, not relative; shapes [n_q] and [n_u].
 
         By default each size follows from the unit: :attr:`length_scale` L for m; sqrt(9.81 L), about the speed of a
-        fall through L, for m/s; this speed divided by L for rad/s; 1 for every other unit, such as rad or 1.
+        fall through L, for m/s; this speed divided by L for rad/s; 1 for every other unit, such as rad or 1.  In a
+        system whose typical acceleration a is smaller, the sizes of u are those of here times sqrt(a / 9.81).
         """
         length = self.length_scale
-        speed = math.sqrt(9.81 * length)
+        speed = math.sqrt(EARTH * length)
         q, u = {"m": length}, {"m/s": speed, "rad/s": speed / length}
         return (
             np.array([q.get(unit, 1.0) for _, unit in self.q_labels]),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
+from nonsmooth.interfaces.scales import Scales
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
@@ -155,13 +156,13 @@ class Engine(Component, ABC):
         """
 
     @abstractmethod
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         """Return scalars of the workspace that it sets, by their declarations: ``{Tolerance.relative: 1e-9}``.
 
         Parameters
         ----------
-        time_scale : float
-            Shortest period of the prescribed motions [s].
+        scales : Scales
+            Sizes of the system.
         """
 
     def prepare(self, model: LaidOut) -> None:

@@ -30,6 +30,7 @@ from nonsmooth.model.laying import ArticulationLayout, articulations, lay_bodies
 from nonsmooth.model.laying_contacts import Groups, groups_of, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
 from nonsmooth.model.row_table import RowTable
+from nonsmooth.model.scales import check_gap_tolerance, scales_of
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
@@ -112,12 +113,14 @@ def lay(system: System, engine: Engine) -> LaidOut:
     counts = _counts(system, parts)
     slot_counts = functools.partial(_slot_counts, engine, counts["n_u"], counts["n_y"])
     counts |= slot_counts(parts.broad_phase.n_slots)
-    settings = settings_of(engine, system.time_scale)
+    scales = scales_of(system)
+    settings = settings_of(engine, scales)
+    check_gap_tolerance(system, settings.get(owners.Tolerance.gap, 0.0))
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
     # by these addresses functions of the engine call each other if they are compiled separately
     memory[owners.ModelNumbers.entry_points][: len(entry_addresses())] = entry_addresses()
-    bodies = lay_bodies(system, memory, blocks, parts.articulations)
+    bodies = lay_bodies(system, memory, blocks, parts.articulations, scales.acceleration)
     lay_joints(memory, blocks, parts.articulations, bodies)
     lay_loads(system, memory, blocks, bodies)
     lay_contacts(memory, blocks, contacts, parts.table, parts.groups, bodies)

@@ -10,6 +10,8 @@ import math
 import numpy as np
 
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW
+from nonsmooth.engine.numerics.tolerances import GAP, RELATIVE_GAP, RELATIVE_VELOCITY, VELOCITY
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
@@ -18,13 +20,15 @@ from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.laying import articulations
-from nonsmooth.model.overlaps import at_default, check_overlaps, frames_of, overlap_allowed
+from nonsmooth.model.overlaps import at_default, check_overlaps, frames_of
+from nonsmooth.model.scales import scales_of
+from nonsmooth.solids.measure import touching
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
 _OPEN = 1e-9
 """Largest residual or rate of a closed joint, relative to the largest coordinate or velocity, which is taken as at
-least 1 (SI). A start is rounded to about this part."""
+least 1 (SI). A start is rounded to about this part. Displacements of small bodies have a smaller limit."""
 
 
 def check_start(model: LaidOut) -> None:
@@ -63,7 +67,7 @@ def _check_gaps(model: LaidOut, gaps: Vector) -> None:
     for number in np.flatnonzero(~(gaps >= 0.0)).tolist():
         contact, gap = model.system.contacts[number], float(gaps[number])
         is_compliant = isinstance(contact.normal, CompliantNormalLaw)
-        if not gap >= (-math.inf if is_compliant else -overlap_allowed(contact)):
+        if not gap >= (-math.inf if is_compliant else -touching(contact.size)):
             _check_shapes(model, number)
             raise InvalidInput(
                 f"start of the {contact}",
@@ -111,25 +115,37 @@ def _check_joints(model: LaidOut) -> None:
     scale = max(1.0, float(np.max(np.abs(memory[owners.Island.y][: model.n_q + model.n_u]), initial=0.0)))
     # in the order in which the memory has the joints
     ties = [(i, tie) for i, articulation in enumerate(articulations(model.system)) for tie in articulation.joints]
+    # small and slow bodies have smaller tolerances of displacements
+    sizes = scales_of(model.system)
+    small = min(1.0, RELATIVE_GAP / GAP * sizes.length), min(1.0, RELATIVE_VELOCITY / VELOCITY * sizes.speed)
     for number, (articulation, tie) in enumerate(ties):
-        _check_joint(model, tie, number, articulation, _OPEN * scale)
+        _check_joint(model, tie, number, articulation, _OPEN * scale, small)
 
 
-def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allowed: float) -> None:
+def _check_joint(
+    model: LaidOut, tie: Tie, number: int, articulation: int, allowed: float, small: tuple[float, float]
+) -> None:
     """Check that residual and rate of each row of a joint are at most ``allowed`` [m, m/s, rad or rad/s].
 
     ``number`` and ``articulation`` are the numbers of the joint and of its group of tied bodies in the memory.
+    ``small`` has the factors by which residual and rate of a displacement must be smaller.
     """
     memory = model.memory
-    rows, first = (int(memory[one][number]) for one in (owners.JointRecord.n_rows, owners.JointRecord.first_row))
-    for what, unit, place in (
-        ("residual", "m or rad", owners.Articulation.residual),
-        ("rate", "m/s or rad/s", owners.Articulation.rate),
+    rows, first, out = (
+        int(memory[one][number])
+        for one in (owners.JointRecord.n_rows, owners.JointRecord.first_row, owners.JointRecord.out)
+    )
+    # a row of a displacement has an axis, one of a rotation has none
+    axes = memory.floats[out:][: JOINT_ROW * rows].reshape(rows, JOINT_ROW)[:, AXIS : AXIS + 3]
+    displaces = np.any(axes != 0.0, axis=1)
+    for what, unit, place, factor in (
+        ("residual", "m or rad", owners.Articulation.residual, small[0]),
+        ("rate", "m/s or rad/s", owners.Articulation.rate, small[1]),
     ):
         # the rows of all joints of an articulation follow each other
         values = memory.floats[int(memory[place][articulation]) + first :][:rows]
         # this finds NaN, too
-        if not float(np.max(np.abs(values))) <= allowed:
+        if not np.all(np.abs(values) <= np.where(displaces, factor * allowed, allowed)):
             raise InvalidInput(
                 f"start of the {tie}",
                 f"must have the {what} 0 [{unit}] in each of its rows",

@@ -14,7 +14,7 @@ from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
 from nonsmooth.engine.memory.tables import CONSTANT_SCALARS
 from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 from nonsmooth.interfaces.engine import FIRST_CODE
 
 
@@ -36,17 +36,15 @@ def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[st
     return found
 
 
-def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
+def settings_of(engine: Engine, scales: Scales) -> Mapping[Any, float]:
     """Scalars of the workspace that the engine sets, such as tolerances, with their values, checked.
-
-    ``time_scale`` [s] is the shortest time in which prescribed motions change.
 
     Raises
     ------
     InvalidInput
         If a key is no scalar, is the size of an array, or a value is no number.
     """
-    found = engine.settings(time_scale)
+    found = engine.settings(scales)
     for one, value in found.items():
         thing, rule = f"{_name(engine)}.settings", "must have scalars of the workspace for its keys"
         # a declaration of a Singleton without a size is a scalar

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +14,7 @@ from nonsmooth.engine.memory.blocks import FRAME, JOINT_ROW, LOAD
 from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import Body, Joint, Load
+from nonsmooth.interfaces.scales import EARTH
 from nonsmooth.parameters import Component, Value
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
@@ -136,12 +138,17 @@ def _function(
 
 
 def lay_bodies(
-    system: System, memory: Memory, blocks: Heap, articulations: Sequence[ArticulationLayout]
+    system: System,
+    memory: Memory,
+    blocks: Heap,
+    articulations: Sequence[ArticulationLayout],
+    acceleration: float,
 ) -> dict[int, BodyLayout]:
     """Write the bodies, and the scales of their coordinates and velocities for the error of a step.
 
     The result has the layout of each body, by its identity. Coordinates of all bodies come first in the state, then the
-    velocities, both in the order of the bodies.
+    velocities, both in the order of the bodies. Scales of velocities are those of bodies on Earth, reduced for the
+    typical ``acceleration`` [m/s^2] of the system.
     """
     n_q = sum(body.n_q for body in system.bodies)
     scale = memory[owners.Step.y_scale]
@@ -154,7 +161,8 @@ def lay_bodies(
         for number, body in enumerate(articulation.bodies, articulation.first):
             frames = _lay_body(system, memory, blocks, number, id(body) in tied, {"q": q, "u": u})
             layouts[id(body)] = BodyLayout(number, body.n_u, u, frames, index, u - first_u, n_u)
-            scale[q : q + body.n_q], scale[n_q + u : n_q + u + body.n_u] = body.scales
+            scale[q : q + body.n_q], on_earth = body.scales
+            scale[n_q + u : n_q + u + body.n_u] = on_earth * math.sqrt(acceleration / EARTH)
             q, u = q + body.n_q, u + body.n_u
     return layouts
 

@@ -18,6 +18,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.model.part_pairs import by_shapes, numbers_of_rows
+from nonsmooth.solids.measure import touching
 from nonsmooth.solids.pieces import Pieces
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
@@ -43,11 +44,6 @@ class Overlap(NamedTuple):
 
     contact: Contact
     depth: float
-
-
-def overlap_allowed(contact: Contact) -> float:
-    """Largest overlap of bodies that touch [m]: a millionth of the smaller one, at least 1 nm, for round-off."""
-    return max(1e-9, 1e-6 * contact.size)
 
 
 def check_overlaps(model: LaidOut) -> None:
@@ -105,7 +101,7 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
         contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
         if np.any(blocks[near, GAP] < 0.0) and isinstance(contact.normal, CompliantNormalLaw):
             continue
-        depth = overlap(one, two, overlap_allowed(contact))
+        depth = overlap(one, two, float(touching(contact.size)))
         if depth > 0.0:
             return Overlap(contact, depth)
     return None

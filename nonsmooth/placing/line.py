@@ -21,6 +21,8 @@ _NEAR = 1e-7
 The place found from the convex parts is corrected until this gap is 0. A larger gap shows that the contact's features
 do not face each other, so the place is not corrected. Feet are added: they are parts, but some contacts ignore them.
 """
+_STRAIGHT = 1e-6
+"""Deviation from a translation that is round-off, relative to the motion."""
 _GRAZING = 1e4
 """Largest correction, along the line, of the place at which the bodies touch, relative to the error of the gap.
 
@@ -177,7 +179,7 @@ class Line:
         speed = float(np.linalg.norm(twists[0, :3]))
         scale = np.repeat([1.0, max(probe.body.scales[0])], 3)
         along = np.concatenate([twists[0, :3], np.zeros(3)])
-        if speed < 1e-6 or float(np.max(np.linalg.norm((twists - along) * scale, axis=1))) > 1e-6 * speed:
+        if speed < _STRAIGHT or float(np.max(np.linalg.norm((twists - along) * scale, axis=1))) > _STRAIGHT * speed:
             self._refuse()
         return probe.coordinate_rates(u / speed), twists[0, :3] / speed
 
@@ -188,7 +190,8 @@ class Line:
             frames.append(np.array([self._probe.frame(i)[:12] for i in range(len(self._probe.body.frames))]))
         moved = frames[1] - frames[0]
         moved[:, :3] -= distance * self._way
-        return bool(np.all(np.abs(moved) <= 1e-6 * (1.0 + self._size + abs(distance))))
+        far = self._size + abs(distance)
+        return bool(np.all(np.abs(moved) <= _STRAIGHT * np.repeat([far, 1.0], (3, 9))))
 
     def _refuse(self) -> None:
         raise InvalidInput(

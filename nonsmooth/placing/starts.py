@@ -100,7 +100,9 @@ def resting(system: System, body: Body, *, direction: Sequence[float] | None = N
     twist = np.concatenate([carrier[12:15] + np.cross(turn, frame[:3] - carrier[:3]), turn])
     u = np.linalg.lstsq(probe.jacobian(contact.frames[own]), twist, rcond=None)[0]
     rates = probe.rates(u)[touched]
-    if np.max(np.abs(rates)) > _ROUND_OFF * (1.0 + float(np.max(np.abs(twist)))):
+    # of the body there, and of its farthest points by its rotation
+    speed = float(np.linalg.norm(twist[:3]) + np.linalg.norm(turn) * body.length_scale)
+    if np.max(np.abs(rates)) > _ROUND_OFF * speed:
         raise InvalidInput(
             f"resting {system.name_of(body)!r}",
             f"must be able to follow {system.name_of((contact.first, contact.second)[other])!r}, which it touches",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -65,11 +65,6 @@ def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
         np.min([place - radius for place, radius in balls], axis=0),
         np.max([place + radius for place, radius in balls], axis=0),
     )
-
-
-def touching(size: Any) -> Any:
-    """Largest gap or overlap of two bodies that touch [m]: 1e-6 of the size [m], at least 1e-9 m."""
-    return np.maximum(1e-9, 1e-6 * size)
 
 
 @final

@@ -12,8 +12,9 @@ from nonsmooth.checks import check_kind, is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.distance import BodyPair
-from nonsmooth.queries.near import Ties, near_bodies, places_at_start, size_of, touching
+from nonsmooth.queries.near import Ties, near_bodies, places_at_start, size_of
 from nonsmooth.queries.result import DistanceResult
+from nonsmooth.solids.measure import touching
 from nonsmooth.system.system import System
 
 NEAR, TOUCHING, OVERLAPPING = "near", "touching", "overlapping"
@@ -33,7 +34,7 @@ class NearPair:
     numbers : tuple of int
         Numbers of the bodies in the system.
     state : str
-        "near", "touching" (a gap or overlap of at most 1e-6 of the smaller extent, or 1e-9 m) or "overlapping".
+        "near", "touching" (a gap or overlap of at most 1e-6 of the smaller extent) or "overlapping".
     declared, joined, excluded : bool
         Whether the pair has a declared contact; is tied by joints, directly or through other bodies; is excluded.
     distance : DistanceResult

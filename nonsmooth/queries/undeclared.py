@@ -18,7 +18,8 @@ from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.notices import warn
 from nonsmooth.queries.distance import BodyPair
-from nonsmooth.queries.near import Ties, near_bodies, size_of, touching
+from nonsmooth.queries.near import Ties, near_bodies, size_of
+from nonsmooth.solids.measure import touching
 from nonsmooth.solids.pieces import Pieces
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.system import System

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, final
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.gate import Gate
 from nonsmooth.files.reading import Setup, engine_of, load_system
-from nonsmooth.interfaces import Engine, Measure
+from nonsmooth.interfaces import Engine, Measure, Scales
 from nonsmooth.results.description import named_elsewhere
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder, naming_damage
@@ -52,7 +52,7 @@ class Unavailable(Engine):
         """No counts, because this engine never runs."""
         return {}
 
-    def settings(self, time_scale: float) -> Mapping[str, float]:
+    def settings(self, scales: Scales) -> Mapping[str, float]:
         """No settings, because this engine never runs."""
         return {}
 

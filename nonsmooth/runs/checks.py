@@ -11,6 +11,7 @@ from nonsmooth.checks import check_callable, is_finite
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.declared import searched
@@ -107,8 +108,6 @@ def checked_request(folder: SolutionFolder, until: Until | None) -> RunRequest:
 _INTEGERS = ("modes", "guards_spent")
 _REALS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
 _REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
-_LARGEST_GAP = 1e3
-"""Largest gap of a closed contact of a state, relative to the gap tolerance: a user's rounding gives smaller gaps."""
 
 
 def check_arrays(model: LaidOut, state: State) -> None:
@@ -180,7 +179,7 @@ def check_closed(model: LaidOut, state: State) -> None:
     if not np.any(state.modes):
         return
     gaps = model.gaps()
-    allowed = _LARGEST_GAP * float(model.memory[owners.Tolerance.gap])
+    allowed = ALLOWED * float(model.memory[owners.Tolerance.gap])
     for number in np.flatnonzero(state.modes).tolist():
         normal = model.system.contacts[number].normal
         # a compliant law may act before the surfaces touch

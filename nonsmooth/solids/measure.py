@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -22,8 +22,20 @@ from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 
+_TOUCHING = 1e-6
+"""Gap or overlap of bodies that touch, relative to the smaller one."""
+_OF_POINT = 1e-9
+"""The same of a point [m], which has no size."""
 _POSE = 12
 """Length of position and rotation matrix of a frame, with which its numbers begin."""
+
+
+def touching(size: Any) -> Any:
+    """Largest gap or overlap of two bodies that touch [m]: 1e-6 of the ``size`` [m] of the smaller one.
+
+    It is 1e-9 m for a point, which has no size.
+    """
+    return np.where(np.asarray(size) > 0.0, _TOUCHING * size, _OF_POINT)
 
 
 def numbers_of(part: ConvexPart) -> list[float]:

@@ -8,15 +8,11 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.interfaces import Body, Engine
 from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
-_EXPLAINED = 1e3
-"""Allowed residual of the energy account of a run of up to 1000 steps, relative to the tolerance of a step.
-
-In a longer run the number of steps replaces 1000: one tolerance for each step.
-"""
 _MOST = 1e-3
 """Largest unexplained energy that a run may have, however many steps it takes, relative to its scale of energy."""
 _REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
@@ -79,7 +75,7 @@ def suspicions(
     promised, name = engine.promised_residual, type(engine).__name__
     if promised is None:
         tolerance, remedy = max(tolerances[0], _OF_IMPACTS * tolerances[1]), _REMEDY
-        account, off = open_run(energy, tolerance, steps, scale, floor), _EXPLAINED * tolerances[0]
+        account, off = open_run(energy, tolerance, steps, scale, floor), ALLOWED * tolerances[0]
     else:
         account, off, remedy = broken_promise(energy, promised, name, floor), promised, _remedy_of(engine)
     given = pushed(rubbed, energy, floor)
@@ -156,8 +152,8 @@ def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float =
     """
     slow = steps * tolerance * math.sqrt(energy.scale * scale)
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
-    most = max(_MOST, _EXPLAINED * tolerance) * max(energy.scale, floor)
-    explained = min(max(_EXPLAINED, steps) * tolerance * energy.scale + slow, most) + _ROUND_OFF * potential
+    most = max(_MOST, ALLOWED * tolerance) * max(energy.scale, floor)
+    explained = min(max(ALLOWED, steps) * tolerance * energy.scale + slow, most) + _ROUND_OFF * potential
     if energy.unexplained <= explained:
         return ""
     part = explained / energy.scale if energy.scale > 0.0 else explained

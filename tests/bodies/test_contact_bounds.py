@@ -47,7 +47,8 @@ def _block(pose: Pose) -> Vector:
 def _turn(rng: np.random.Generator, angle: float) -> Vector:
     """Return the matrix of a rotation by an angle [rad] about any axis."""
     axis = rng.normal(size=3)
-    return rotations(np.array([[math.cos(0.5 * angle), *(math.sin(0.5 * angle) * axis / np.linalg.norm(axis))]]))[0]
+    (turned,) = rotations(np.array([[math.cos(0.5 * angle), *(math.sin(0.5 * angle) * axis / np.linalg.norm(axis))]]))
+    return np.asarray(turned)
 
 
 def _touching(first: Body, second: Body, rng: np.random.Generator) -> tuple[Pose, Pose]:

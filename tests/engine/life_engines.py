@@ -26,6 +26,7 @@ from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.memory.tables import OWNERS
 from nonsmooth.engine.native.kernel import PLAIN, entry_addresses, prototype_of
 from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.interfaces import Scales
 from nonsmooth.interfaces.engine import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 
@@ -97,9 +98,9 @@ class SingleSteps(Engine):
         """As the inner engine."""
         return self.inner.counts(n_slots)
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         """As the inner engine."""
-        return self.inner.settings(time_scale)
+        return self.inner.settings(scales)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         """Continue by single steps; ends as the inner engine, or if it does nothing because it waits for the end."""

@@ -15,7 +15,7 @@ from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 
 RADIUS, SPEED, CONTACT_TIME = 0.01, 1.0, 1e-3
 CROWDED = 1e-2 * CONTACT_TIME / 100
@@ -79,8 +79,8 @@ class Relay(Engine):
     def counts(self, n_slots: int) -> Mapping[str, int]:
         return self.first.counts(n_slots)
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
-        return self.first.settings(time_scale)
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
+        return self.first.settings(scales)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         status = self.first.advance(call, memory, most_steps, pauses_before_end)

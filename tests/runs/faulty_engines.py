@@ -16,7 +16,7 @@ from nonsmooth.engine.memory.owners import (
     Request,
     Tolerance,
 )
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 from nonsmooth.parameters import parameter
 from nonsmooth.steps import FloatRow, Life, Singleton, array, per
 from tests.runs.own_engine import Midpoint
@@ -34,7 +34,7 @@ class Blind(Engine):
     def counts(self, n_slots: int) -> Mapping[str, int]:
         return {}
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         return {Tolerance.relative: 1e-5, Tolerance.impact: 1e-5}
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
@@ -42,27 +42,27 @@ class Blind(Engine):
 
 
 class WrongSetting(Blind):
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         return {"nonsense": 1.0}
 
 
 class SetsArray(Blind):
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         return {Island.y: 1.0}
 
 
 class SetsContact(Blind):
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         return {ContactRecord.gap: 1.0}
 
 
 class SetsCount(Blind):
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         return {ModelNumbers.n_bodies: 1.0}
 
 
 class SetsWord(Blind):
-    def settings(self, time_scale: float) -> Mapping[Any, Any]:
+    def settings(self, scales: Scales) -> Mapping[Any, Any]:
         return {Tolerance.relative: "small"}
 
 

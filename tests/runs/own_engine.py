@@ -20,7 +20,7 @@ from nonsmooth.engine.memory.owners import (
     Totals,
 )
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 from nonsmooth.parameters import parameter
 from nonsmooth.system.system import System
 
@@ -46,7 +46,7 @@ class Midpoint(Engine):
         """Return nothing."""
         return {}
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         """Return the error of a step that explains what the account of energy lacks."""
         return {Tolerance.relative: 1e-5, Tolerance.impact: 1e-5}
 

@@ -18,7 +18,7 @@ from nonsmooth.engine.memory.owners import (
     Tolerance,
     Totals,
 )
-from nonsmooth.interfaces import EndCause, Measure
+from nonsmooth.interfaces import EndCause, Measure, Scales
 from nonsmooth.parameters import parameter
 from nonsmooth.steps import Life, Singleton, real
 from tests.runs.faulty_engines import Blind
@@ -112,7 +112,7 @@ class Judged(Blind):
     def promised_residual(self) -> float | None:
         return self.promise or None
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
         return {Tolerance.relative: 1e-9, Tolerance.impact: 1e-8}
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:

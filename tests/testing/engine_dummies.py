@@ -10,7 +10,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.event_rows import CODE_HEAD
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scales
 from nonsmooth.steps import FloatRow, Life, Singleton, array, per
 from nonsmooth.system.system import System
 
@@ -120,8 +120,8 @@ class Dummy(Engine):
     def counts(self, n_slots: int) -> Mapping[str, int]:
         return EventDriven().counts(n_slots)
 
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
-        return EventDriven().settings(time_scale)
+    def settings(self, scales: Scales) -> Mapping[Any, float]:
+        return EventDriven().settings(scales)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, pauses_before_end: bool) -> int:
         self.calls.append(1)

@@ -24,7 +24,7 @@ from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 @compiled
 def _dot(a: Vector3, b: Vector3) -> float:
     """Return the product of two vectors."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
 @compiled
@@ -42,7 +42,7 @@ def square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> f
     t = min(max(s * across - along_f, 0.0), q)
     s = min(max(along_e + t * across, 0.0), p)
     x, y, z = w[0] + t * f[0] - s * e[0], w[1] + t * f[1] - s * e[1], w[2] + t * f[2] - s * e[2]
-    return x * x + y * y + z * z
+    return float(x * x + y * y + z * z)
 
 
 @compiled
@@ -54,7 +54,7 @@ def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends:
     """
     if max(_dot(n, inward[0]), _dot(n, inward[1])) <= 0.0:
         # n is above the arc: the sine of its angle with the plane of the arc
-        return abs(_dot(n, along))
+        return float(abs(_dot(n, along)))
     nearest = math.inf
     for i in range(2):
         end = ends[0] if i == 0 else ends[1]
@@ -65,19 +65,19 @@ def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends:
 
 
 @compiled
-def _between_arcs(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats) -> float:
+def _of_row(frame: Floats, edges: Floats, at: int, sign: float) -> Vector3:
+    """Return ``sign`` times a vector of a row of edges, in the world."""
+    x, y, z = vector_in_world(frame, sign * edges[at], sign * edges[at + 1], sign * edges[at + 2])
+    return x, y, z
+
+
+@compiled
+def _between_arcs(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Floats, at_b: int) -> float:
     """Return a lower bound of the angle between the normals of one edge and the opposite normals of the other [rad]."""
-    e = vector_in_world(a, edge_a[ALONG], edge_a[ALONG + 1], edge_a[ALONG + 2])
-    f = vector_in_world(b, edge_b[ALONG], edge_b[ALONG + 1], edge_b[ALONG + 2])
-    into_a = (
-        vector_in_world(a, edge_a[INTO_FIRST], edge_a[INTO_FIRST + 1], edge_a[INTO_FIRST + 2]),
-        vector_in_world(a, edge_a[INTO_SECOND], edge_a[INTO_SECOND + 1], edge_a[INTO_SECOND + 2]),
-    )
+    e, f = _of_row(a, edges_a, at_a + ALONG, 1.0), _of_row(b, edges_b, at_b + ALONG, 1.0)
+    into_a = _of_row(a, edges_a, at_a + INTO_FIRST, 1.0), _of_row(a, edges_a, at_a + INTO_SECOND, 1.0)
     # the vectors into the faces of the second body, reversed, for its opposite normals
-    into_b = (
-        vector_in_world(b, -edge_b[INTO_FIRST], -edge_b[INTO_FIRST + 1], -edge_b[INTO_FIRST + 2]),
-        vector_in_world(b, -edge_b[INTO_SECOND], -edge_b[INTO_SECOND + 1], -edge_b[INTO_SECOND + 2]),
-    )
+    into_b = _of_row(b, edges_b, at_b + INTO_FIRST, -1.0), _of_row(b, edges_b, at_b + INTO_SECOND, -1.0)
     ends_a = _cross(e, into_a[0]), _cross(into_a[1], e)
     ends_b = _cross(f, into_b[0]), _cross(into_b[1], f)
     c = _cross(e, f)
@@ -94,14 +94,14 @@ def _between_arcs(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats) -> float
 
 
 @compiled
-def edges_bound(a: Floats, b: Floats, edge_a: Floats, edge_b: Floats) -> float:
-    """Return by how much the bodies must move before two edges touch [m].
+def edges_bound(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Floats, at_b: int) -> float:
+    """Return by how much the bodies must move before two edges touch [m]; their rows begin at ``at_a`` and ``at_b``.
 
     Of an edge without faces, the segment of a capsule, only the distance counts: its vectors into the faces are 0.
     """
-    ax, ay, az = point_in_world(a, edge_a[0], edge_a[1], edge_a[2])
-    bx, by, bz = point_in_world(b, edge_b[0], edge_b[1], edge_b[2])
-    e = vector_in_world(a, edge_a[ALONG], edge_a[ALONG + 1], edge_a[ALONG + 2])
-    f = vector_in_world(b, edge_b[ALONG], edge_b[ALONG + 1], edge_b[ALONG + 2])
-    distance = math.sqrt(square_of_lines((bx - ax, by - ay, bz - az), e, edge_a[LENGTH], f, edge_b[LENGTH]))
-    return float(max(distance, 0.5 * min(edge_a[LENGTH], edge_b[LENGTH]) * _between_arcs(a, b, edge_a, edge_b)))
+    ax, ay, az = point_in_world(a, edges_a[at_a], edges_a[at_a + 1], edges_a[at_a + 2])
+    bx, by, bz = point_in_world(b, edges_b[at_b], edges_b[at_b + 1], edges_b[at_b + 2])
+    e, f = _of_row(a, edges_a, at_a + ALONG, 1.0), _of_row(b, edges_b, at_b + ALONG, 1.0)
+    p, q = edges_a[at_a + LENGTH], edges_b[at_b + LENGTH]
+    distance = math.sqrt(square_of_lines((bx - ax, by - ay, bz - az), e, p, f, q))
+    return float(max(distance, 0.5 * min(p, q) * _between_arcs(a, b, edges_a, at_a, edges_b, at_b)))

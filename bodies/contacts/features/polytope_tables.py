@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 
 import numpy as np
+
+from nonsmooth.parameters import SharedNumbers, Value
 
 from ...shapes.polytope import Polytope
 
@@ -28,6 +31,64 @@ def face_table(polytope: Polytope) -> Numbers:
     vertices = np.array(polytope.vertices)
     rows = [(*plane, plane[3] - float(np.min(vertices @ plane[:3]))) for plane in polytope.planes]
     return tuple(itertools.chain(*rows))
+
+
+@dataclass(frozen=True)
+class ConvexCore:
+    """Faces, vertices and edges of a convex core; a segment has no faces.
+
+    Attributes
+    ----------
+    faces : SharedNumbers
+        Rows of all faces (:data:`FACE`).
+    vertices : SharedNumbers
+        All vertices [m].
+    edges : SharedNumbers
+        Rows of all edges (:data:`EDGE`).
+    """
+
+    faces: SharedNumbers
+    vertices: SharedNumbers
+    edges: SharedNumbers
+
+    @classmethod
+    def of(cls, polytope: Polytope) -> ConvexCore:
+        """Return the numbers of a polyhedron or a segment."""
+        tables = face_table(polytope), vertex_table(polytope), tuple(itertools.chain(*edge_rows(polytope)))
+        return cls(*map(SharedNumbers, tables))
+
+    @classmethod
+    def of_point(cls, *place: float) -> ConvexCore:
+        """Return the numbers of a point without faces, or of nothing if no place is given."""
+        return cls(SharedNumbers(()), SharedNumbers(place), SharedNumbers(()))
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces."""
+        return len(self.faces) // FACE
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges."""
+        return len(self.edges) // EDGE
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return len(self.vertices) // 3
+
+    def values(self, side: str = "") -> dict[str, Value]:
+        """Return faces and vertices by the names of the evaluators' arguments, which end with ``side``."""
+        return {
+            f"n_faces{side}": float(self.n_faces),
+            f"faces{side}": self.faces or (0.0,),
+            f"n_vertices{side}": float(self.n_vertices),
+            f"vertices{side}": self.vertices or (0.0,),
+        }
+
+    def values_with_edges(self, side: str) -> dict[str, Value]:
+        """Return faces, vertices and edges by the names of the evaluators' arguments, which end with ``side``."""
+        return {**self.values(side), f"n_edges{side}": float(self.n_edges), f"edges{side}": self.edges}
 
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:

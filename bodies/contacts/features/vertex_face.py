@@ -24,16 +24,6 @@ is also the least sine of the angle between crossing edges.  With one number for
 aligned never lack a contact: if the angle between their edges is smaller, their vertices are within the distance.
 """
 
-BESIDE = 1e-2
-"""Largest height over a face at which a vertex outside of the polyhedron is near this face, relative to the size.
-
-Such a vertex touches no second face if it is deeper below the plane of the second face than it is above the first face:
-outside of the polyhedron, the depth below a plane is no overlap.
-"""
-
-DEEP = 1e-6
-"""Least depth of an overlap, relative to the size of the bodies; errors of a step at rest cause smaller depths."""
-
 
 @compiled
 def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[float, float, float]:
@@ -72,6 +62,20 @@ def _least(
 
 
 @compiled
+def separation_of_faces(
+    frame: Floats, other: Floats, n_faces: float, faces: Floats, n_vertices: float, vertices: Floats
+) -> float:
+    """Return the largest separation of two bodies along the normals of the first body's faces [m].
+
+    It is negative if none of the planes of the faces separates the bodies.
+    """
+    best = -math.inf
+    for i in range(int(n_faces)):
+        best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
+    return best
+
+
+@compiled
 def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
     """Return the distance of a point's projection on a face beyond the face's borders [m]; negative inside them.
 
@@ -83,19 +87,6 @@ def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float,
         if FACE * i != face:
             past = max(past, plane_height(faces, FACE * i, x, y, z))
     return past
-
-
-@compiled
-def _past_end(
-    faces: Floats, n_faces: float, face: int, height: float, deepest: float, x: float, y: float, z: float
-) -> float:
-    """Return the distance of a point past the borders of a face [m]; negative if the face can touch the point.
-
-    For a point below the plane of the face it is at least ``deepest``, its largest height over all planes: a point
-    outside of the body does not touch this face.
-    """
-    beyond = past_face(faces, n_faces, FACE * face, height, x, y, z)
-    return float(max(beyond, deepest)) if height < 0.0 else float(beyond)
 
 
 @compiled
@@ -117,46 +108,43 @@ def nearest_face(
     n_vertices: float,
     vertices: Floats,
     vertex: float,
+    n_faces_other: float,
+    faces_other: Floats,
+    n_vertices_own: float,
+    vertices_own: Floats,
     size: float,
 ) -> tuple[float, float, float]:
     """Return face paired with a vertex of the body ``other``, gap, and distance past the face's border [m].
 
     The face belongs to the polyhedron in ``frame``.  It is the face over which the least height of all vertices is the
     largest, so that all vertices get the same face.  If several faces are equal in this, as in contact at an edge, the
-    vertex gets the face on which it projects.  A vertex inside the polyhedron gets the nearest face.  Past the border
-    of its face, a vertex outside of the polyhedron gets a positive gap.
+    vertex gets the face on which it projects.  A vertex below its face does not touch it if a face of its own body
+    separates the bodies better.  Past the border of its face, the gap of a vertex is positive.
     """
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
     x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
     # a point by itself has no edges beside it
     margin = (CLOSED if n_vertices > 1.0 else REACH) * size
-    best, deepest, inner = -math.inf, -math.inf, 0
+    enough = separation_of_faces(frame, other, n_faces, faces, n_vertices, vertices) - margin
+    highest = -math.inf
     for i in range(int(n_faces)):
-        best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
-        height = plane_height(faces, FACE * i, x, y, z)
-        if height > deepest:
-            deepest, inner = height, i
-    # a corner in the plane of a side does not touch that side
-    beside = margin < deepest <= BESIDE * size
-    found, gap, past = -1, deepest, math.inf
+        highest = max(highest, plane_height(faces, FACE * i, x, y, z))
+    found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
-        # a vertex outside of the polyhedron, near one face, touches no face whose plane it is deeper below
-        if height < best - margin or (beside and height < -max(deepest, DEEP * size)):
+        if height < enough or _least(frame, other, faces, FACE * i, n_vertices, vertices, enough) < enough:
             continue
-        least = _least(frame, other, faces, FACE * i, n_vertices, vertices, best - margin)
-        if least < best - margin:
-            continue
-        beyond = _past_end(faces, n_faces, i, height, deepest, x, y, z) - margin
-        beyond = max(beyond, -least - 0.5 * faces[FACE * i + 4])
-        if beyond < past:
-            found, gap, past = i, height, beyond
-    if found < 0:
-        found, past = inner, _past_end(faces, n_faces, inner, deepest, deepest, x, y, z) - margin
+        beyond = past_face(faces, n_faces, FACE * i, height, x, y, z)
+        if height < 0.0:
+            # a vertex below the plane of a face touches it from inside of the polyhedron only
+            beyond = max(beyond, highest)
+        if beyond - margin < past:
+            found, gap, past = i, height, beyond - margin
+    if past <= 0.0 and gap < -margin:
+        best = separation_of_faces(other, frame, n_faces_other, faces_other, n_vertices_own, vertices_own)
+        past = max(past, best - gap - margin)
     if past > 0.0:
-        if deepest < -DEEP * size:
-            return float(inner), deepest, deepest
         gap = math.hypot(max(0.0, gap), past)
     return float(found), gap, past
 

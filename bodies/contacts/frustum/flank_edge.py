@@ -14,14 +14,13 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
+from ..features.polytope_tables import LENGTH, ConvexCore, Numbers, edge_rows
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
 from .frustum import FLANK, center_in_world, write_part
 from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
-    overlap_at,
     past_end,
     size_of_both,
     write_crossing,
@@ -37,6 +36,8 @@ def evaluate_flank_edge(
     radius: float,
     n_faces: float,
     faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
     size: float,
 ) -> None:
     """Write the geometry block of a frustum's side and an edge, rounded by ``radius`` [m], that crosses the side."""
@@ -74,11 +75,10 @@ def evaluate_flank_edge(
         # no normal of the side is perpendicular to the edge, or the edge is parallel to the side: no valid crossing
         over = size
     qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
-    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, (qx, qy, qz), (px, py, pz), (cx, cy, cz))
-    steep = abs(crossing)
-    past = past_end(gap, over, steep, astray_of_edge(b, edge, axes, nx, ny, nz), overlap, size)
+    steep, astray = abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz)
+    past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, steep, astray, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz), overlap, size)
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz), size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), (ux, uy, uz), cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])
@@ -97,8 +97,8 @@ class FlankEdge(ContactKinematics):
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
         Radius of the rounding about the edge [m]; 0 for a sharp polyhedron.
-    faces : tuple of float
-        Rows of all faces of the second body's core, a polyhedron; empty for a capsule, whose core is a segment.
+    core : ConvexCore
+        Faces and vertices of the second body's core; empty for a surface that need not be convex.
     size : float
         Size of the bodies [m].
     name : str
@@ -110,7 +110,7 @@ class FlankEdge(ContactKinematics):
     frustum: Numbers
     edge: Numbers
     radius: float
-    faces: Numbers
+    core: ConvexCore
     size: float
     name: str
 
@@ -121,8 +121,8 @@ class FlankEdge(ContactKinematics):
         assert isinstance(second, SweptPolytope)
         if first.frustum[SIDE] == 0.0:
             return ()
-        size, faces, rows = size_of_both(first, second), face_table(second.core), enumerate(edge_rows(second.core))
-        return tuple(cls(first.frustum, row, second.sweep, faces, size, f"edge {i}") for i, row in rows)
+        size, core, rows = size_of_both(first, second), ConvexCore.of(second.core), enumerate(edge_rows(second.core))
+        return tuple(cls(first.frustum, row, second.sweep, core, size, f"edge {i}") for i, row in rows)
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both bodies by the names of the evaluator's arguments."""
@@ -130,8 +130,7 @@ class FlankEdge(ContactKinematics):
             "frustum": self.frustum,
             "edge": self.edge,
             "radius": self.radius,
-            "n_faces": float(len(self.faces) // FACE),
-            "faces": self.faces or (0.0,),
+            **self.core.values(),
             "size": self.size,
         }
 

@@ -13,10 +13,11 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN, Frustum
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import tangent_of
 from ..features.polytope_tables import Numbers
 from .frustum import FLANK, axis_in_world, center_in_world, set_back
-from .frustum_writing import PARALLEL, past_border, past_overlap, write_side, write_two
+from .frustum_writing import past_border, past_depth, write_side, write_two
 
 
 @compiled
@@ -94,7 +95,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     qx, qy, qz = px + gap * nx, py + gap * ny, pz + gap * nz
     away_a = first[0] - first[SIN] * s
     away_b = second[0] - second[SIN] * t
-    past = max(past_border(over, 0.0, size), past_overlap(a, first, b, second, gap, (px, py, pz), size))
+    past = max(past_border(over, 0.0, size), past_depth(a, first, b, second, gap, size))
     write_two(a, out, 0.0, first, second, gap, past, (nx, ny, nz), (px, py, pz))
     write_side(out, 0.0, first, FLANK, (ax, ay, az), (px - cx, py - cy, pz - cz), (nx, ny, nz), max(away_a, 0.0))
     write_side(out, 1.0, second, FLANK, (bx, by, bz), (qx - kx, qy - ky, qz - kz), (-nx, -ny, -nz), max(away_b, 0.0))

@@ -12,11 +12,14 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
-from ..features.frames import point_in_world, vector_in_world
+from ..features.frames import across, point_in_world, vector_in_body, vector_in_world
+from ..features.polytope_tables import FACE
+from ..features.vertex_face import plane_height
 from ..features.writing import write_flat, write_principal, write_round
 from ..plane.plane_rim import FLATTEST
 from ..surface.mesh_point import Corner
@@ -112,6 +115,72 @@ def least_height(frustum: Floats, height: float, cosine: float) -> float:
 
 
 @compiled
+def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float, faces: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and a polyhedron in ``b`` along the normals of its faces [m].
+
+    It is negative if none of the planes of the faces separates the bodies.
+    """
+    x, y, z = axis_in_world(a, frustum)
+    x, y, z = vector_in_body(b, x, y, z)
+    cx, cy, cz = center_in_world(a, frustum)
+    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    best = -math.inf
+    for i in range(int(n_faces)):
+        f = FACE * i
+        cosine = faces[f] * x + faces[f + 1] * y + faces[f + 2] * z
+        best = max(best, least_height(frustum, plane_height(faces, f, cx, cy, cz), cosine))
+    return best
+
+
+@compiled
+def least_over(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
+    """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
+    (nx, ny, nz), (x, y, z) = normal, place
+    base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
+    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    least = math.inf
+    for i in range(int(n_vertices)):
+        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
+    return float(base + least)
+
+
+@compiled
+def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: float, vertices: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and vertices in ``b`` along the normals of its caps [m]."""
+    ax, ay, az = axis_in_world(a, frustum)
+    place = center_in_world(a, frustum)
+    best = least_over(a, b, n_vertices, vertices, (-ax, -ay, -az), place) + frustum[LOW]
+    if frustum[1] > 0.0:
+        best = max(best, least_over(a, b, n_vertices, vertices, (ax, ay, az), place) - frustum[HIGH])
+    return float(best)
+
+
+@compiled
+def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vector3) -> float:
+    """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m]."""
+    (nx, ny, nz), (cx, cy, cz), (kx, ky, kz) = n, center_in_world(a, first), center_in_world(b, second)
+    ax, ay, az = axis_in_world(a, first)
+    bx, by, bz = axis_in_world(b, second)
+    height = nx * (kx - cx) + ny * (ky - cy) + nz * (kz - cz)
+    height = least_height(first, height, -nx * ax - ny * ay - nz * az)
+    return float(least_height(second, height, nx * bx + ny * by + nz * bz))
+
+
+@compiled
+def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
+    """Return the largest separation of two frustums along normals of the second [m]: of caps and of side.
+
+    Of the side, the normal across the axis that points to the centre of the first is taken.
+    """
+    bx, by, bz = axis_in_world(b, second)
+    (cx, cy, cz), (kx, ky, kz) = center_in_world(a, first), center_in_world(b, second)
+    _, _, ex, ey, ez = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
+    best = separation_along(a, first, b, second, (bx, by, bz))
+    best = max(best, separation_along(a, first, b, second, (-bx, -by, -bz)))
+    return float(max(best, separation_along(a, first, b, second, (ex, ey, ez))))
+
+
+@compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
     """Write the curvature matrices (slide, turn) of a part of a frustum at the contact point to the geometry block.
 
@@ -174,7 +243,7 @@ _WAYS = 12
 """Number of unit vectors that stand for edges of an apex (down the side of the cone) or of a foot (along the cap).
 
 An apex or a foot is treated as a corner with these edges, evenly spaced around the axis.  A face can touch it only if
-no edge points into the face steeper than :data:`bodies.contacts.surface.surface_vertex.ASTRAY`.  The steepest of 12
+no edge points into the face steeper than :data:`bodies.contacts.features.edge_crossing.ASTRAY`.  The steepest of 12
 edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all directions.
 """
 

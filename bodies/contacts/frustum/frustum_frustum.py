@@ -13,9 +13,10 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import HIGH, LOW, SIDE, Frustum
+from ...shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
 from ..features.frames import across, point_in_world
 from ..features.polytope_tables import Numbers
+from ..features.vertex_face import CLOSED, REACH
 from .apex_frustum import ApexFrustum
 from .flank_flank import FlankFlank
 from .frustum import (
@@ -24,9 +25,11 @@ from .frustum import (
     LOW_RIM,
     axis_in_world,
     center_in_world,
+    separation_along,
+    separation_by,
     set_back,
 )
-from .frustum_writing import past_border, past_disc, past_overlap, write_side, write_two
+from .frustum_writing import past_depth, past_disc, write_side, write_two
 from .rim_flank import RimFlank
 from .rim_rim import RimRim
 
@@ -61,11 +64,17 @@ def _evaluate(
     px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
     along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
     gap = up * (along - height)
-    past = past_border(away - wide, 0.0, size)
+    # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
+    margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
+    past = away - wide - margin * size
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
     else:
-        past = max(past, past_overlap(own, first, other, second, gap, (px, py, pz), size))
+        past = max(past, past_depth(own, first, other, second, gap, size))
+        if gap < 0.0:
+            # of the body with the cap another part may separate the bodies better
+            best = separation_by(own, first, other, second)
+            past = max(past, best - separation_along(own, first, other, second, (nx, ny, nz)) - REACH * size)
     write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz))
     write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
     write_side(out, 1.0 - swap, second, part, (bx, by, bz), (fx, fy, fz), (-nx, -ny, -nz), away)

@@ -8,18 +8,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3, put
+from ...blocks import put
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import Polyhedron
-from ..features.frames import across, point_in_world, vector_in_body, write_tangent
+from ..features.frames import across, point_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
-from ..features.vertex_face import DEEP, REACH, height_over
+from ..features.vertex_face import CLOSED, height_over
 from ..features.writing import write_round
 from .flank_edge import FlankEdge
 from .frustum import (
@@ -28,6 +27,7 @@ from .frustum import (
     LOW_CAP,
     axis_in_world,
     center_in_world,
+    least_over,
     part_names,
     part_number,
     tip_past_rim,
@@ -37,18 +37,6 @@ from .frustum_swept import FrustumSwept, check_number
 from .frustum_writing import size_of_both
 from .rim_edge import RimEdge
 from .rim_face import RimFace
-
-
-@compiled
-def _least(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
-    """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
-    (nx, ny, nz), (x, y, z) = normal, place
-    base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
-    nx, ny, nz = vector_in_body(b, nx, ny, nz)
-    least = math.inf
-    for i in range(int(n_vertices)):
-        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
-    return base + least
 
 
 def _evaluate(
@@ -73,9 +61,9 @@ def _evaluate(
     along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
     cosine, sine = frustum[COS], frustum[SIN]
     dr, dz = away - frustum[0], along - frustum[LOW]
-    margin = REACH * size
+    margin = CLOSED * size
     flat = frustum[SIDE] == 0.0
-    best, deepest, inner = -math.inf, -math.inf, LOW_CAP
+    best, highest = -math.inf, -math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
             continue
@@ -86,43 +74,35 @@ def _evaluate(
             radial, axial, height = cosine, sine, cosine * dr + sine * dz
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        best = max(best, _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
-        if height > deepest:
-            deepest, inner = height, part
-    found, gap, past = inner, deepest, math.inf
+        best = max(best, least_over(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
+        highest = max(highest, height)
+    found, gap, past = LOW_CAP, 0.0, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
             continue
-        radial, axial, height, beyond, depth = 0.0, -1.0, -dz, away - frustum[0], frustum[HIGH] - frustum[LOW]
+        radial, axial, height, beyond = 0.0, -1.0, -dz, away - frustum[0]
         if part == HIGH_CAP:
             axial, height, beyond = 1.0, along - frustum[HIGH], away - frustum[1]
         elif part == FLANK:
             radial, axial, height = cosine, sine, cosine * dr + sine * dz
             up = cosine * dz - sine * dr
-            beyond, depth = max(-up, up - frustum[SIDE]), 2.0 * frustum[0]
+            beyond = max(-up, up - frustum[SIDE])
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        least = _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz))
-        if least < best - margin:
+        if least_over(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)) < best - margin:
             continue
         if height < 0.0:
             # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it
-            inside = deepest
+            inside = highest
             if flat:
                 x, y, z = px - cx, py - cy, pz - cz
                 inside = tip_past_rim(b, n_star, star, lengths, (x, y, z), (nx, ny, nz), -height, frustum[0])
                 inside = min(inside, height_over(b, n_faces, faces, qx, qy, qz))
             beyond = max(beyond, inside)
-        beyond -= margin
-        if not flat:
-            beyond = max(beyond, -least - 0.5 * depth)
-        if beyond < past:
-            found, gap, past = part, height, beyond
+        if beyond - margin < past:
+            found, gap, past = part, height, beyond - margin
     if past > 0.0:
-        if deepest < -DEEP * size:
-            found, gap, past = inner, deepest, deepest
-        else:
-            gap = math.sqrt(gap * gap + past * past)
+        gap = math.hypot(gap, past)
     radial, axial = 0.0, -1.0 if found == LOW_CAP else 1.0
     if found == FLANK:
         radial, axial = cosine, sine

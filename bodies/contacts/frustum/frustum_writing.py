@@ -15,35 +15,25 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ...blocks import Vector3, put
-from ...shapes.frustum import COS, FEET, SIN, SWEEP, Frustum
+from ...shapes.frustum import COS, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
+from ..features.edge_crossing import ASTRAY, PARALLEL, edge_astray
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
-from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
-from ..features.vertex_face import DEEP, REACH, height_over
+from ..features.polytope_tables import ALONG, START
+from ..features.vertex_face import REACH
 from ..features.writing import write_principal, write_sweep
 from ..smooth.smooth_core import Axes, back, forth
-from .frustum import axis_in_world, center_in_world, middle_in_world, nearest_part, write_part
+from .frustum import (
+    axis_in_world,
+    center_in_world,
+    middle_in_world,
+    separation_by,
+    separation_over_caps,
+    separation_over_faces,
+    write_part,
+)
 
 Point: TypeAlias = tuple[float, float, float]
-ASTRAY = 0.25
-"""Sine of the largest angle between the contact normal and the nearest normal of its rim or edge: 14 degrees.
-
-A rim or an edge has a fan of outward normals, between the normals of its two adjacent surfaces.  The margin lets a
-contact be followed shortly before its normal enters this fan.
-"""
-_INSIDE = 4.0
-"""Least distance of a crossing from the ends of its features if they overlap, relative to the depth of the overlap.
-
-Sharp features overlap over a length of about the depth.  Closer to an end, one feature may pass the end of the other
-without touching.  The rule applies only if both contact points lie outside of the other body; otherwise the overlap is
-certain.
-"""
-PARALLEL = 1e-6
-"""Least sine of the angle between two features that cross.
-
-At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
-of the angle times the size: far less than the gap tolerance.
-"""
 
 
 @compiled
@@ -57,27 +47,15 @@ def past_border(over: float, astray: float, size: float) -> float:
 
 
 @compiled
-def past_overlap(one: Floats, first: Floats, other: Floats, second: Floats, gap: float, p: Point, size: float) -> float:
-    """Return the distance of a contact point past the boundary of an overlap of the cores [m]; negative if it is valid.
+def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, size: float) -> float:
+    """Return a length [m] that is positive if two cores overlap less than by ``gap`` [m] along another direction.
 
-    ``gap`` is the gap of the cores [m].  If it is negative, the point that lies half as deep in the frustum ``one``,
-    from the contact point ``p`` on its core towards its middle, must be inside of the core of ``other``.  The contact
-    point itself may lie on a border of that core, in an overlap as well as beside the other body.  An overlap beyond
-    the middle belongs to other features.
+    The directions are those of :func:`bodies.contacts.frustum.frustum.separation_by`.
     """
-    if gap >= 0.0:
+    if gap >= -REACH * size:
         return -size
-    x, y, z = middle_in_world(one, first)
-    x, y, z = x - p[0], y - p[1], z - p[2]
-    part = -0.5 * gap / math.sqrt(x * x + y * y + z * z)
-    if part > 1.0:
-        return size
-    ax, ay, az = axis_in_world(other, second)
-    kx, ky, kz = center_in_world(other, second)
-    x, y, z = p[0] + part * x - kx, p[1] + part * y - ky, p[2] + part * z - kz
-    along, away, _, _, _ = across(x, y, z, ax, ay, az)
-    outside, _, _, _ = nearest_part(second, along, away)
-    return float(outside - REACH * size)
+    best = max(separation_by(a, first, b, second), separation_by(b, second, a, first))
+    return float(best - gap - REACH * size)
 
 
 @compiled
@@ -201,57 +179,39 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
     The contact normal (nx, ny, nz), in the axes of the frustum, points from the frustum to the edge.  The fan lies
     between the normals of the two faces of the edge.
     """
-    ux, uy, uz = vector_in_world(b, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
-    vx, vy, vz = vector_in_world(b, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
     nx, ny, nz = forth(axes, nx, ny, nz)
-    return float(max(-nx * ux - ny * uy - nz * uz, -nx * vx - ny * vy - nz * vz))
+    return float(edge_astray(b, edge, 0, -1.0, nx, ny, nz))
 
 
 @compiled
-def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
+def past_end(
+    a: Floats,
+    b: Floats,
+    frustum: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
+    gap: float,
+    over: float,
+    sine: float,
+    astray: float,
+    size: float,
+) -> float:
     """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
     The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over`` the distance past the ends
     of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.  ``astray`` is
-    the sine of the angle between the contact normal and the fans of normals of the features.  ``overlap`` is negative
-    if a contact point lies inside of the other body [m].  If it is 0 within round-off and the gap is negative, the
-    contact ends earlier, by ``_INSIDE`` times the depth.
+    the sine of the angle between the contact normal and the fans of normals of the features.  A crossing below zero is
+    not valid if the cores overlap less along the normal of a cap of the frustum or of one of the ``faces`` of the core
+    with the edge.  A core that need not be convex has no vertices here.
     """
     past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
-    if gap < 0.0 and overlap >= -DEEP * size:
-        past = max(past, over - _INSIDE * gap - REACH * size)
+    if past <= 0.0 and gap < -REACH * size and n_vertices > 0.0:
+        best = separation_over_faces(a, b, frustum, n_faces, faces)
+        best = max(best, separation_over_caps(a, b, frustum, n_vertices, vertices))
+        past = max(past, best - gap - REACH * size)
     return past
-
-
-@compiled
-def overlap_at(
-    b: Floats,
-    frustum: Floats,
-    axes: Axes,
-    n_faces: float,
-    faces: Floats,
-    radius: float,
-    over: float,
-    p: Vector3,
-    q: Vector3,
-    place: Vector3,
-) -> float:
-    """Return the depth of a crossing's deeper contact point inside of the other body, as a negative number [m].
-
-    It is 0 if both points are outside.  It is also 0 if ``over`` is positive, the distance of the crossing past the end
-    of its edge, rim or side [m].  The point of the frustum is ``p``, from its centre ``place``, in world axes.  The
-    point of the edge is ``q``, from the same centre, in the axes of the frustum.
-    """
-    (px, py, pz), (qx, qy, qz), (x, y, z) = p, q, place
-    if over > 0.0:
-        return 0.0
-    outside, _, _, _ = nearest_part(frustum, qz, math.sqrt(qx * qx + qy * qy))
-    outside -= radius + frustum[SWEEP]
-    if n_faces > 0.0:
-        outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
-    # in contacts with faces a rim is shifted inwards by a small height (`FEET`), so that faces touch three points of
-    # the cap first. Here the rim is not shifted, so a depth of up to twice this height is no overlap
-    return float(min(outside + 2.0 * frustum[FEET], 0.0))
 
 
 @compiled
@@ -268,7 +228,6 @@ def write_crossing(
     sine: float,
     normal: Vector3,
     p: Vector3,
-    overlap: float,
     size: float,
 ) -> None:
     """Write the geometry block of an edge that crosses a rim or a side, except the curvature matrices of the frustum.
@@ -282,9 +241,7 @@ def write_crossing(
     sweep = frustum[SWEEP]
     gap = distance - radius - sweep
     if past > 0.0:
-        # the crossing is not valid, but a contact point is deep inside of the other body: no contact reports this
-        # overlap, so write its depth as the gap
-        gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.hypot(gap, max(PARALLEL, sine) * past)
+        gap = math.hypot(gap, max(PARALLEL, sine) * past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)
     put(out, POINT_A, px + sweep * out[NORMAL], py + sweep * out[NORMAL + 1], pz + sweep * out[NORMAL + 2])

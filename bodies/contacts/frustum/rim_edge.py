@@ -17,19 +17,15 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
-from ..features.vertex_face import height_over
+from ..features.polytope_tables import LENGTH, ConvexCore, Numbers, edge_rows
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
-from ..surface.surface_search import THROUGH
-from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, write_part
+from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, write_part
 from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
-    overlap_at,
     past_end,
     size_of_both,
     write_crossing,
@@ -87,21 +83,6 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
     return (c if x >= 0.0 else -c), s, none
 
 
-@compiled
-def _aside(b: Floats, frustum: Floats, n_faces: float, faces: Floats, p: Vector3, normal: Vector3) -> bool:
-    """True if both contact points of a crossing lie outside of the other body, so that its negative gap is no overlap.
-
-    ``p`` is the frustum's point in the world [m]; ``normal`` is the edge's point in the axes of the frustum [m].  In a
-    small overlap of a sharp rim and a sharp edge both points lie outside, too.  So the check is valid for deep overlaps
-    only.
-    """
-    (px, py, pz), (x, y, z) = p, normal
-    if height_over(b, n_faces, faces, px, py, pz) <= 0.0:
-        return False
-    outside, _, _, _ = nearest_part(frustum, z, math.sqrt(x * x + y * y))
-    return bool(outside > 0.0)
-
-
 def evaluate_rim_edge(
     a: Floats,
     b: Floats,
@@ -113,6 +94,8 @@ def evaluate_rim_edge(
     radius: float,
     n_faces: float,
     faces: Floats,
+    n_vertices: float,
+    vertices: Floats,
     size: float,
 ) -> None:
     """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses one half of a rim."""
@@ -176,16 +159,9 @@ def evaluate_rim_edge(
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
         over = size
     qx, qy, qz = forth(axes, px, py, pz)
-    wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
-    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, (qx, qy, qz), (wx, wy, wz), (cx, cy, cz))
-    past = past_end(gap, over, crossing, astray, overlap, size)
-    deep = past <= 0.0 and total == 0.0 and n_faces > 0.0 and gap < -THROUGH * size
-    if deep and _aside(b, frustum, n_faces, faces, (cx + qx, cy + qy, cz + qz), (wx, wy, wz)):
-        past = -gap
+    past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, crossing, astray, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(
-        a, b, out, frustum, axes, edge, radius, gap, past, crossing, (nx, ny, nz), (qx, qy, qz), overlap, size
-    )
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, (nx, ny, nz), (qx, qy, qz), size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, part, (axes[2], axes[5], axes[8]), (ux, uy, uz), ex * nx + ey * ny, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])
@@ -211,8 +187,8 @@ class RimEdge(ContactKinematics):
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
         Radius about the edge [m].
-    faces : tuple of float
-        All faces of the second body's core; empty for a segment.
+    core : ConvexCore
+        Faces and vertices of the second body's core; empty for a surface that need not be convex.
     size : float
         Size of the bodies [m].
     name : str
@@ -226,7 +202,7 @@ class RimEdge(ContactKinematics):
     half: float
     edge: Numbers
     radius: float
-    faces: Numbers
+    core: ConvexCore
     size: float
     name: str
 
@@ -235,20 +211,20 @@ class RimEdge(ContactKinematics):
         """Return the contacts of both halves of each rim with each edge."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        numbers, faces, size = first.frustum, face_table(second.core), size_of_both(first, second)
+        numbers, core, size = first.frustum, ConvexCore.of(second.core), size_of_both(first, second)
         return tuple(
             contact
             for i, row in enumerate(edge_rows(second.core))
-            for contact in cls.of_rims(numbers, row, second.sweep, faces, size, f"edge {i}")
+            for contact in cls.of_rims(numbers, row, second.sweep, core, size, f"edge {i}")
         )
 
     @classmethod
     def of_rims(
-        cls, frustum: Numbers, edge: Numbers, radius: float, faces: Numbers, size: float, name: str
+        cls, frustum: Numbers, edge: Numbers, radius: float, core: ConvexCore, size: float, name: str
     ) -> tuple[RimEdge, ...]:
         """Return the contacts of both halves of each rim with one edge; a disc has one rim, an apex is not a rim."""
         rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
-        return tuple(cls(frustum, rim, half, edge, radius, faces, size, name) for rim in rims for half in (1.0, -1.0))
+        return tuple(cls(frustum, rim, half, edge, radius, core, size, name) for rim in rims for half in (1.0, -1.0))
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both bodies by the names of the evaluator's arguments."""
@@ -258,8 +234,7 @@ class RimEdge(ContactKinematics):
             "half": self.half,
             "edge": self.edge,
             "radius": self.radius,
-            "n_faces": float(len(self.faces) // FACE),
-            "faces": self.faces or (0.0,),
+            **self.core.values(),
             "size": self.size,
         }
 

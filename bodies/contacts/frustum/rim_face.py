@@ -18,10 +18,10 @@ from ...shapes.frustum import SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
 from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table
-from ..features.vertex_face import DEEP, REACH, past_face, plane_height
+from ..features.vertex_face import REACH, past_face, plane_height
 from ..features.writing import write_flat, write_principal, write_round, write_sweep
 from ..plane.plane_rim import FLATTEST
-from .frustum import axis_in_world, center_in_world, least_height
+from .frustum import axis_in_world, center_in_world, least_height, separation_over_faces
 from .frustum_writing import size_of_both
 
 
@@ -59,38 +59,28 @@ def _evaluate(
     ux, uy, uz = vector_in_body(b, ax, ay, az)
     kx, ky, kz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
     margin = REACH * size
-    best = -math.inf
+    best = separation_over_faces(a, b, frustum, n_faces, faces)
+    found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
         f = FACE * i
         cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
-        best = max(best, least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine))
-    found, gap, past, deepest = 0, 0.0, math.inf, -math.inf
-    for i in range(int(n_faces)):
-        f = FACE * i
-        cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
-        least = least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine)
-        if least < best - margin:
+        if least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine) < best - margin:
             continue
         nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
         px, py, pz, _, _, _, _ = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
         px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
         height = plane_height(faces, f, px, py, pz)
         beyond = past_face(faces, n_faces, f, height, px, py, pz)
-        highest = height
-        for j in range(int(n_faces)):
-            highest = max(highest, plane_height(faces, FACE * j, px, py, pz))
         if height < 0.0:
             # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
-            beyond = max(beyond, highest)
-        beyond = max(beyond - margin, -least - 0.5 * faces[f + 4])
-        if beyond < past:
-            found, gap, past, deepest = i, height, beyond, highest
+            for j in range(int(n_faces)):
+                beyond = max(beyond, plane_height(faces, FACE * j, px, py, pz))
+        if beyond - margin < past:
+            found, gap, past = i, height, beyond - margin
     own = frustum[SWEEP]
     gap -= own + sweep
     if past > 0.0:
-        # a point inside of the polyhedron, past the borders of its face: no contact reports this overlap, so write its
-        # depth
-        gap = deepest if deepest < -DEEP * size else math.sqrt(gap * gap + past * past)
+        gap = math.hypot(gap, past)
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
     px, py, pz, ex, ey, ez, sine = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))

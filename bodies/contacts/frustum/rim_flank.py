@@ -22,7 +22,7 @@ from ..features.frames import across
 from ..features.polytope_tables import Numbers
 from ..smooth.smooth_core import axes_in_world, back, forth
 from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
-from .frustum_writing import astray_of_rim, past_border, past_overlap, write_side, write_two
+from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
@@ -151,9 +151,7 @@ def _evaluate(
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z)
     ux, uy, uz = forth(axes, ox, oy, oz)
-    past = max(
-        past_border(over, astray, size), past_overlap(own, first, other, second, gap, (kx + px, ky + py, kz + pz), size)
-    )
+    past = max(past_border(over, astray, size), past_depth(own, first, other, second, gap, size))
     write_two(a, out, swap, first, second, gap, past, (wx, wy, wz), (kx + px, ky + py, kz + pz))
     write_side(out, swap, first, part, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
     away = max(away - gap * cosine, 0.0)

@@ -19,17 +19,17 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import across
 from ..features.polytope_tables import Numbers
-from ..features.vertex_face import REACH
 from ..smooth.smooth_core import axes_in_world, back, forth
 from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
-from .frustum_writing import PARALLEL, astray_of_rim, past_border, write_side, write_two
+from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
-_ASIDE = 0.01
-"""Least offset of the common normal of two rounded rims from a side's normal, relative to ``REACH`` times the size.
+_ASIDE = 1e-11
+"""Least offset of the common normal of two rounded rims from a side's normal, relative to the size of the bodies.
 
 The offset [m] is the distance of the rims' cores, times the sine of the angle between their common normal and the
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
@@ -40,8 +40,6 @@ _COPLANAR = 3e-11
 
 It is a few gap tolerances: discs that are farther apart pass each other or cross.
 """
-_DEEPEST = 0.25
-"""Largest depth of an overlap at a crossing, relative to the bodies; deeper, other features are in contact."""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 """Intervals into which half of a rim is sampled, most rounds of sampling, most Newton steps."""
 
@@ -189,18 +187,14 @@ def _evaluate(
             lean = up_a * (first[COS] * axial - first[SIN] * radial)
         if second[SIDE] > 0.0:
             lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
-        past = max(past, _ASIDE * REACH * size - apart * lean)
+        past = max(past, _ASIDE * size - apart * lean)
     # there is no minimum within this half of the rim, or Newton's method did not find it
     none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= PARALLEL
     if none or (is_edge_to_edge and half < 0.0):
         past = max(past, size)
     if gap < 0.0:
         past = max(past, size * (astray - PARALLEL))
-    # rims that cross at a small angle overlap by less than its square times their radii, along another direction
-    least = min(radius, wide)
-    for body in (first, second):
-        least = min(least, body[HIGH] - body[LOW]) if body[SIDE] > 0.0 else least
-    past = max(past, -gap - _DEEPEST * crossing * crossing * least)
+    past = max(past, past_depth(a, first, b, second, gap, size))
     if are_discs and gap < 0.0 and not is_edge_to_edge:
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
         linked = _link_depth(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))

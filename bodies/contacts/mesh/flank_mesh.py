@@ -14,6 +14,7 @@ from nonsmooth.types import Floats
 from ...meshes.features import Features
 from ...shapes.frustum import SIDE, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
+from ..features.polytope_tables import ConvexCore
 from ..frustum.flank_edge import FlankEdge, evaluate_flank_edge
 from ..surface.surface_tables import Numbers
 from .mesh_crossing import edges_of, judge_crossing
@@ -23,7 +24,7 @@ _cross = compiled(evaluate_flank_edge)
 
 def _evaluate(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
     """Write the geometry block of an edge of a surface that crosses the side of a frustum."""
-    _cross(a, b, out, frustum, edge, 0.0, 0.0, edge, size)
+    _cross(a, b, out, frustum, edge, 0.0, 0.0, edge, 0.0, edge, size)
     judge_crossing(a, b, out, frustum, edge, surface, size)
 
 
@@ -64,9 +65,10 @@ class FlankMesh(ContactKinematics):
         """
         if first[SIDE] == 0.0:
             return ()
-        return tuple(
-            cls(FlankEdge(first, row, 0.0, (), size, name), surface) for row, surface, name in edges_of(second)
+        crossings = (
+            (FlankEdge(first, row, 0.0, ConvexCore.of_point(), size, name), at) for row, at, name in edges_of(second)
         )
+        return tuple(cls(crossing, surface) for crossing, surface in crossings)
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both bodies by the names of the evaluator's arguments."""

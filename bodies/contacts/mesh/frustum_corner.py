@@ -18,8 +18,9 @@ from ...meshes.features import Features
 from ...meshes.patches import patches_for_body
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, point_in_world, vector_in_body, write_tangent
-from ..features.vertex_face import DEEP, REACH
+from ..features.vertex_face import CLOSED, REACH
 from ..features.writing import write_round
 from ..frustum.frustum import (
     FLANK,
@@ -34,7 +35,6 @@ from ..frustum.frustum import (
 )
 from ..surface.surface_search import depth_inside
 from ..surface.surface_tables import Numbers, star_lengths, star_of, surface_numbers
-from ..surface.surface_vertex import ASTRAY
 
 
 @compiled
@@ -87,12 +87,12 @@ def _evaluate(
     px, py, pz = point_in_world(b, corner_x, corner_y, corner_z)
     along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
     flat, margin = frustum[SIDE] == 0.0, REACH * size
-    deepest, inner = -math.inf, LOW_CAP
+    deepest = -math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         height, _, _, _ = over_part(frustum, part, along, away)
-        if not ((part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0)) and height > deepest:
-            deepest, inner = height, part
-    best, found, gap, past = math.inf, inner, deepest, math.inf
+        if not ((part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0)):
+            deepest = max(deepest, height)
+    best, found, gap, past = math.inf, LOW_CAP, 0.0, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
             continue
@@ -102,7 +102,7 @@ def _evaluate(
             # a corner below a cap's plane or the side's cone touches it only if the corner is inside of the frustum
             beyond = max(beyond, deepest)
         beyond = max(beyond - margin, size * (_leaning(b, n_star, star, nx, ny, nz) - ASTRAY))
-        if flat and height < -DEEP * size and beyond <= 0.0:
+        if flat and height < -CLOSED * size and beyond <= 0.0:
             # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
             # the point of the disc nearest to the corner
             past_rim = tip_past_rim(
@@ -120,12 +120,7 @@ def _evaluate(
         if key < best:
             best, found, gap, past = key, part, height, beyond
     if past > 0.0:
-        if deepest < -DEEP * size and not flat:
-            # the corner is inside of the frustum, past the borders of all parts: no contact reports this overlap, so
-            # write its depth
-            found, gap = inner, deepest
-        else:
-            gap = math.sqrt(gap * gap + past * past)
+        gap = math.hypot(gap, past)
     _, _, radial, axial = over_part(frustum, found, along, away)
     out[GAP], out[FEATURE], out[PAST_END] = gap, part_number(frustum, found), past
     put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)

@@ -11,13 +11,13 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import LOW, SIDE, SIN, SWEEP
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, vector_in_body
-from ..features.vertex_face import DEEP
+from ..features.vertex_face import CLOSED
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from ..frustum.frustum_writing import astray_of_rim
 from ..surface.surface_search import in_triangle
 from ..surface.surface_tables import CORNER, CORNERS, FACE, FACES
-from ..surface.surface_vertex import ASTRAY
 from .frustum_corner import over_part
 from .surface_rim import lowest_on_rim
 from .swept_pairs import steepest
@@ -183,7 +183,7 @@ def edge_is_near(
     has_upper = frustum[SIDE] > 0.0 and frustum[1] > 0.0
     if not _edge_comes_near(frustum, pose, (x, y, z), (dx, dy, dz), length, reach):
         return False, False, False
-    deep = 0.0 if frustum[SIDE] == 0.0 else -DEEP * size
+    deep = 0.0 if frustum[SIDE] == 0.0 else -CLOSED * size
     if _edge_comes_near(frustum, pose, (x, y, z), (dx, dy, dz), length, deep):
         return frustum[SIDE] > 0.0, True, has_upper
     nx, ny, nz, half = edge_normal(surface, e)
@@ -245,7 +245,7 @@ def corner_is_near(
     distance, radial, axial, _ = nearest_part(frustum, along, away)
     if distance > reach:
         return False
-    if distance < -DEEP * size:
+    if distance < -CLOSED * size:
         return True
     if frustum[SWEEP] > 0.0:
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az

@@ -8,15 +8,15 @@ from types import MappingProxyType
 from typing import ClassVar, final
 
 from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.parameters import Value
 
 from ...meshes.features import Features
-from ...meshes.patches import patches_for_ball, patches_for_body
+from ...meshes.patches import patches_for_ball
 from ...shapes.triangle_mesh import TriangleMesh
 from ..surface.mesh_point import MeshPoint, PointMesh
 from ..surface.surface_edges import bound_of_edges, evaluate_edges
 from ..surface.surface_pairs import SurfacePairs
-from ..surface.surface_tables import Numbers, edge_row, surface_numbers
+from ..surface.surface_tables import Numbers, edge_row
 
 MOST_EACH = 500
 """Largest number of pairs of features for which each pair is a contact; for more, only near pairs are contacts."""
@@ -30,14 +30,12 @@ DEPARTURES = MappingProxyType(
 
 @dataclass(frozen=True)
 class MeshEdges:
-    """A convex edge of each body, the surfaces to which the edges belong, and the radius of the second edge.
+    """A convex edge of each body, and the radius of the second edge.
 
     Attributes
     ----------
     edges : tuple
         The edges (:func:`bodies.contacts.surface.surface_tables.edge_row`).
-    surfaces : tuple of SharedNumbers
-        The surfaces (:mod:`bodies.contacts.surface.surface_tables`).
     radius : float
         Radius of the cylinder about the second edge [m]; 0 if the second body is not rounded.
     size : float
@@ -47,35 +45,25 @@ class MeshEdges:
     """
 
     edges: tuple[Numbers, Numbers]
-    surfaces: tuple[SharedNumbers, SharedNumbers]
     radius: float
     size: float
     names: tuple[str, str]
 
     @classmethod
     def crossings(
-        cls,
-        first: Features,
-        rows: Sequence[Numbers],
-        names: Sequence[str],
-        surface: SharedNumbers,
-        radius: float,
-        size: float,
+        cls, first: Features, rows: Sequence[Numbers], names: Sequence[str], radius: float, size: float
     ) -> Iterator[MeshEdges]:
         """Return all pairs of a convex edge of a mesh and an edge of another body."""
-        own = surface_numbers(first, patches_for_body(first, 0.0))
         for i in range(len(first.edges)):
             row = edge_row(first, i)
             for other, name in zip(rows, names, strict=True):
-                yield cls((row, other), (own, surface), radius, size, (f"edge {i}", name))
+                yield cls((row, other), radius, size, (f"edge {i}", name))
 
     def values(self) -> dict[str, Value]:
-        """Return edges, surfaces, radius and size, by the names of the evaluator's arguments."""
+        """Return edges, radius and size, by the names of the evaluator's arguments."""
         return {
             "edge_a": self.edges[0],
             "edge_b": self.edges[1],
-            "surface_a": self.surfaces[0],
-            "surface_b": self.surfaces[1],
             "radius": self.radius,
             "size": self.size,
         }
@@ -114,7 +102,7 @@ class MeshMesh(ContactKinematics):
         return sharp_contacts(cls, first.features, second.features, (first.extent, second.extent))
 
     def parameters(self) -> dict[str, Value]:
-        """Return edges, surfaces and size."""
+        """Return edges, radius and size."""
         return self.edges.values()
 
     @property
@@ -156,8 +144,7 @@ def sharp_contacts(
         return SurfacePairs.of_surfaces(one, two, extents)
     rows = [edge_row(two, j) for j in range(len(two.edges))]
     names = [f"edge {j}" for j in range(len(two.edges))]
-    surface = surface_numbers(two, patches_for_body(two, 0.0))
-    edges = MeshEdges.crossings(one, rows, names, surface, 0.0, max(one.size, two.size))
+    edges = MeshEdges.crossings(one, rows, names, 0.0, max(one.size, two.size))
     return *map(kind, edges), *MeshPoint.of_corners(one, two), *PointMesh.of_corners(one, two)
 
 

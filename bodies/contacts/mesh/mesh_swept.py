@@ -19,7 +19,7 @@ from ..surface.surface_pairs import features_of_core
 from ..surface.surface_tables import star_of
 from .mesh_mesh import DEPARTURES, MeshEdges, are_many, sharp_contacts
 from .mesh_sphere import MeshSphere
-from .swept_pairs import SweptPairs, surface_of_core
+from .swept_pairs import SweptPairs
 
 
 @final
@@ -35,7 +35,7 @@ class MeshSwept(ContactKinematics):
     Attributes
     ----------
     edges : MeshEdges
-        The two edges, their surfaces and the radius.
+        The two edges and the radius.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
@@ -59,11 +59,11 @@ class MeshSwept(ContactKinematics):
         stars = [((x, y, z), tuple(star_of(own, i)), f"corner {i}") for i, (x, y, z) in enumerate(tips)]
         corners = SweptVertex.over(second, stars, 0.0, size, True)
         names = [f"edge {j}" for j in range(len(core.edges))] if core.faces else ["side"]
-        crossings = MeshEdges.crossings(own, edge_rows(core), names, surface_of_core(core), second.sweep, size)
+        crossings = MeshEdges.crossings(own, edge_rows(core), names, second.sweep, size)
         return *(cls(pair) for pair in crossings), *balls, *corners
 
     def parameters(self) -> dict[str, Value]:
-        """Return edges, surfaces, radius and size."""
+        """Return edges, radius and size."""
         return self.edges.values()
 
     @property

@@ -14,6 +14,7 @@ from nonsmooth.types import Floats
 from ...meshes.features import Features
 from ...shapes.frustum import Frustum
 from ...shapes.triangle_mesh import TriangleMesh
+from ..features.polytope_tables import ConvexCore
 from ..frustum.rim_edge import RimEdge, evaluate_rim_edge
 from ..surface.surface_tables import Numbers
 from .mesh_crossing import edges_of, judge_crossing
@@ -33,7 +34,7 @@ def _evaluate(
     size: float,
 ) -> None:
     """Write the geometry block of an edge of a surface that crosses one half of a rim."""
-    _cross(a, b, out, frustum, rim, half, edge, 0.0, 0.0, edge, size)
+    _cross(a, b, out, frustum, rim, half, edge, 0.0, 0.0, edge, 0.0, edge, size)
     judge_crossing(a, b, out, frustum, edge, surface, size)
 
 
@@ -75,7 +76,7 @@ class RimMesh(ContactKinematics):
         return tuple(
             cls(crossing, surface)
             for row, surface, name in edges_of(second)
-            for crossing in RimEdge.of_rims(first, row, 0.0, (), size, name)
+            for crossing in RimEdge.of_rims(first, row, 0.0, ConvexCore.of_point(), size, name)
         )
 
     def parameters(self) -> dict[str, Value]:

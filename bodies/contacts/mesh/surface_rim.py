@@ -10,14 +10,15 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ...blocks import put
-from ...shapes.frustum import AXIS, HIGH, LOW, SIDE, SWEEP
+from ...shapes.frustum import AXIS, SIDE, SWEEP
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.vertex_face import REACH
 from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
 from ..frustum.frustum import axis_in_world
 from ..frustum.frustum_writing import astray_of_rim
 from ..plane.plane_rim import FLATTEST
-from ..surface.surface_search import box_square, face_height, has_patch, pierced
+from ..surface.surface_search import box_square, face_height, has_patch
 from ..surface.surface_tables import (
     FACE,
     FACES,
@@ -30,7 +31,7 @@ from ..surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from ..surface.surface_vertex import ASTRAY, over_face, touched_face
+from ..surface.surface_vertex import over_face, touched_face
 
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
@@ -65,24 +66,6 @@ def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z:
 
 
 @compiled
-def _gap_beyond(
-    surface: Floats, frustum: Floats, radius: float, up: float, pose: RimPose, gap: float, x: float, y: float, z: float
-) -> float:
-    """Return ``gap`` [m]; return minus the depth if the frustum passes through the surface next to a point of its rim.
-
-    The point of the rim is (x, y, z), in the axes of the surface.
-    """
-    cx, cy, cz, ax, ay, az, _, _, _ = pose
-    # the frustum passes through if the line from the rim's point to the opposite point of the other rim (for a disc, of
-    # the same rim) pierces the surface
-    onward, far = up * (frustum[LOW] - frustum[HIGH]), frustum[0] + frustum[1] - radius
-    ex, ey, ez = (cx - x) / radius, (cy - y) / radius, (cz - z) / radius
-    ex, ey, ez = cx + onward * ax + far * ex, cy + onward * ay + far * ey, cz + onward * az + far * ez
-    depth = pierced(surface, x, y, z, ex, ey, ez)
-    return -depth if depth > 0.0 else gap
-
-
-@compiled
 def rim_under(
     surface: Floats,
     patch: float,
@@ -95,7 +78,7 @@ def rim_under(
 
     For each face, the gap is measured at the point of the rim that is lowest over this face.  From these gaps, the face
     is chosen as for a vertex (:func:`bodies.contacts.surface.surface_vertex.touched_face`).  If the point lies past the
-    border of the face, the gap is positive; but it is minus the depth if the body goes through the surface there.
+    border of the face, the gap is positive.
 
     Parameters
     ----------
@@ -155,8 +138,6 @@ def rim_under(
     face, gap, past = touched_face(
         surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
     )
-    if past > 0.0 and gap > 0.0:
-        gap = _gap_beyond(surface, frustum, radius, up, pose, gap, x, y, z)
     return face, gap, past
 
 
@@ -196,8 +177,6 @@ def rim_over(
                 best, height_best, apart, past = key, height, math.sqrt(square), ends
         node += 1
     _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, x, y, z)
-    if past > 0.0 and gap > 0.0:
-        gap = _gap_beyond(surface, frustum, radius, up, pose, gap, x, y, z)
     return gap, past
 
 

@@ -14,7 +14,7 @@ from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
-from ...meshes.patches import patches_for_ball, patches_for_body
+from ...meshes.patches import patches_for_ball
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Polytope
 from ...shapes.triangle_mesh import TriangleMesh
@@ -28,7 +28,7 @@ from ..surface.edges_near import edges_across
 from ..surface.surface_ball import write_ball
 from ..surface.surface_edges import write_edges
 from ..surface.surface_near import NARROW, patches_near, room_ahead, seen_from
-from ..surface.surface_pairs import MOST_NEAR, features_of_core
+from ..surface.surface_pairs import MOST_NEAR
 from ..surface.surface_tables import (
     CORNER,
     CORNERS,
@@ -40,7 +40,6 @@ from ..surface.surface_tables import (
     N_TRIANGLES,
     NODE,
     NODES,
-    NOTHING,
     STARS,
     surface_numbers,
 )
@@ -174,7 +173,6 @@ def _evaluate(
     out: Floats,
     candidate: Floats,
     surface: Floats,
-    core: Floats,
     vertices: Floats,
     n_faces: float,
     faces: Floats,
@@ -197,7 +195,7 @@ def _evaluate(
         write_vertex(a, b, out, 1.0, n_faces, faces, n_edges, edges, ends, sweep, x, y, z, length, star, 0.0, size)
     elif kind == ACROSS:
         one, two = int(surface[EDGES]) + EDGE * i, CORE_EDGE * j
-        write_edges(a, b, out, surface, one, edges, two, surface, core, sweep, size)
+        write_edges(a, b, out, surface, one, edges, two, sweep, size)
     else:
         write_apart(a, out, size)
 
@@ -211,8 +209,6 @@ class SweptPairs(ContactKinematics):
     ----------
     search : CandidateSearch
         Search for pairs of features near each other.
-    surfaces : tuple of SharedNumbers
-        Surface of the mesh and surface of the core (:mod:`bodies.contacts.surface.surface_tables`).
     size : float
         Size of the larger body [m].
     n_features : int
@@ -223,7 +219,6 @@ class SweptPairs(ContactKinematics):
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, SweptPolytope)
     search: CandidateSearch
-    surfaces: tuple[SharedNumbers, SharedNumbers]
     size: float
     n_features: int
     number: int
@@ -236,9 +231,8 @@ class SweptPairs(ContactKinematics):
         own, extents = first.features, (first.extent, second.extent)
         core, sweep = second.core, second.sweep
         patches = patches_for_ball(own, sweep)
-        numbers = surface_numbers(own, patches)
         values: dict[str, Value] = {
-            "surface": numbers,
+            "surface": surface_numbers(own, patches),
             "n_vertices": float(len(core.vertices)),
             "vertices": _vertices(core),
             "n_faces": float(len(core.planes)),
@@ -259,8 +253,8 @@ class SweptPairs(ContactKinematics):
         search = CandidateSearch(_find, values, counts)
         n_own = len(own.planes) + len(own.edges) + len(own.corners)
         n_features = max(n_own, len(core.planes) + len(core.edges) + len(core.vertices))
-        surfaces, size = (numbers, surface_of_core(core)), max(own.size, core.size + 2.0 * sweep)
-        return tuple(cls(search, surfaces, size, n_features, number) for number in range(MOST_NEAR))
+        size = max(own.size, core.size + 2.0 * sweep)
+        return tuple(cls(search, size, n_features, number) for number in range(MOST_NEAR))
 
     @property
     def candidates(self) -> CandidateSearch:
@@ -269,7 +263,7 @@ class SweptPairs(ContactKinematics):
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both shapes, and a candidate without features."""
-        return {**self.search.values, "candidate": NO_CANDIDATE, "core": self.surfaces[1], "size": self.size}
+        return {**self.search.values, "candidate": NO_CANDIDATE, "size": self.size}
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -288,11 +282,3 @@ def _vertices(core: Polytope) -> SharedNumbers:
     begins = itertools.accumulate((len(star) for star in stars), initial=_ROW * len(stars))
     rows = [(*place, len(star) // 3, begin) for place, star, begin in zip(core.vertices, stars, begins, strict=False)]
     return SharedNumbers([*itertools.chain(*rows), *itertools.chain(*stars)])
-
-
-def surface_of_core(core: Polytope) -> SharedNumbers:
-    """Return the tables of faces, edges and corners of a core, a polyhedron; empty tables for a segment."""
-    if not core.faces:
-        return NOTHING
-    features = features_of_core(core)
-    return surface_numbers(features, patches_for_body(features, 0.0))

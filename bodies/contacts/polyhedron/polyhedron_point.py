@@ -12,11 +12,11 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
+from ...blocks import put
 from ...shapes.point import Point
 from ...shapes.polyhedron import Polyhedron
-from ...shapes.polytope import Polytope
 from ..features.frames import point_in_world, tangent_of, vector_in_world
-from ..features.polytope_tables import FACE, Numbers, face_table, vertex_table
+from ..features.polytope_tables import FACE, ConvexCore
 from ..features.vertex_face import height_over, nearest_face
 from ..features.writing import write_flat, write_round
 from .polyhedron_sphere import PolyhedronSphere
@@ -33,21 +33,27 @@ def _evaluate(
     a: Floats,
     b: Floats,
     out: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    n_vertices_a: float,
+    vertices_a: Floats,
+    n_vertices_b: float,
+    vertices_b: Floats,
     vertex: float,
     size: float,
 ) -> None:
-    face, gap, past = nearest_face(a, b, n_faces, faces, n_vertices, vertices, vertex, size)
+    face, gap, past = nearest_face(
+        a, b, n_faces_a, faces_a, n_vertices_b, vertices_b, vertex, n_faces_b, faces_b, n_vertices_a, vertices_a, size
+    )
     f, v = FACE * int(face), 3 * int(vertex)
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, faces[f], faces[f + 1], faces[f + 2])
-    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
+    put(out, NORMAL, *vector_in_world(a, faces_a[f], faces_a[f + 1], faces_a[f + 2]))
+    put(out, POINT_B, *point_in_world(b, vertices_b[v], vertices_b[v + 1], vertices_b[v + 2]))
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
-    _write_face_tangent(a, out, faces, f)
+    _write_face_tangent(a, out, faces_a, f)
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, 0.0)
 
@@ -56,21 +62,27 @@ def _evaluate_reversed(
     a: Floats,
     b: Floats,
     out: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    n_vertices_a: float,
+    vertices_a: Floats,
+    n_vertices_b: float,
+    vertices_b: Floats,
     vertex: float,
     size: float,
 ) -> None:
-    face, gap, past = nearest_face(b, a, n_faces, faces, n_vertices, vertices, vertex, size)
+    face, gap, past = nearest_face(
+        b, a, n_faces_b, faces_b, n_vertices_a, vertices_a, vertex, n_faces_a, faces_a, n_vertices_b, vertices_b, size
+    )
     f, v = FACE * int(face), 3 * int(vertex)
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(b, -faces[f], -faces[f + 1], -faces[f + 2])
-    out[POINT_A], out[POINT_A + 1], out[POINT_A + 2] = point_in_world(a, vertices[v], vertices[v + 1], vertices[v + 2])
+    put(out, NORMAL, *vector_in_world(b, -faces_b[f], -faces_b[f + 1], -faces_b[f + 2]))
+    put(out, POINT_A, *point_in_world(a, vertices_a[v], vertices_a[v + 1], vertices_a[v + 2]))
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
-    _write_face_tangent(b, out, faces, f)
+    _write_face_tangent(b, out, faces_b, f)
     write_round(out, SIDE_A, 0.0)
     write_flat(out, SIDE_B)
 
@@ -79,56 +91,56 @@ def _bound(
     a: Floats,
     b: Floats,
     out: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    n_vertices_a: float,
+    vertices_a: Floats,
+    n_vertices_b: float,
+    vertices_b: Floats,
     vertex: float,
     size: float,
 ) -> None:
     v = 3 * int(vertex)
-    px, py, pz = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
-    out[0] = height_over(a, n_faces, faces, px, py, pz)
+    out[0] = height_over(a, n_faces_a, faces_a, *point_in_world(b, vertices_b[v], vertices_b[v + 1], vertices_b[v + 2]))
 
 
 def _bound_reversed(
     a: Floats,
     b: Floats,
     out: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    n_faces_a: float,
+    faces_a: Floats,
+    n_faces_b: float,
+    faces_b: Floats,
+    n_vertices_a: float,
+    vertices_a: Floats,
+    n_vertices_b: float,
+    vertices_b: Floats,
     vertex: float,
     size: float,
 ) -> None:
     v = 3 * int(vertex)
-    px, py, pz = point_in_world(a, vertices[v], vertices[v + 1], vertices[v + 2])
-    out[0] = height_over(b, n_faces, faces, px, py, pz)
+    out[0] = height_over(b, n_faces_b, faces_b, *point_in_world(a, vertices_a[v], vertices_a[v + 1], vertices_a[v + 2]))
 
 
 @dataclass(frozen=True)
 class _Tables:
-    """Tables of a polyhedron's faces and of the vertices of the other body, with the number of one vertex."""
+    """Faces and vertices of both bodies, with the number of one vertex of the body that does not have the faces."""
 
-    faces: Numbers
-    vertices: Numbers
+    cores: tuple[ConvexCore, ConvexCore]
+    face_body: int
     vertex: int
     size: float
 
     def values(self) -> dict[str, Value]:
-        return {
-            "n_faces": float(len(self.faces) // FACE),
-            "faces": self.faces,
-            "n_vertices": float(len(self.vertices) // 3),
-            "vertices": self.vertices,
-            "vertex": float(self.vertex),
-            "size": self.size,
-        }
+        one, two = self.cores
+        return {**one.values("_a"), **two.values("_b"), "vertex": float(self.vertex), "size": self.size}
 
     @property
     def features(self) -> tuple[str, ...]:
-        return tuple(f"face {i} and vertex {self.vertex}" for i in range(len(self.faces) // FACE))
+        return tuple(f"face {i} and vertex {self.vertex}" for i in range(self.cores[self.face_body].n_faces))
 
 
 @final
@@ -139,7 +151,7 @@ class PolyhedronPoint(ContactKinematics):
     Attributes
     ----------
     tables : _Tables
-        The polyhedron, and the vertices of the second body.
+        Both bodies, and the vertex.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, Point)
@@ -160,12 +172,13 @@ class PolyhedronPoint(ContactKinematics):
         if first.rounding > 0.0:
             return (PolyhedronSphere.of_ball(first, (second.x, second.y, second.z), 0.0),)
         own = first.core
-        return (cls(_Tables(face_table(own), (second.x, second.y, second.z), 0, own.size)),)
+        cores = ConvexCore.of(own), ConvexCore.of_point(second.x, second.y, second.z)
+        return (cls(_Tables(cores, 0, 0, own.size)),)
 
     @classmethod
-    def of_vertices(cls, first: Polytope, second: Polytope) -> tuple[PolyhedronPoint, ...]:
-        """Return the contacts of all vertices of the second polyhedron."""
-        return tuple(cls(tables) for tables in _all_tables(first, second))
+    def of_vertices(cls, cores: tuple[ConvexCore, ConvexCore], size: float) -> tuple[PolyhedronPoint, ...]:
+        """Return the contacts of all vertices of the second polyhedron; ``size`` is that of the larger body [m]."""
+        return tuple(cls(_Tables(cores, 0, i, size)) for i in range(cores[1].n_vertices))
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -191,7 +204,7 @@ class PointPolyhedron(ContactKinematics):
     Attributes
     ----------
     tables : _Tables
-        The polyhedron, and the vertices of the first body.
+        Both bodies, and the vertex.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Point, Polyhedron)
@@ -207,12 +220,13 @@ class PointPolyhedron(ContactKinematics):
         assert isinstance(first, Point)
         assert isinstance(second, Polyhedron)
         own = second.polytope
-        return (cls(_Tables(face_table(own), (first.x, first.y, first.z), 0, own.size)),)
+        cores = ConvexCore.of_point(first.x, first.y, first.z), ConvexCore.of(own)
+        return (cls(_Tables(cores, 1, 0, own.size)),)
 
     @classmethod
-    def of_vertices(cls, first: Polytope, second: Polytope) -> tuple[PointPolyhedron, ...]:
-        """Return the contacts of all vertices of the first polyhedron."""
-        return tuple(cls(tables) for tables in _all_tables(second, first))
+    def of_vertices(cls, cores: tuple[ConvexCore, ConvexCore], size: float) -> tuple[PointPolyhedron, ...]:
+        """Return the contacts of all vertices of the first polyhedron; ``size`` is that of the larger body [m]."""
+        return tuple(cls(_Tables(cores, 1, i, size)) for i in range(cores[0].n_vertices))
 
     @property
     def evaluator(self) -> Callable[..., None]:
@@ -228,9 +242,3 @@ class PointPolyhedron(ContactKinematics):
     def features(self) -> tuple[str, ...]:
         """Names of the pairs of features: each face of the polyhedron with the vertex of the other body."""
         return self.tables.features
-
-
-def _all_tables(polytope: Polytope, other: Polytope) -> list[_Tables]:
-    faces, vertices = face_table(polytope), vertex_table(other)
-    size = max(polytope.size, other.size)
-    return [_Tables(faces, vertices, i, size) for i in range(len(other.vertices))]

@@ -15,11 +15,10 @@ from nonsmooth.types import Floats
 
 from ...blocks import put
 from ...shapes.capsule import Capsule
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.writing import by_side, join_cores, write_principal, write_round
 
-PARALLEL = 1e-6
-"""Sine of the angle between axes below which the point of two sides is held on the first."""
 ROUNDING = 1e-12
 """Part of the lengths by which the middle of the overlap may be farther than the nearest points."""
 _PARTS = "end -", "side", "end +"

@@ -8,11 +8,10 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ..features.bounds import square_of_lines
+from ..features.edge_crossing import ASTRAY, edge_astray
 from ..features.frames import vector_in_body, vector_in_world
-from .surface_edges import edge_astray
 from .surface_near import is_node_near, seen_from
 from .surface_tables import EDGE, EDGES, MEMBERS, N_EDGES, N_NODES, N_TRIANGLES, NODE, NODES
-from .surface_vertex import ASTRAY
 
 _ALONG = 1e-3
 """Sine of the angle between two edges below which their common normal is too inexact to exclude the pair."""

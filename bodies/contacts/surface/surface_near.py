@@ -8,6 +8,7 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_world, vector_in_body
 from .surface_search import Point, box_square, in_triangle
 from .surface_tables import (
@@ -27,7 +28,7 @@ from .surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from .surface_vertex import ASTRAY, leaning
+from .surface_vertex import leaning
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
 """Kinds of candidates, the first of a candidate's three numbers.

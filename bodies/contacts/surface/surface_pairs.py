@@ -60,7 +60,7 @@ def _evaluate(
         write_over_second(a, b, out, surface_b, float(i), x, y, z, length, surface_a, star, candidate[3], 0.0)
     elif kind == EDGE_ACROSS:
         one, two = int(surface_a[EDGES]) + EDGE * i, int(surface_b[EDGES]) + EDGE * j
-        write_edges(a, b, out, surface_a, one, surface_b, two, surface_a, surface_b, 0.0, size)
+        write_edges(a, b, out, surface_a, one, surface_b, two, 0.0, size)
     else:
         write_apart(a, out, size)
 

@@ -35,13 +35,6 @@ FAR = 1e150
 ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
 """Kinds of features of a surface."""
 
-THROUGH = 1e-3
-"""Least distance, relative to the size of the surface, for a line segment that pierces a triangle (:func:`pierced`).
-
-Both ends of the segment are at least this far from the triangle's plane, and the piercing point from the edges of the
-triangle.  The distance is much larger than the overlaps of bodies in contact.
-"""
-
 Point: TypeAlias = tuple[float, float, float]
 Found: TypeAlias = tuple[float, float, int, int, float, float, float]
 """Signed distance [m], distance past the end of the feature [m], kind and number of the feature, its nearest point."""
@@ -171,43 +164,6 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
                     side = qx * surface[n] + qy * surface[n + 1] + qz * surface[n + 2]
         node += 1
     return float(least**0.5) if side < 0.0 else 0.0
-
-
-@compiled
-def pierced(surface: Floats, px: float, py: float, pz: float, qx: float, qy: float, qz: float) -> float:
-    """Return the depth to which the line segment from p to q pierces a surface [m]; 0 if it pierces no triangle.
-
-    The depth is the distance of the segment's nearer end from the plane of the first pierced triangle that is found.
-    """
-    nodes, members, margin = int(surface[NODES]), int(surface[MEMBERS]), THROUGH * surface[SIZE]
-    node = 0
-    while node < int(surface[N_NODES]):
-        at = nodes + NODE * node
-        if (
-            max(px, qx) < surface[at]
-            or max(py, qy) < surface[at + 1]
-            or max(pz, qz) < surface[at + 2]
-            or min(px, qx) > surface[at + 3]
-            or min(py, qy) > surface[at + 4]
-            or min(pz, qz) > surface[at + 5]
-        ):
-            node = int(surface[at + 6])
-            continue
-        for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
-            if member >= int(surface[N_TRIANGLES]):
-                continue
-            t = int(surface[TRIANGLES]) + TRIANGLE * member
-            f = int(surface[FACES]) + FACE * int(surface[t + 9])
-            one, two = face_height(surface, f, px, py, pz), face_height(surface, f, qx, qy, qz)
-            if one * two >= 0.0 or min(abs(one), abs(two)) <= margin:
-                continue
-            s = one / (one - two)
-            over, _ = over_ends(surface, t, px + s * (qx - px), py + s * (qy - py), pz + s * (qz - pz))
-            if over < -margin:
-                return float(min(abs(one), abs(two)))
-        node += 1
-    return 0.0
 
 
 @compiled

@@ -51,8 +51,6 @@ corner     position (3) [m]; number of its patch; index of the unit vectors alon
 
 The members of a node are the features in its box, by number: triangles first, then convex edges, then corners.
 """
-NOTHING = SharedNumbers((0.0, 13.0, 1.0, *(10 * [0.0]), *(6 * [1e150]), *(4 * [0.0])))
-"""The surface of a body without volume: no point is inside of it."""
 BITS = 52
 """Largest number of patches whose bits a float stores exactly, one bit for each patch.
 

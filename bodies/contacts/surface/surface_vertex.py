@@ -8,8 +8,9 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
+from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_world, vector_in_body, vector_in_world
-from ..features.vertex_face import CLOSED, DEEP, REACH
+from ..features.vertex_face import CLOSED, REACH
 from .surface_search import (
     box_square,
     depth_inside,
@@ -31,12 +32,6 @@ from .surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-
-ASTRAY = 0.25
-"""Sine of the angle by which the edges of a vertex may lead below a face that it touches: 14 degrees.
-
-Exactly, no edge may lead below the face.  The margin lets a contact be followed before it can close.
-"""
 
 
 @compiled
@@ -119,20 +114,12 @@ def touched_face(
     x, y, z : float
         The point [m].
     """
-    size = surface[SIZE]
-    margin = REACH * size
-    if inner >= 0 and under * under < key and under <= DEEP * size:
+    is_above = inner >= 0 and under * under < key
+    # depths within the margin are round-off: the point may be on a border
+    is_round_off = under <= CLOSED * surface[SIZE]
+    if is_above and (is_round_off or under <= (1.0 + REACH) * depth_inside(surface, x, y, z)):
         return inner, -under, inner_past
-    if past <= 0.0 and under * under >= key:
-        return found, height, past
-    depth = depth_inside(surface, x, y, z)
-    if depth > DEEP * size:
-        if under <= (1.0 + REACH) * depth:
-            return inner, -under, inner_past
-        return found, -depth, max(past, margin)
-    if past <= 0.0:
-        return found, height, past
-    return found, math.sqrt(apart * apart + past * past), past
+    return found, height if past <= 0.0 else math.hypot(apart, past), past
 
 
 @compiled
@@ -153,7 +140,7 @@ def face_under(
 
     The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
     face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face.  If
-    the vertex may not touch the face, the gap is positive, unless the vertex is inside of the body.
+    the vertex may not touch the face, the gap is positive.
 
     ``star`` holds unit vectors along the vertex's edges, from index ``begin`` on.  If no face is within ``reach`` [m],
     gap and distance past the end are ``reach``.

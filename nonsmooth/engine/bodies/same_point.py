@@ -23,16 +23,27 @@ The relative error of the energy of an approach is its square, which is below th
 
 
 @kernel("b1(ContactRecord, ContactRecord)")
-def coincide(one: ContactRecord, other: ContactRecord) -> bool:
-    """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
+def _share_point(one: ContactRecord, other: ContactRecord) -> bool:
+    """True if two different rigid contacts of the same frames have the same point within the tolerance."""
     if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
         return False
-    if one.is_compliant or other.is_compliant:
-        return False
+    moved = minus(one.point_b, other.point_b)
+    is_rigid = not one.is_compliant and not other.is_compliant
+    return is_rigid and dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
+
+
+@kernel("b1(ContactRecord, ContactRecord)")
+def _share_normal(one: ContactRecord, other: ContactRecord) -> bool:
+    """True if two contacts have the same normal within the tolerance."""
     # the length of the difference of two unit normals is the angle between them if that is small
-    turned, moved = minus(one.normal, other.normal), minus(one.point_b, other.point_b)
-    is_close = dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
-    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and is_close
+    turned = minus(one.normal, other.normal)
+    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2
+
+
+@kernel("b1(ContactRecord, ContactRecord)")
+def coincide(one: ContactRecord, other: ContactRecord) -> bool:
+    """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
+    return _share_point(one, other) and _share_normal(one, other)
 
 
 @kernel()
@@ -51,13 +62,16 @@ def leave_out_coincident(ws: Workspace) -> None:
 def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
     """True if another contact takes part at the point of an open one, and approaches as fast within the tolerance.
 
-    Their points must move together. If a corner slides past an edge, two crossings of edges begin at its point.
+    Their points must move together. If a corner slides past an edge, two crossings of edges begin at its point. Shapes
+    that touch in a point or along an edge only have several normals there; then all contacts take part.
     """
-    slow = NEGLIGIBLE * ws.tolerance.velocity
+    slow, is_redundant = NEGLIGIBLE * ws.tolerance.velocity, False
     for other in ws.contacts:
-        is_as_fast = other.is_touching and other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
-        if is_as_fast and other.pair == contact.pair and coincide(contact, other):
-            apart = minus(sliding_of(ws, contact), sliding_of(ws, other))
-            if dot(apart, apart) <= slow * slow:
-                return True
-    return False
+        if not other.is_touching or other.pair != contact.pair or not _share_point(contact, other):
+            continue
+        if not _share_normal(contact, other):
+            return False
+        apart = minus(sliding_of(ws, contact), sliding_of(ws, other))
+        is_as_fast = other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
+        is_redundant = is_redundant or (is_as_fast and dot(apart, apart) <= slow * slow)
+    return is_redundant

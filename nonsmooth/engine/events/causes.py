@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
+from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.flow.guard_numbers import contact_at, end_of, is_friction_guard, normal_of
 from nonsmooth.engine.memory.modes import Cause, Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
-
-_VANISHED = 1e-9
-"""Normal force up to which friction at its static bound means a lift-off, relative to the force at the step's start.
-
-The static bound vanishes with the normal force. So friction reaches the bound in every lift-off, too.
-"""
 
 
 @kernel("Cause(ContactRecord)")
@@ -32,7 +27,7 @@ def cause_of(ws: Workspace, guard: int) -> Cause:
     if contact.mode != Mode.STICK:
         return Cause.SLIP_TO_STICK
     normal = normal_of(ws, contact)
-    return Cause.LIFT_OFF if normal.value <= _VANISHED * normal.initial else Cause.STICK_TO_SLIP
+    return Cause.LIFT_OFF if normal.value <= NO_FORCE * normal.initial else Cause.STICK_TO_SLIP
 
 
 @kernel("Cause(ws, i8)")

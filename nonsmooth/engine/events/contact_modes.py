@@ -13,7 +13,7 @@ from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, has_known_friction, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, solve_contact, write_contact_problem
-from nonsmooth.engine.contact.trial import small_force, tangential_inverse_mass
+from nonsmooth.engine.contact.trial import NO_FORCE, small_force, tangential_inverse_mass
 from nonsmooth.engine.delassus.islands import activate_group, group_members
 from nonsmooth.engine.events.averaging import agree_on_averaged_modes, stays_averaged
 from nonsmooth.engine.events.record import mode_code
@@ -21,9 +21,6 @@ from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.memory.modes import Cause, Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel, result
 from nonsmooth.engine.numerics.vectors import length
-
-_VANISHED = 1e-9
-"""Normal force that counts as vanished, relative to the largest one at the start of the step. It is round-off."""
 
 
 @result
@@ -109,7 +106,7 @@ def _force_has_vanished(ws: Workspace, contact: ContactRecord) -> bool:
     for other in ws.contacts:
         if other.mode != Mode.OPEN and not other.is_compliant and not has_own_step(ws, other.index):
             largest = max(largest, ws.guards[normal_guard(other.index)].initial)
-    is_small = ws.guards[normal_guard(contact.index)].value <= _VANISHED * largest
+    is_small = ws.guards[normal_guard(contact.index)].value <= NO_FORCE * largest
     return not contact.is_compliant and contact.mode != Mode.OPEN and is_small
 
 

@@ -48,14 +48,11 @@ from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MO
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE, NO_PAIR
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Limit, Mode, Status
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
-from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE, SPACING
 from nonsmooth.engine.numerics.vectors import length
 from nonsmooth.engine.pairs.apart import find_apart
 from nonsmooth.engine.pairs.listing import list_touching, list_with, longest_step
 from nonsmooth.engine.pairs.motion import bound_carriers
-
-_SPACINGS = 4.0 * 2.0**-52
-"""Least difference of two times, relative to the time: a smaller difference is round-off."""
 
 
 @kernel("i8(ws, f8)")
@@ -451,7 +448,7 @@ def advance(ws: Workspace, most_steps: int, pauses_before_end: bool) -> Status:
     """
     if not ws.run.has_started:
         ws.run.has_started = True
-        ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))
+        ws.tolerance.time = max(ws.tolerance.resolution, SPACING * abs(ws.island.time))
         evaluate_bodies(ws, ws.island.time, ws.island.y.start)
         status = update_at_event(ws, Cause.START, -1)
         if ws.run.has_too_many_blocks:
@@ -467,7 +464,7 @@ def advance(ws: Workspace, most_steps: int, pauses_before_end: bool) -> Status:
         ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, math.inf
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
-        ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))
+        ws.tolerance.time = max(ws.tolerance.resolution, SPACING * abs(ws.island.time))
         if pauses_before_end and longest_wanted(ws) > ws.request.t_end - ws.island.time:
             return Status.PAUSED
         if ws.request.t_end - ws.island.time <= ws.tolerance.time:

@@ -22,7 +22,7 @@ from nonsmooth.engine.flow.self_check import fail_check
 from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, kernel
-from nonsmooth.engine.numerics.tolerances import ADJACENT
+from nonsmooth.engine.numerics.tolerances import ADJACENT, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import dot, minus, scaled
 from nonsmooth.engine.pairs.apart import budget, renew_direction
 from nonsmooth.engine.pairs.motion import (
@@ -46,8 +46,6 @@ _NEWTON_STEPS = 3
 """Steps of Newton's method from a gap that is zero within the tolerance to its root. Each squares the error."""
 _FINER = 8.0
 """Ratio of successive times at which two parts that touch at the start of a step are tested for being apart."""
-_SHORTEST = 1e-3
-"""Least time until parts meet, in time tolerances: an event ends a step."""
 
 
 @entry_point("void(ws, f8)")
@@ -174,7 +172,7 @@ def _first_root(ws: Workspace, h: float, pair: Pair, high: float) -> float:
         return 0.0
     theta, last, is_cut_by_secant = pair.begin, high, False
     acceleration, gap = _acceleration_within(ws, h, pair), _renewed_gap(ws, h, theta, pair)
-    known, shortest = gap, _SHORTEST * ws.tolerance.time
+    known, shortest = gap, NEGLIGIBLE * ws.tolerance.time
     _measure_drift(ws, h, theta, pair)
     for _ in range(_MOST_EVALUATIONS):
         span = last - theta
@@ -228,7 +226,7 @@ def _meeting_time(ws: Workspace, h: float, pair: Pair, theta: float, gap: float,
             break
         at -= gap / (rate * h)
         gap = _gap_at(ws, h, at, pair)
-    return float(max(at, _SHORTEST * ws.tolerance.time / h))
+    return float(max(at, NEGLIGIBLE * ws.tolerance.time / h))
 
 
 @kernel("b1(ws, f8, Pair, f8, f8, f8)")

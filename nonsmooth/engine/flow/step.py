@@ -22,12 +22,11 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import TRUSTED
 from nonsmooth.engine.numerics.runge_kutta import stage_part, weigh_part, write_implicit_interpolant
+from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import length
 
 LARGEST_EXPLICIT = 2.0
 """Relaxation times within a step up to which an explicit step is used. It is about the limit of its stability."""
-_SMALLEST_SLIP = 1e-3
-"""Slip speed that bounds the relaxation rate, relative to the velocity tolerance."""
 _SECOND_NODE = tableau.NODES[1] / tableau.NODES[2]
 """Node of the second stage relative to that of the third."""
 
@@ -106,7 +105,7 @@ def relaxation_rate(ws: Workspace) -> float:
         if contact.mode == Mode.SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
             # the last step ended where this one starts; a slip that begins has no speed
-            slip = max(speed, _SMALLEST_SLIP * ws.tolerance.velocity)
+            slip = max(speed, NEGLIGIBLE * ws.tolerance.velocity)
             fastest = max(fastest, contact.slip_per_force * friction / slip)
     return fastest
 

@@ -28,12 +28,10 @@ from nonsmooth.engine.bodies.support import (
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, frame_at, kernel, part_at
+from nonsmooth.engine.numerics.tolerances import SPACING
 from nonsmooth.engine.numerics.vectors import distance, dot, opposite
 from nonsmooth.engine.pairs.discs import crossing_overlap
 from nonsmooth.engine.pairs.separation import best_direction, separating_direction
-
-_LARGEST_DISPLACEMENT = 1e3
-"""Displacement bound [m] at which all bounds restart from zero, so that round-off of their sum stays small."""
 
 
 @kernel()
@@ -71,8 +69,8 @@ def add_displacements(ws: Workspace) -> None:
         carrier.distance += distance(frame.origin, carrier.place) + carrier.radius * math.sqrt(0.5 * square)
         carrier.place = frame.origin
         farthest = max(farthest, carrier.distance)
-    # with a margin of 0 every pair is evaluated anew, and the list is made anew
-    if farthest > _LARGEST_DISPLACEMENT:
+    # the sums restart before their round-off reaches the gap tolerance; each pair is evaluated and listed anew
+    if SPACING * farthest > ws.tolerance.gap:
         for carrier in ws.carriers:
             carrier.distance = 0.0
         for pair in ws.pairs:

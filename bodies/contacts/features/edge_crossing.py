@@ -1,0 +1,111 @@
+"""Two edges that cross: their nearest points, their common normal, and how far they are from facing each other."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+from nonsmooth.compiled import compiled
+from nonsmooth.types import Floats
+
+from ...blocks import Vector3
+from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
+from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
+
+ASTRAY = 0.25
+"""Sine of the largest angle between a contact normal and the normals of its features: 14 degrees.
+
+An edge, a rim or a corner has a range of outward normals, between the normals of its adjacent surfaces.  The margin
+lets a contact be followed before it can close, and a spring before it lets go.
+"""
+PARALLEL = 1e-6
+"""Least sine of the angle between two features that cross and are round or rounded.
+
+At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
+of the angle times the size: far less than the gap tolerance.
+"""
+
+NEAR_ENDS = 4.0
+"""Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
+
+Closer to an end, the edges may pass each other without an overlap of the bodies.
+"""
+
+Crossing: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, float, float, float]
+"""Crossing of two edges, in the world: see :func:`cross_edges`."""
+
+
+@compiled
+def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: float, z: float) -> float:
+    """Return the sine of the angle from the unit vector ``sign`` (x, y, z) to the range of normals of an edge.
+
+    The normals of an edge lie between the normals of its two faces.  The result is not positive within this range.  The
+    row of the edge begins at index ``at`` of ``edge``.
+    """
+    x, y, z = vector_in_body(frame, sign * x, sign * y, sign * z)
+    one, two = at + INTO_FIRST, at + INTO_SECOND
+    return float(
+        max(
+            x * edge[one] + y * edge[one + 1] + z * edge[one + 2],
+            x * edge[two] + y * edge[two + 1] + z * edge[two + 2],
+        )
+    )
+
+
+@compiled
+def cross_edges(
+    a: Floats,
+    b: Floats,
+    edge_a: Floats,
+    at_a: int,
+    edge_b: Floats,
+    at_b: int,
+    parallel: float,
+    margin: float,
+    size: float,
+) -> Crossing:
+    """Return the crossing of an edge of each body, in the world.
+
+    The crossing is: nearest point of the first line [m], unit vectors along both lines, normal, gap along the normal,
+    distance of the nearest points past the ends of the edges, and distance past the boundary of the features [m].
+
+    The normal is perpendicular to both edges, with the sign for which it is nearer to the normals of the edges.  Edges
+    without faces have no sign, so their gap is positive.  The distance past the boundary is positive if a nearest point
+    is past the end of its edge by more than ``margin`` [m], if the sine of the angle between the edges is below
+    ``parallel``, or if the normal is farther than ``ASTRAY`` from the normals of an edge.  The rows of the edges begin
+    at the indices ``at_a`` and ``at_b``.
+    """
+    ax, ay, az = point_in_world(a, edge_a[at_a], edge_a[at_a + 1], edge_a[at_a + 2])
+    bx, by, bz = point_in_world(b, edge_b[at_b], edge_b[at_b + 1], edge_b[at_b + 2])
+    along_a, along_b = at_a + ALONG, at_b + ALONG
+    ex, ey, ez = vector_in_world(a, edge_a[along_a], edge_a[along_a + 1], edge_a[along_a + 2])
+    fx, fy, fz = vector_in_world(b, edge_b[along_b], edge_b[along_b + 1], edge_b[along_b + 2])
+    wx, wy, wz = bx - ax, by - ay, bz - az
+    nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
+    sine = math.sqrt(nx * nx + ny * ny + nz * nz)
+    s, t, over, past = 0.0, 0.0, 0.0, size * parallel
+    if sine > 1e-3 * parallel:
+        nx, ny, nz = nx / sine, ny / sine, nz / sine
+        # s and t: distances of the nearest points along the lines, s = (w x f) . n / sine and t = (w x e) . n / sine,
+        # with the unit vectors e and f of the lines and the vector w from the start of the first to that of the second
+        s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
+        t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
+        over = max(max(-s, s - edge_a[at_a + LENGTH]), max(-t, t - edge_b[at_b + LENGTH]))
+        past = max(over - margin, size * (parallel - sine))
+    else:
+        along = wx * ex + wy * ey + wz * ez
+        nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez
+        apart = math.sqrt(nx * nx + ny * ny + nz * nz)
+        if apart > 0.0:
+            nx, ny, nz = nx / apart, ny / apart, nz / apart
+        else:
+            nx, ny, nz = tangent_of(ex, ey, ez)
+    # measured between the nearest points, so that the length of the edges does not multiply the error of the normal
+    wx, wy, wz = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
+    gap = wx * nx + wy * ny + wz * nz
+    plus = max(edge_astray(a, edge_a, at_a, 1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, -1.0, nx, ny, nz))
+    minus = max(edge_astray(a, edge_a, at_a, -1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, 1.0, nx, ny, nz))
+    if minus < plus or (minus == plus and gap < 0.0):
+        nx, ny, nz, gap, plus = -nx, -ny, -nz, -gap, minus
+    p = ax + s * ex, ay + s * ey, az + s * ez
+    return p, (ex, ey, ez), (fx, fy, fz), (nx, ny, nz), gap, over, max(past, size * (plus - ASTRAY))
