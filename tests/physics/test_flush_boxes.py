@@ -13,6 +13,9 @@ import nonsmooth as ns
 from bodies import BoxBody, ConeBody, CylinderBody, DiscBody, FreeBody, HullBody
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
+from tests.benchmarks.head_on.meeting import Meeting
+from tests.physics.head_on import wrong
+from tests.physics.touching import axes_of
 
 E = 0.5
 SIZES = ((0.05, 0.05, 0.05), (0.05, 0.03, 0.02))
@@ -119,3 +122,18 @@ def test_round_bodies_collide_side_by_side(name: str, shift: float, angle: float
         assert second > first + 1e-3
         if shift == 0.0:
             assert second - first == pytest.approx(E, abs=1e-7)
+
+
+@pytest.mark.fast_cases(4)
+@pytest.mark.parametrize("shift", [(0.0, 0.0), (1e-9, 1e-9), (1e-6, 0.0)], ids=str)
+@pytest.mark.parametrize("name", ["rounded brick", "brick", "cube"])
+def test_they_collide_face_to_face_in_any_orientation(name: str, shift: tuple[float, float]) -> None:
+    """Round-off tilts the faces of bodies whose axes are slanted, by less than the gap tolerance."""
+    worlds = np.random.default_rng(5).normal(size=(6, 4))
+    rows = [
+        Meeting(name, axis, shift=shift, speed=speed, world=tuple((world / np.linalg.norm(world)).tolist()))
+        for axis in axes_of(name)
+        for speed in (1.0, 10.0)
+        for world in worlds
+    ]
+    assert wrong(rows) == []
