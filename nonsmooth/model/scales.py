@@ -69,4 +69,4 @@ def _speed(system: System, body: Body, size: float) -> float:
     """Largest speed of a free body at the start [m/s]; an angular velocity counts with the ``size`` of the body [m]."""
     factors = {"m/s": 1.0, "rad/s": size}
     rates = zip(system.start(body)[1].tolist(), body.u_labels, strict=True)
-    return float(max(abs(rate) * factors.get(unit, 0.0) for rate, (_, unit) in rates))
+    return max(abs(float(rate)) * factors.get(unit, 0.0) for rate, (_, unit) in rates)

@@ -40,6 +40,10 @@ def _prism() -> Body:
     return HullBody([(x, y, z) for x, y in ring for z in (-SIZE, SIZE)])
 
 
+def _tetrahedron() -> Body:
+    return HullBody([(SIZE, SIZE, SIZE), (-SIZE, -SIZE, SIZE), (-SIZE, SIZE, -SIZE), (SIZE, -SIZE, -SIZE)])
+
+
 def _cylinder() -> Body:
     return CylinderBody(SIZE, 1.4 * SIZE, foot_height=0.0)
 
@@ -51,6 +55,7 @@ PAIRS: dict[str, tuple[Callable[[], Body], Callable[[], Body], tuple[int, ...]]]
     "hulls": (_hull, _hull, ALL),
     "brick, hull": (_brick, _hull, ALL),
     "prisms": (_prism, _prism, (1, 2)),
+    "tetrahedra": (_tetrahedron, _tetrahedron, ALL),
     "cylinders": (_cylinder, _cylinder, ALL),
     "cube, cylinder": (_cube, _cylinder, ALL),
 }

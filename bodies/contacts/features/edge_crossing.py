@@ -24,13 +24,6 @@ PARALLEL = 1e-6
 At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
 of the angle times the size: far less than the gap tolerance.
 """
-
-NEAR_ENDS = 4.0
-"""Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
-
-Closer to an end, the edges may pass each other without an overlap of the bodies.
-"""
-
 Crossing: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, float, float, float]
 """Crossing of two edges, in the world: see :func:`cross_edges`."""
 

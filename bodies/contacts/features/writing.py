@@ -166,7 +166,7 @@ def gap_at_distance(gap: float, past: float, radius: float) -> float:
     ``gap`` is hypot(gap along the normal, past).  The radius is subtracted from the gap along the normal only, so that
     the result is positive.
     """
-    if past <= 0.0 or gap <= 0.0:
+    if past <= 0.0:
         return gap - radius
     apart = math.sqrt(max(gap * gap - past * past, 0.0))
     return math.hypot(max(apart - radius, 0.0), past)

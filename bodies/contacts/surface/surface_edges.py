@@ -9,10 +9,16 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import NEAR_ENDS, PARALLEL, cross_edges
+from ..features.edge_crossing import PARALLEL, cross_edges
 from ..features.frames import write_tangent
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
+
+_NEAR_ENDS = 4.0
+"""Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
+
+Closer to an end, the edges may pass each other without an overlap of the bodies.
+"""
 
 
 def evaluate_edges(
@@ -42,7 +48,7 @@ def write_edges(
     margin, parallel = CLOSED * size, CLOSED if radius == 0.0 else PARALLEL
     p, e, f, n, gap, over, past = cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, margin, size)
     if gap < 0.0:
-        past = max(past, over - NEAR_ENDS * gap - margin)
+        past = max(past, over - _NEAR_ENDS * gap - margin)
     gap -= radius
     if past > 0.0:
         gap = math.hypot(gap, past)

@@ -28,7 +28,6 @@ from .surface_search import (
     ON_FACE,
     Point,
     box_square,
-    depth_inside,
     face_height,
     has_patch,
     in_triangle,
@@ -323,14 +322,9 @@ def write_surface_smooth(
     x, y, z = vector_in_body(a, bx - a[POSITION], by - a[POSITION + 1], bz - a[POSITION + 2])
     turn = between_axes(axes_a, axes_b)
     g, past, kind, number, nx, ny, nz = _nearest(surface, patch, second, point, turn, (x, y, z), reach)
-    gap, depth = g - second[RADIUS], 0.0
+    gap = g - second[RADIUS]
     if past > 0.0:
-        gap = math.sqrt(gap * gap + past * past)
-        depth = depth_inside(surface, x, y, z)
-        if depth > 0.0:
-            # the centre is inside of the mesh, but no feature is in contact: a contact was missed, and the gap is an
-            # overlap larger than the depth of the centre
-            gap = -depth - _extent(second)
+        gap = math.hypot(gap, past)
     px, py, pz = _point_against(second, turn, (x, y, z), (nx, ny, nz))
     if kind == ON_EDGE and not is_round(second):
         e = int(surface[EDGES]) + EDGE * number
@@ -339,7 +333,7 @@ def write_surface_smooth(
         _, px, py, pz, _, _, _ = across_line(second, turn, (wx, wy, wz), (ex, ey, ez), (nx, ny, nz), 1.0, 0.0, 0.0)
         px, py, pz = px + surface[e], py + surface[e + 1], pz + surface[e + 2]
     # if there is one patch only, it is the whole surface, which has no end
-    out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
+    out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 else 0.0
     out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
     out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(a, px, py, pz)
     for i in range(3):
