@@ -145,7 +145,7 @@ def nearest_face(
         best = separation_of_faces(other, frame, n_faces_other, faces_other, n_vertices_own, vertices_own)
         past = max(past, best - gap - margin)
     if past > 0.0:
-        gap = math.hypot(max(0.0, gap), past)
+        gap = math.hypot(gap, past)
     return float(found), gap, past
 
 
