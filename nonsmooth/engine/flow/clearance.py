@@ -173,7 +173,9 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     along = dot(contact.normal, linear)
     speed, rate = math.sqrt(dot(velocity, velocity)), math.sqrt(dot(turning, turning))
     lever = min(contact.support_radius_a, contact.support_radius_b)
-    fall = max(0.0, -along if second else along)
+    # features that do not face each other have no normal along which their gap closes
+    faces = contact.past_feature <= 0.0
+    fall = max(0.0, -along if second else along) if faces else math.sqrt(dot(linear, linear))
     fall += (math.sqrt(dot(angular, angular)) + rate * rate) * lever
     grows = 0.0
     if lever > 0.0:
@@ -309,7 +311,7 @@ def find_doubtful(ws: Workspace, h: float) -> None:
     step enters the list ``may_close``.  Its acceleration bound at the end is stored, for this step and the next.  A
     contact whose features do not face each other at one end enters the list ``not_facing``.
     """
-    ws.step.n_may_close = ws.step.n_not_facing = 0
+    ws.step.n_may_close = 0
     accelerations = ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q
     for contact in ws.contacts:
         c, normal = contact.index, normal_of(ws, contact)
@@ -319,10 +321,6 @@ def find_doubtful(ws: Workspace, h: float) -> None:
         start = 0.0 if normal.is_deflated else normal.initial
         way = h * (contact.speed_at_start + contact.speed_at_end)
         if too_far(start, contact.past_feature_at_start, contact.gap_at_end, contact.past_feature_at_end, way):
-            continue
-        if contact.past_feature_at_start > 0.0 or contact.past_feature_at_end > 0.0:
-            ws.step.not_facing[ws.step.n_not_facing] = c
-            ws.step.n_not_facing += 1
             continue
         contact.acceleration_bound_at_end = fall_of(ws, c, accelerations)
         ws.step.may_close[ws.step.n_may_close] = c

@@ -29,7 +29,7 @@ from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point
 from nonsmooth.engine.numerics.tolerances import ADJACENT, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import distance
 
-LARGEST_DISPLACEMENT = 0.02
+_LARGEST_DISPLACEMENT = 0.02
 """Motion between two evaluations of features that do not face each other, relative to the size of the smaller body."""
 _LARGEST_PART = 0.125
 """Fraction of a step within which the gap of neighbours at rest is always evaluated."""
@@ -275,9 +275,9 @@ def _is_undecided(ws: Workspace, h: float, contact: ContactRecord, n: int, speed
     rests = gaps <= ADJACENT * ws.tolerance.gap and rates <= ADJACENT * ws.tolerance.velocity
     was_closed = normal_of(ws, contact).is_deflated
     rests = rests or (was_closed and rates <= NEGLIGIBLE * ws.tolerance.velocity)
-    is_not_facing = left.past > 0.0 or right.past > 0.0
-    moves_little = is_not_facing and span * h * speed <= LARGEST_DISPLACEMENT * contact.size
-    return span * h > ws.tolerance.time and not (span <= _LARGEST_PART and (rests or moves_little))
+    is_not_facing = left.past > 0.0 and right.past > 0.0
+    moves_little = is_not_facing and span * h * speed <= _LARGEST_DISPLACEMENT * contact.size
+    return span * h > ws.tolerance.time and not (span <= _LARGEST_PART and rests) and not moves_little
 
 
 @entry_point("f8(ws, f8, f8, i8)")
@@ -289,8 +289,7 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     closes, the contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that
     is the end of the step, else only ``needed``, the contact whose guard was located there.
     """
-    # the search among features that do not face each other has evaluated the contacts at other times
-    found, is_evaluated = 0.0, ws.step.n_not_facing == 0
+    found, is_evaluated = 0.0, True
     for i in range(ws.step.n_may_close):
         contact = ws.contacts[ws.step.may_close[i]]
         body_a, body_b = ws.bodies[contact.body_a], ws.bodies[contact.body_b]

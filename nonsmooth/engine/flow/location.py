@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.support import known_direction, separation_along
-from nonsmooth.engine.flow.crossing import FAINT, SHORTEST, asks_forces, closed_before, guard_at, guards_within
+from nonsmooth.engine.flow.crossing import asks_forces, closed_before, guard_at, guards_within
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -32,6 +32,10 @@ from nonsmooth.engine.pairs.motion import rate_of
 
 NEGLIGIBLE = 0.01
 """Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""
+_FAINT = 1e-9
+"""Start value of a guard, relative to its end value, up to which it is round-off, so that its sign is not trusted."""
+_SHORTEST = 1e-4
+"""Least time after the start at which a guard is evaluated, in fractions of the step: shorter ones are not resolved."""
 _MOST_ROOTS = 30
 """Number of roots in one step, each earlier than the previous one, at which the motion is taken as not smooth.
 
@@ -83,11 +87,11 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
     g_high = ws.guards[i].value
     ws.step.guard_slope = 0.0
     rises = ws.guards[i].initial <= 0.0 or ws.guards[i].is_deflated
-    while g_low <= FAINT * abs(g_high) and (rises or is_gap(ws, i)):
+    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i)):
         # the guard was armed within the step, or rises from zero with unknown rate: seek a time at which it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = guard_at(ws, h, low, i, needs_forces)
-        if low < SHORTEST * high:
+        if low < _SHORTEST * high:
             if g_low > 0.0 or rises:
                 return low
             # the guard was positive at the start and has its root right after it: the bracket is from the start to low
@@ -282,12 +286,10 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             first = first_fired(ws, closed, fired)
         # parts that meet after this root do not count
         ws.step.meeting = NO_PAIR
-        if first < 0 and ws.step.n_not_facing + ws.step.n_may_close + ws.model.n_pairs > 0:
+        if first < 0 and ws.step.n_may_close + ws.model.n_pairs > 0:
             earlier = closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(ws, closed, NO_GUARD)
-            elif ws.step.n_not_facing > 0:
-                guards_within(ws, h, theta, closed)
     if first >= 0:
         # guards still fire before the last root: an earlier event may be hidden
         return -1.0
