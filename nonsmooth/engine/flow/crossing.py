@@ -9,8 +9,6 @@ more often if the features move far.  Once they face each other, it is sampled w
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.flow.arming import arm_further, store_end
 from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
 from nonsmooth.engine.flow.deflation import deflate

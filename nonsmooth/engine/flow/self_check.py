@@ -97,8 +97,8 @@ def _allowed_overlap(ws: Workspace, number: int) -> float:
 def check_gaps(ws: Workspace) -> None:
     """Check pairs and gaps at the start of a step: open contacts must be apart, and closed rigid ones without gap.
 
-    A pair is two convex parts of bodies with contacts. The features of compliant bodies may overlap while a contact of
-    the two bodies is closed. A check that fails ends the run.
+    A pair is two convex parts of bodies with contacts. Past their end, features of two bodies may overlap while a
+    contact of theirs is closed. A check that fails ends the run.
     """
     if ws.model.n_pairs > 0:
         check_pairs(ws)
