@@ -6,8 +6,7 @@ the gap and its rate at both ends of a step, these bounds prove that most gaps s
 the step (:mod:`nonsmooth.engine.flow.gap_search`).
 
 The bounds hold if within a step no speed exceeds the sum of the speeds at its ends, which the error control of the step
-ensures. Features that do not face each other have a gap without a rate: such gaps are sampled
-(:mod:`nonsmooth.engine.flow.location`).
+ensures. Features that do not face each other have a gap without a rate, of which nothing is proved.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from nonsmooth.engine.flow.arming import NO_BOUND
 from nonsmooth.engine.flow.flight import fly
 from nonsmooth.engine.flow.guard_numbers import is_of_watched_pair, normal_of
 from nonsmooth.engine.memory.blocks import FRAME
-from nonsmooth.engine.memory.layout import LAST_STAGE
+from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Floats, Workspace, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
@@ -307,9 +306,8 @@ def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> boo
 def find_doubtful(ws: Workspace, h: float) -> None:
     """List the open contacts whose gaps may close within the step of ``h`` [s], by the bounds of their speeds.
 
-    The bodies must be evaluated at the end of the step.  A contact whose features face each other at both ends of the
-    step enters the list ``may_close``.  Its acceleration bound at the end is stored, for this step and the next.  A
-    contact whose features do not face each other at one end enters the list ``not_facing``.
+    The bodies must be evaluated at the end of the step. The acceleration bound of each listed contact at the end is
+    stored, for this step and the next.
     """
     ws.step.n_may_close = 0
     accelerations = ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q
@@ -317,6 +315,10 @@ def find_doubtful(ws: Workspace, h: float) -> None:
         c, normal = contact.index, normal_of(ws, contact)
         contact.acceleration_bound_at_end = NO_BOUND
         if contact.mode != Mode.OPEN or is_of_watched_pair(ws, contact):
+            continue
+        # springs carry shapes that touch, so those of features that do not face each other wait for the end of the step
+        touches = contact.pair != NO_PAIR and ws.pairs[contact.pair].is_guarded
+        if contact.is_compliant and touches and contact.past_feature_at_start > 0.0:
             continue
         start = 0.0 if normal.is_deflated else normal.initial
         way = h * (contact.speed_at_start + contact.speed_at_end)

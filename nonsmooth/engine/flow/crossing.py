@@ -2,9 +2,7 @@
 
 Open gaps are proved not to close (:mod:`nonsmooth.engine.flow.clearance`), or their closing is found. Forces, slips and
 guards of the user are sampled at the end of a step, guards of the user also in its middle. Forces and slips are sampled
-in the middle, too, if at a stage a force or slip violated its mode, or a force was smaller than at both ends.  Features
-that do not face each other have a gap without a rate.  Such a gap is sampled at least ``_SAMPLES`` times in a step,
-more often if the features move far.  Once they face each other, it is sampled when it is expected to close.
+in the middle, too, if at a stage a force or slip violated its mode, or a force was smaller than at both ends.
 """
 
 from __future__ import annotations
