@@ -1,4 +1,4 @@
-"""Where bodies overlap, contacts whose gaps jump tell so: what they hide has closed before them, and is found."""
+"""Features of bodies that strike and come to overlap within a trial step hide no contact that closed before."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from tests.benchmarks.random_systems.gaps import distance, overlaps
 from tests.benchmarks.random_systems.pieces import poses_of
 
 
-def test_gaps_that_jump_do_not_hide_the_edge_that_closed_before() -> None:
+def test_edges_that_overlap_do_not_hide_the_edge_that_closed_before() -> None:
     """Two boxes on a plate strike edge to edge; a moment later two other pairs of edges are seen to overlap.
 
-    Those two jump one right before the other, again and again, for as long as anybody looks for their roots.
+    Their gaps jump there, one right before the other.
     """
     plate, one, two = Plate(), BoxBody(0.004462, 0.002888, 0.005821), BoxBody(0.002277, 0.002672, 0.002436)
     system = ns.System([plate, one, two])

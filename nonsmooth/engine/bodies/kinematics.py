@@ -61,11 +61,12 @@ class WitnessMotion(NamedTuple):
 def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
 
-    If ``past_feature`` > 0, the contact points lie past the end of their features, such as a face or an edge. Compliant
+    If ``past_feature`` > 0, the contact points lie past the end of their features, such as a face or an edge. The
     bodies may overlap there while another contact of theirs is closed. Then ``overlap`` keeps the negative gap, and the
     gap becomes a positive substitute, the length of gap and ``past_feature``, so that this contact does not act.
-    ``overlap`` is zero otherwise. So it is for an open contact along whose normal the parts of its pair overlap more
-    than they do: its features do not separate the bodies (:func:`nonsmooth.engine.bodies.support.separates`).
+    ``overlap`` is zero otherwise. A substitute is the gap, too, of an open contact along whose normal the parts of its
+    pair overlap more than they do: its features do not separate the bodies
+    (:func:`nonsmooth.engine.bodies.support.separates`).
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -73,11 +74,10 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     # the rates replace t1 and t2 by stretched ones if friction is anisotropic
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
-    if contact.is_compliant:
-        contact.overlap = 0.0
-        if contact.gap < 0.0 < contact.past_feature:
-            contact.overlap = contact.gap
-            contact.gap = length((contact.gap, contact.past_feature))
+    contact.overlap = 0.0
+    if contact.gap < 0.0 < contact.past_feature:
+        contact.overlap = contact.gap
+        contact.gap = length((contact.gap, contact.past_feature))
     near = ADJACENT * ws.tolerance.gap
     is_near = contact.mode == Mode.OPEN and contact.gap <= near and contact.past_feature <= 0.0
     if is_near and contact.pair != NO_PAIR and not separates(ws, contact.pair, contact.normal, near):

@@ -65,8 +65,8 @@ def _does_touch(ws: Workspace, contact: ContactRecord) -> bool:
     """
     gap, rate = contact.gap, contact.normal_rate
     # a body with an own step (multirate) takes no part in events of the rest; past the end of its features (a face,
-    # an edge) a positive gap is a distance to them, no gap that can close
-    if has_own_step(ws, contact.index) or (contact.past_feature > ws.tolerance.gap and gap > 0.0):
+    # an edge) the gap is a distance to them, no gap that can close
+    if has_own_step(ws, contact.index) or contact.past_feature > ws.tolerance.gap:
         return False
     if contact.is_compliant:
         end = 0.0 if contact.mode == Mode.OPEN else contact.reach

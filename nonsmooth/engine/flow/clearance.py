@@ -6,8 +6,7 @@ the gap and its rate at both ends of a step, these bounds prove that most gaps s
 the step (:mod:`nonsmooth.engine.flow.gap_search`).
 
 The bounds hold if within a step no speed exceeds the sum of the speeds at its ends, which the error control of the step
-ensures. Features that do not face each other have a gap without a rate: such gaps are sampled
-(:mod:`nonsmooth.engine.flow.location`).
+ensures. Features that do not face each other have a gap without a rate, of which nothing is proved.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from nonsmooth.engine.flow.arming import NO_BOUND
 from nonsmooth.engine.flow.flight import fly
 from nonsmooth.engine.flow.guard_numbers import is_of_watched_pair, normal_of
 from nonsmooth.engine.memory.blocks import FRAME
-from nonsmooth.engine.memory.layout import LAST_STAGE
+from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Floats, Workspace, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
@@ -173,7 +172,9 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     along = dot(contact.normal, linear)
     speed, rate = math.sqrt(dot(velocity, velocity)), math.sqrt(dot(turning, turning))
     lever = min(contact.support_radius_a, contact.support_radius_b)
-    fall = max(0.0, -along if second else along)
+    # features that do not face each other have no normal along which their gap closes
+    faces = contact.past_feature <= 0.0
+    fall = max(0.0, -along if second else along) if faces else math.sqrt(dot(linear, linear))
     fall += (math.sqrt(dot(angular, angular)) + rate * rate) * lever
     grows = 0.0
     if lever > 0.0:
@@ -305,24 +306,23 @@ def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> boo
 def find_doubtful(ws: Workspace, h: float) -> None:
     """List the open contacts whose gaps may close within the step of ``h`` [s], by the bounds of their speeds.
 
-    The bodies must be evaluated at the end of the step.  A contact whose features face each other at both ends of the
-    step enters the list ``may_close``.  Its acceleration bound at the end is stored, for this step and the next.  A
-    contact whose features do not face each other at one end enters the list ``not_facing``.
+    The bodies must be evaluated at the end of the step. The acceleration bound of each listed contact at the end is
+    stored, for this step and the next.
     """
-    ws.step.n_may_close = ws.step.n_not_facing = 0
+    ws.step.n_may_close = 0
     accelerations = ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q
     for contact in ws.contacts:
         c, normal = contact.index, normal_of(ws, contact)
         contact.acceleration_bound_at_end = NO_BOUND
         if contact.mode != Mode.OPEN or is_of_watched_pair(ws, contact):
             continue
+        # springs carry shapes that touch, so those of features that do not face each other wait for the end of the step
+        touches = contact.pair != NO_PAIR and ws.pairs[contact.pair].is_guarded
+        if contact.is_compliant and touches and contact.past_feature_at_start > 0.0:
+            continue
         start = 0.0 if normal.is_deflated else normal.initial
         way = h * (contact.speed_at_start + contact.speed_at_end)
         if too_far(start, contact.past_feature_at_start, contact.gap_at_end, contact.past_feature_at_end, way):
-            continue
-        if contact.past_feature_at_start > 0.0 or contact.past_feature_at_end > 0.0:
-            ws.step.not_facing[ws.step.n_not_facing] = c
-            ws.step.n_not_facing += 1
             continue
         contact.acceleration_bound_at_end = fall_of(ws, c, accelerations)
         ws.step.may_close[ws.step.n_may_close] = c

@@ -2,21 +2,16 @@
 
 Open gaps are proved not to close (:mod:`nonsmooth.engine.flow.clearance`), or their closing is found. Forces, slips and
 guards of the user are sampled at the end of a step, guards of the user also in its middle. Forces and slips are sampled
-in the middle, too, if at a stage a force or slip violated its mode, or a force was smaller than at both ends.  Features
-that do not face each other have a gap without a rate.  Such a gap is sampled at least ``_SAMPLES`` times in a step,
-more often if the features move far.  Once they face each other, it is sampled when it is expected to close.
+in the middle, too, if at a stage a force or slip violated its mode, or a force was smaller than at both ends.
 """
 
 from __future__ import annotations
-
-import math
 
 from nonsmooth.engine.flow.arming import arm_further, store_end
 from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
 from nonsmooth.engine.flow.deflation import deflate
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.gap_search import (
-    LARGEST_DISPLACEMENT,
     evaluate_gap_guard,
     evaluate_slip_guard,
     first_closing,
@@ -41,27 +36,6 @@ _MIDDLE = 0.5
 """Fraction of the step at which forces and guards of the user are sampled between its ends."""
 _NEAR = 0.2
 """If a parabola through three samples of a force dips below this part of the end values, the dip is evaluated."""
-FAINT = 1e-9
-"""Start value of a guard, relative to its end value, up to which it is round-off, so that its sign is not trusted.
-
-Also the fraction of a step at which its start is sampled.
-"""
-_SAMPLES = 16
-"""Least number of samples per step for gaps of features that do not face each other at an end of the step.
-
-They may face each other, and touch, within the step.
-"""
-_FARTHEST = 0.25
-"""Largest displacement of features that do not face each other between two samples, relative to the contact's size.
-
-The size of a contact is that of the smaller body.
-"""
-SHORTEST = 1e-4
-"""Least distance of two samples, in fractions of the step: the interpolant resolves no shorter time."""
-_LOOKS = 4
-"""Largest number of extra samples, at expected closing times, between two regular samples of gaps without rates."""
-_BEHIND = 1e-3
-"""Delay of an extra sample after the expected closing of a gap, relative to the time until then: the gap has closed."""
 
 
 @kernel("b1(ws)")
@@ -145,61 +119,6 @@ def _force_dip(ws: Workspace, h: float) -> float:
     return 0.0
 
 
-@kernel("f8(ws)")
-def _soonest(ws: Workspace) -> float:
-    """Time after which the first open gap closes at its present rate [s]; infinite if none closes."""
-    soonest = math.inf
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        gap, rate = contact.gap, contact.gap_rate
-        if contact.mode == Mode.OPEN and contact.past_feature <= 0.0 and gap > 0.0 and rate < 0.0:
-            soonest = min(soonest, -gap / rate)
-    return soonest
-
-
-@kernel("f8(ws, f8)")
-def _advance(ws: Workspace, h: float) -> float:
-    """Time until the next sample of the gaps whose features do not face each other [s].
-
-    Such a gap is no true distance, but it shrinks at most with the speed bound of its surfaces.
-    """
-    longest = h / _SAMPLES
-    least = longest
-    for i in range(ws.step.n_not_facing):
-        c = ws.step.not_facing[i]
-        contact = ws.contacts[c]
-        speed = contact.speed_at_start + contact.speed_at_end
-        way = min(_FARTHEST * contact.size, max(contact.gap, LARGEST_DISPLACEMENT * contact.size))
-        if way < least * speed:
-            least = way / speed
-    return float(max(least, SHORTEST * h))
-
-
-@kernel("f8(ws, f8, f8)")
-def _sampled(ws: Workspace, h: float, high: float) -> float:
-    """First sampled fraction of the step, below ``high``, at which a gap has closed, or 0 if none has.
-
-    If a gap has closed, the guards are afterwards evaluated at this fraction.
-
-    It samples gaps whose features do not face each other. They may face each other between two samples: then a further
-    sample is taken at the time at which their gap is expected to close.
-    """
-    theta, looks = 0.0, 0
-    while theta < high:
-        ws.totals.n_gap_evaluations += 1
-        # a deflated guard is divided by the elapsed time, so it is undefined at the start: sample right after the start
-        guards_within(ws, h, max(theta, FAINT), needs_forces=False)
-        if theta > 0.0:
-            if first_fired(ws, forces_are_known=False, located=NO_GUARD) >= 0:
-                guards_within(ws, h, theta, asks_forces(ws))
-                return theta
-            arm_further(ws, forces_are_known=False)
-        way, soonest = _advance(ws, h), (1.0 + _BEHIND) * _soonest(ws)
-        looks = looks + 1 if soonest < way and looks < _LOOKS else 0
-        theta += (soonest if looks > 0 else way) / h
-    return 0.0
-
-
 @kernel("f8(ws, f8, f8, i8)")
 def closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
     """Fraction of the step, up to ``theta``, at which an open gap has closed or parts of bodies meet, or 0 if none has.
@@ -208,9 +127,7 @@ def closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
     is afterwards evaluated at ``theta``.
     """
     found = 0.0
-    if ws.step.n_not_facing > 0:
-        found = _sampled(ws, h, theta)
-    if found == 0.0 and ws.step.n_may_close > 0:
+    if ws.step.n_may_close > 0:
         found = first_closing(ws, h, theta, asked)
         if found > 0.0:
             guards_within(ws, h, found, asks_forces(ws))
@@ -264,8 +181,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
             if theta > 0.0:
                 return theta
     # search for unseen closings only if no guard has fired; else `locate` finds its root first, then gaps before it
-    if fired < 0 and ws.step.n_not_facing + ws.step.n_may_close + ws.model.n_pairs > 0:
-        looks += ws.step.n_not_facing
+    if fired < 0 and ws.step.n_may_close + ws.model.n_pairs > 0:
         theta = closed_before(ws, h, 1.0, -1)
         if theta > 0.0:
             return theta

@@ -5,6 +5,10 @@ acceleration (:mod:`nonsmooth.engine.flow.clearance`). If these prove that the g
 Otherwise the part is halved. The halving ends if the gap has closed at one of the ends, or if no dip deeper than the
 gap tolerance is possible. Sampling alone would miss short dips, and a search for the minimum has no proof.
 
+Features past their ends do not face each other, and have a gap without a rate. Nothing is proved of a part if they do
+not face each other at one of its ends. Such a part is halved, too. If they face each other at neither end, the halving
+ends at a small displacement.
+
 ``part_ends`` stores the ends of parts, with time, gap, rate and geometry of each. Between end 0 and end ``n`` is the
 part in question, the first one that is not decided yet.
 
@@ -29,8 +33,8 @@ from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point
 from nonsmooth.engine.numerics.tolerances import ADJACENT, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import distance
 
-LARGEST_DISPLACEMENT = 0.02
-"""Motion between two evaluations of features that do not face each other, relative to the size of the smaller body."""
+_LARGEST_DISPLACEMENT = 0.02
+"""Displacement, relative to the smaller body, below which features that do not face each other are not evaluated."""
 _LARGEST_PART = 0.125
 """Fraction of a step within which the gap of neighbours at rest is always evaluated."""
 _MOST_EVALUATIONS = 10_000
@@ -143,7 +147,10 @@ def _evaluate_end(ws: Workspace, h: float, theta: float, contact: ContactRecord,
 
 @kernel("b1(ws, i8, f8, GapBounds)")
 def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
-    """True if the bounds prove that a gap stays above minus the gap tolerance between ends 0 and ``n`` of the parts.
+    """True if the bounds prove that a gap stays, within its tolerance, above the lower of 0 and its values at two ends.
+
+    These are ends 0 and ``n`` of the parts. A gap at rest may be negative there, and a gap that closes at ``n`` is
+    located by its own guard.
 
     With the acceleration bound a, the gap is above the parabolas g0 + r0 s - a s^2 / 2 from its start and
     g1 - r1 (T - s) - a (T - s)^2 / 2 from its end, after a time s of T. Their maximum is lowest where they cross.
@@ -157,9 +164,10 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     # the surfaces cannot move that far in the time
     if too_far(g0, one.past, g1, two.past, span * bounds.speed):
         return True
-    # the bounds hold for features that face each other; a gap that has closed at an end is not open
-    if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -ws.tolerance.gap:
+    # the bounds hold for features that face each other
+    if one.past > 0.0 or two.past > 0.0:
         return False
+    least = min(0.0, g0, g1) - ws.tolerance.gap
     acceleration, turning = bounds.acceleration, bounds.turning
     if turning > 0.0:
         # speed of the witness point over its body, of which what exceeds the turning of the body counts
@@ -177,7 +185,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
         return True
     # the time at which they cross
     s = min(ahead / closing, span)
-    return bool(g0 + s * (r0 - 0.5 * acceleration * s) >= -ws.tolerance.gap)
+    return bool(g0 + s * (r0 - 0.5 * acceleration * s) >= least)
 
 
 @kernel("f8(ws, f8, ContactRecord, f8, b1)")
@@ -266,8 +274,8 @@ def _is_undecided(ws: Workspace, h: float, contact: ContactRecord, n: int, speed
     """True if the part of the step between ends 0 and ``n``, which the bounds do not decide, must be halved.
 
     Else the gaps at its ends decide. A part of the length of the time tolerance is not halved. Nor is a short part if
-    the surfaces rest next to each other, or if they do not face each other and move by little at ``speed`` [m/s]. A gap
-    that was closed from the start rests if its rate is round-off, as :func:`has_fired` judges it.
+    the surfaces rest next to each other, or any part if they face each other at neither end and move by little at
+    ``speed`` [m/s]. A gap that was closed from the start rests if its rate is round-off, as in :func:`has_fired`.
     """
     left, right = part_end(ws.floats, ws.step.part_ends.start, 0), part_end(ws.floats, ws.step.part_ends.start, n)
     span = right.theta - left.theta
@@ -275,9 +283,9 @@ def _is_undecided(ws: Workspace, h: float, contact: ContactRecord, n: int, speed
     rests = gaps <= ADJACENT * ws.tolerance.gap and rates <= ADJACENT * ws.tolerance.velocity
     was_closed = normal_of(ws, contact).is_deflated
     rests = rests or (was_closed and rates <= NEGLIGIBLE * ws.tolerance.velocity)
-    is_not_facing = left.past > 0.0 or right.past > 0.0
-    moves_little = is_not_facing and span * h * speed <= LARGEST_DISPLACEMENT * contact.size
-    return span * h > ws.tolerance.time and not (span <= _LARGEST_PART and (rests or moves_little))
+    is_not_facing = left.past > 0.0 and right.past > 0.0
+    moves_little = is_not_facing and span * h * speed <= _LARGEST_DISPLACEMENT * contact.size
+    return span * h > ws.tolerance.time and not (span <= _LARGEST_PART and rests) and not moves_little
 
 
 @entry_point("f8(ws, f8, f8, i8)")
@@ -285,12 +293,11 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     """Fraction of the step, up to ``high``, by which a gap that may close has closed, or 0 if all stay open.
 
     It need not be the first such time: after each closing, ``high`` becomes its time, and the other gaps are searched
-    up to there. Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap
-    closes, the contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that
-    is the end of the step, else only ``needed``, the contact whose guard was located there.
+    up to there. Contacts must be evaluated at ``high``. If no gap closes, the contacts that the search evaluated within
+    the step are evaluated at ``high`` again: all of them if that is the end of the step, else only ``needed``, the
+    contact whose guard was located there.
     """
-    # the search among features that do not face each other has evaluated the contacts at other times
-    found, is_evaluated = 0.0, ws.step.n_not_facing == 0
+    found, is_evaluated = 0.0, True
     for i in range(ws.step.n_may_close):
         contact = ws.contacts[ws.step.may_close[i]]
         body_a, body_b = ws.bodies[contact.body_a], ws.bodies[contact.body_b]

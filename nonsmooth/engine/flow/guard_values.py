@@ -133,8 +133,6 @@ def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
     """
     for i in range(ws.step.n_may_close):
         _evaluate_ballistic_bodies_of(ws, t, y, ws.contacts[ws.step.may_close[i]])
-    for i in range(ws.step.n_not_facing):
-        _evaluate_ballistic_bodies_of(ws, t, y, ws.contacts[ws.step.not_facing[i]])
 
 
 @kernel("void(ws, f8, i8, ContactRecord)")
@@ -164,6 +162,4 @@ def evaluate_guards(ws: Workspace, t: float, y: int, elapsed: float, needs_force
     _write_guards_without_gaps(ws, t, y, needs_forces)
     for i in range(ws.step.n_may_close):
         _write_gap(ws, ws.contacts[ws.step.may_close[i]])
-    for i in range(ws.step.n_not_facing):
-        _write_gap(ws, ws.contacts[ws.step.not_facing[i]])
     deflate(ws, elapsed)

@@ -9,29 +9,30 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.support import known_direction, separation_along
-from nonsmooth.engine.flow.crossing import FAINT, SHORTEST, asks_forces, closed_before, guard_at, guards_within
+from nonsmooth.engine.flow.crossing import asks_forces, closed_before, guard_at, guards_within
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_user_guard,
-    is_friction_guard,
-    normal_guard,
     number_of_guards,
 )
 from nonsmooth.engine.flow.guard_values import evaluate_guards, write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
 from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces
-from nonsmooth.engine.flow.self_check import allowed_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR, PARTS
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
-from nonsmooth.engine.numerics.tolerances import ADJACENT, ALLOWED
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.engine.pairs.motion import rate_of
 
 NEGLIGIBLE = 0.01
 """Error of a step, relative to the tolerance, up to which its interpolant locates an event without a further step."""
+_FAINT = 1e-9
+"""Start value of a guard, relative to its end value, up to which it is round-off, so that its sign is not trusted."""
+_SHORTEST = 1e-4
+"""Least time after the start at which a guard is evaluated, in fractions of the step: shorter ones are not resolved."""
 _MOST_ROOTS = 30
 """Number of roots in one step, each earlier than the previous one, at which the motion is taken as not smooth.
 
@@ -83,11 +84,11 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
     g_high = ws.guards[i].value
     ws.step.guard_slope = 0.0
     rises = ws.guards[i].initial <= 0.0 or ws.guards[i].is_deflated
-    while g_low <= FAINT * abs(g_high) and (rises or is_gap(ws, i)):
+    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i)):
         # the guard was armed within the step, or rises from zero with unknown rate: seek a time at which it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = guard_at(ws, h, low, i, needs_forces)
-        if low < SHORTEST * high:
+        if low < _SHORTEST * high:
             if g_low > 0.0 or rises:
                 return low
             # the guard was positive at the start and has its root right after it: the bracket is from the start to low
@@ -218,36 +219,6 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
     return -1.0
 
 
-@kernel("b1(ws, i8)")
-def _overtaken(ws: Workspace, i: int) -> bool:
-    """True if another contact than that of guard ``i`` has closed before the end of the corrected step."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        if contact.mode == Mode.OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
-            start = min(0.0, ws.guards[normal_guard(c)].base)
-            # gaps that close at the same instant differ by round-off: ignore a penetration below the tolerance
-            if contact.gap < start - ADJACENT * ws.tolerance.gap and contact.gap_rate < 0.0:
-                return True
-    return False
-
-
-@kernel("b1(ws, f8, i8)")
-def _hides_another(ws: Workspace, step: float, i: int) -> bool:
-    """True if the gap of guard ``i`` jumps to an overlap so deep that another gap must have closed before.
-
-    That other gap closed between two samples, at which its features did not face each other. An overlap deeper than
-    the bodies can move within the step has another reason: the geometry of the contact itself makes the gap jump.
-    """
-    if i >= first_user_guard(ws) or is_friction_guard(ws, i):
-        return False
-    c = contact_of(ws, i)
-    contact = ws.contacts[c]
-    if contact.mode != Mode.OPEN or contact.is_compliant:
-        return False
-    reached = step * (contact.speed_at_start + contact.speed_at_end)
-    return allowed_gap(ws, c) < -contact.gap < reached
-
-
 @entry_point("f8(ws, f8, f8)")
 def locate(ws: Workspace, h: float, high: float) -> float:
     """Make a step that ends at the first event before the fraction ``high`` of the step of ``h`` [s].
@@ -282,12 +253,10 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             first = first_fired(ws, closed, fired)
         # parts that meet after this root do not count
         ws.step.meeting = NO_PAIR
-        if first < 0 and ws.step.n_not_facing + ws.step.n_may_close + ws.model.n_pairs > 0:
+        if first < 0 and ws.step.n_may_close + ws.model.n_pairs > 0:
             earlier = closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(ws, closed, NO_GUARD)
-            elif ws.step.n_not_facing > 0:
-                guards_within(ws, h, theta, closed)
     if first >= 0:
         # guards still fire before the last root: an earlier event may be hidden
         return -1.0
@@ -298,16 +267,9 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             return _corrected(ws, step, NO_GUARD)
         state_within(ws, h, theta, ws.step.y_new.start)
         return step
-    if ws.step.guard_slope == -math.inf and _hides_another(ws, step, fired):
-        return -1.0
-    # a gap without a rate jumps when its features come to face each other: there is no root to correct
-    jumps = (
-        fired < first_user_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == Mode.OPEN and not is_gap(ws, fired)
-    )
-    if ws.step.error <= NEGLIGIBLE or jumps:
+    if ws.step.error <= NEGLIGIBLE:
         state_within(ws, h, theta, ws.step.y_new.start)
         return step
     if ws.step.guard_slope == -math.inf:
         return _behind_jump(ws, step, fired)
-    step = _corrected(ws, step, fired)
-    return -1.0 if step > 0.0 and _overtaken(ws, fired) else step
+    return _corrected(ws, step, fired)

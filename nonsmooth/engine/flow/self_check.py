@@ -13,7 +13,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.equations import energies, inverse_mass
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.memory.layout import EXCHANGED
+from nonsmooth.engine.memory.layout import EXCHANGED, NO_PAIR
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, at, call_compliance, frame_at, kernel
 from nonsmooth.engine.numerics.tolerances import ALLOWED
@@ -97,8 +97,8 @@ def _allowed_overlap(ws: Workspace, number: int) -> float:
 def check_gaps(ws: Workspace) -> None:
     """Check pairs and gaps at the start of a step: open contacts must be apart, and closed rigid ones without gap.
 
-    A pair is two convex parts of bodies with contacts. The features of compliant bodies may overlap while a contact of
-    the two bodies is closed. A check that fails ends the run.
+    A pair is two convex parts of bodies with contacts. Past their end, features of other bodies may overlap only while
+    a contact of theirs is closed. A check that fails ends the run.
     """
     if ws.model.n_pairs > 0:
         check_pairs(ws)
@@ -112,8 +112,8 @@ def check_gaps(ws: Workspace) -> None:
         if contact.mode == Mode.OPEN:
             # a positive gap is no error
             gap = min(0.0, gap)
-            # past the end of features the gap is a distance, and the overlap is stored apart
-            if contact.overlap_at_end < 0.0 and not _has_closed_contact(ws, contact):
+            # past the end of features the gap is a distance, and the overlap is stored apart; pairs are checked above
+            if contact.overlap_at_end < 0.0 and contact.pair == NO_PAIR and not _has_closed_contact(ws, contact):
                 gap = contact.overlap_at_end
         elif contact.is_compliant or contact.past_feature > 0.0:
             # a compliant contact has a depth, and past the end of features the gap is only a distance
