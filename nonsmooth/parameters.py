@@ -6,6 +6,7 @@ import dataclasses
 import inspect
 import math
 import re
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -169,6 +170,9 @@ class SharedNumbers(Sequence[float]):
 
     def __hash__(self) -> int:
         return hash((len(self), self.numbers[:8].tobytes()))
+
+    def __repr__(self) -> str:
+        return f"SharedNumbers({len(self)} numbers, checksum {zlib.crc32(self.numbers.tobytes()):08x})"
 
 
 Value: TypeAlias = float | tuple[float, ...] | SharedNumbers

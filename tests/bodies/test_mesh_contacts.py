@@ -210,14 +210,14 @@ def test_a_capsule_has_the_distance_of_its_axis(build: Any) -> None:
 
 @pytest.mark.slow
 def test_a_rounded_box_has_the_distance_of_its_core(build: Any) -> None:
-    """At random places: the nearest of what faces each other; cores that overlap do so by more than the radius."""
+    """At random places of cores that are apart: the nearest of what faces each other."""
     box, rng = Box(6e-3, 4e-3, 5e-3, 1e-3, 0.0, 0.0, 0.8, 0.36, -0.48, rounding=1.5e-3), np.random.default_rng(3)
     rig, core = Rig((BRACKET, box), build.laws()), box.core
     corners = BRACKET.features.vertices[BRACKET.features.triangles]
     edges = BRACKET.features.vertices[BRACKET.features.triangles[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2, 3)
     part = np.linspace(0.0, 1.0, 21)[:, None, None]
     low, high = BRACKET.bounds
-    compared, deep = set[str](), 0
+    compared = set[str]()
     for place in rng.uniform(low - 12e-3, high + 12e-3, (200, 3)):
         turn = Rotation.random(random_state=rng)
         points = turn.apply(core.vertices) + place
@@ -225,8 +225,6 @@ def test_a_rounded_box_has_the_distance_of_its_core(build: Any) -> None:
         rig.put([(np.zeros(3), UNIT), (place, np.roll(turn.as_quat(), 1))], np.zeros(12))
         along = [((1.0 - part) * one[:, 0] + part * one[:, 1]).reshape(-1, 3) for one in (ways, edges)]
         if np.any(is_inside(along[0], corners)) or np.any(is_inside(along[1], faces)):
-            deep += 1
-            assert np.min(rig.geometry[:, 0]) < -box.rounding
             continue
         distance = min(segment_distance(ways, edges), float(np.min(distances(points, corners))))
         distance = min(distance, float(np.min(distances(BRACKET.features.vertices, faces))))
@@ -240,7 +238,6 @@ def test_a_rounded_box_has_the_distance_of_its_core(build: Any) -> None:
         "corner face",
         "corner edge",
     }
-    assert deep > 10
 
 
 def test_what_is_inside_by_more_than_the_radius_overlaps(build: Any) -> None:

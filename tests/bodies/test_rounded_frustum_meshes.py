@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Cone, Cylinder, Disc, Frustum, TriangleMesh, Triangles
+from bodies import Cone, Cylinder, Disc, TriangleMesh, Triangles
 from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.carriers import Rig
 from tests.bodies.meshes.parts import bracket
@@ -31,24 +31,21 @@ _CLOSE = 1e-11
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SHAPES)
 def test_gap_is_the_distance_of_the_core(build: Any, name: str) -> None:
-    """At random places: the nearest of what faces each other; a core that overlaps does so by the radius and more."""
+    """At random places of cores that are apart: the nearest of what faces each other."""
     shape, rng = SHAPES[name], np.random.default_rng(3)
     rig = Rig((shape, MESH), build.laws())
     low, high = MESH.bounds
-    compared, deep = 0, 0
+    compared = 0
     for place in rng.uniform(low - 0.01, high + 0.01, (20 if PLAIN else 60, 3)):
         turn = Rotation.random(random_state=rng)
         distance = core_distance(MESH, shape, place, turn)
         rig.put([(place, np.roll(turn.as_quat(), 1)), (np.zeros(3), UNIT)], np.zeros(12))
         gaps, past = rig.geometry[:, 0], rig.geometry[:, 30]
-        if distance < 1e-9:
-            deep += 1
-            assert np.min(gaps) < 0.0
-        else:
+        if distance >= 1e-9:
             compared += 1
             assert np.min(gaps[past <= 0.0]) == pytest.approx(distance - shape.rounding, abs=1e-14)
             assert np.all(gaps[past > 0.0] > min(distance - shape.rounding, 0.0) - 1e-14)
-    assert min(compared, deep) > 3
+    assert compared > 3
 
 
 @pytest.mark.parametrize("share", [0.0, 0.2, 0.5, 0.7])
@@ -68,22 +65,6 @@ def test_an_apex_meets_a_face_and_an_edge_as_a_sphere(build: Any, share: float) 
         rig.put([(place, np.roll(turn.as_quat(), 1)), (np.zeros(3), UNIT)], np.zeros(12))
         facing = rig.geometry[rig.geometry[:, 30] <= 0.0, 0]
         assert np.min(facing, initial=np.inf) == pytest.approx(gap, abs=1e-15)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("shape", [Disc(8e-3), Cone(6e-3, 0.012), Cylinder(2e-3, 0.012, rounding=5e-4)])
-def test_what_goes_right_through_overlaps(build: Any, shape: Frustum) -> None:
-    """A sharp disc that edges pierce far from its rim, a slender body both of whose ends are outside."""
-    rig, rng = Rig((shape, MESH), build.laws()), np.random.default_rng(3)
-    low, high = MESH.bounds
-    deep = 0
-    for place in rng.uniform(low - 5e-3, high + 5e-3, (20 if PLAIN else 60, 3)):
-        turn = Rotation.random(random_state=rng)
-        if core_distance(MESH, shape, place, turn) < 1e-9:
-            deep += 1
-            rig.put([(place, np.roll(turn.as_quat(), 1)), (np.zeros(3), UNIT)], np.zeros(12))
-            assert np.min(rig.geometry[:, 0]) < 0.0
-    assert deep > 5
 
 
 @pytest.mark.slow
