@@ -117,6 +117,13 @@ def bind(
     return entry.address, tuple(heap)
 
 
+def address_alone(function: Callable[..., Any], form: str, values: Mapping[str, Value], owner: str) -> int:
+    """Address of a function that reads the block of parameters of another one, as :func:`bind` gives it."""
+    entry = _entry(function, form, _vectors(values, parameter_names(function, form)))
+    # the warning of a function that runs in Python tells its cost, for which the block is needed
+    return entry.address if entry.refusal is None else bind(function, form, values, owner)[0]
+
+
 def _vectors(values: Mapping[str, Value], names: tuple[str, ...]) -> tuple[bool, ...]:
     return tuple(isinstance(values[name], (tuple, SharedNumbers)) for name in names)
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.binding.bounds import FRAMES, try_out
-from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
+from nonsmooth.binding.compile import address_alone, bind, parameter_names, parameter_place, vector_place
 from nonsmooth.binding.law_functions import LawFunction, law_functions
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
@@ -277,16 +277,22 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
         # what a search finds: kind and numbers of two features, and the distance up to which they are valid
         block.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
     if is_geometry and (bound := contact.kinematics.bound) is not None:
-        made.fields[_CONTACT.bound_function] = _address_of_bound(contact, bound, values, tables)
+        made.fields[_CONTACT.bound_function] = _address_of_bound(contact, bound, available, values, tables)
     if with_state is not None:
         place = start + _place_of_state(with_state, values)
         block.mark_written(_CONTACT.inner_states_copy, place, len(with_state.initial_state))
 
 
 def _address_of_bound(
-    contact: Contact, bound: Callable[..., None], values: Sequence[float], tables: Mapping[str, SharedNumbers]
+    contact: Contact,
+    bound: Callable[..., None],
+    available: Mapping[str, Value],
+    values: Sequence[float],
+    tables: Mapping[str, SharedNumbers],
 ) -> int:
-    """Compile the bound of a contact, which reads the parameters of its evaluator, ``values``; return the address.
+    """Compile the bound of a contact, which reads the parameters of its evaluator; return the address.
+
+    The parameters are ``available`` by name, and in the block ``values``. Those in ``tables`` are not in the block.
 
     Raises
     ------
@@ -302,11 +308,11 @@ def _address_of_bound(
             found,
             f"Name its arguments after a, b and out {', '.join(wanted)}.",
         )
-    owner, available = f"{type(kinematics).__name__} ({contact})", kinematics.parameters()
-    # a trial of each bound would take longer than all the rest
+    owner = type(kinematics).__name__
+    # with large tables a trial takes long
     if not tables:
         try_out(bound, "pair", available, values, PAIR, owner, FRAMES)
-    return bind(bound, "pair", {**available, **dict.fromkeys(tables, ())}, owner)[0]
+    return address_alone(bound, "pair", {**available, **dict.fromkeys(tables, ())}, owner)
 
 
 def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) -> None:
