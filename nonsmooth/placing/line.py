@@ -59,8 +59,9 @@ class Line:
         self._rates, self._way = self._motion()
         self._size = max(row.size for row in probe.contacts.rows)
         pairs = list(placed_pairs(probe.model, range(len(probe.contacts))))
-        shapes = {id(shape): shape for row in probe.contacts.rows for shape in row.shapes}
-        self._slack = sum(shape.solid.set_back for shape in shapes.values() if shape.solid is not None)
+        # both shapes of a row may be the same object
+        rows = [[shape.solid.set_back for shape in row.shapes if shape.solid] for row in probe.contacts.rows]
+        self._slack = max(map(sum, rows), default=0.0)
         self._passages = [
             Passage(one.moved(-one.position), two.moved(-one.position), self._way, height)
             for one, two in (

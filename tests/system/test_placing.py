@@ -16,6 +16,7 @@ from bodies import (
     Ball,
     BoxBody,
     ConstantVelocity,
+    CylinderBody,
     DrivenBody,
     Dumbbell,
     EllipsoidBody,
@@ -26,6 +27,7 @@ from bodies import (
     Rest,
     Sphere,
 )
+from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body
@@ -234,3 +236,16 @@ def test_set_start() -> None:
     _refused(("System.set_start: q", "7 finite"), system.set_start, ball, np.zeros(3), np.zeros(6))
     _refused(("System.set_start: u", "6 finite"), system.set_start, ball, np.zeros(7), np.full(6, np.nan))
     _refused(("System.set_start", "this system"), system.set_start, Ball(0.01), np.zeros(7), np.zeros(6))
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e-3, 0.03, 0.12])
+def test_bodies_on_feet_are_placed_on_feet(offset: float) -> None:
+    """Two equal bodies, whose rims are set back by 1e-4 of the radius each: a run accepts the place."""
+    low, high = CylinderBody(0.1, 0.02), CylinderBody(0.1, 0.02)
+    system = ns.System([Plate(), low, high])
+    system.contact_all(ns.ContactLaws(Unilateral(), Coulomb(0.3), EnergeticImpact(0.2)))
+    system.place(high, position=(1.0, 0.0, 1.0))
+    ns.touching(system, low, position=(0.0, 0.0, 0.3))
+    ns.touching(system, high, position=(offset, 0.0, 0.6))
+    assert system.start(high)[0][2] == pytest.approx(0.06, abs=1e-12)
+    assert ns.simulate(system, 1e-3).status == "done"
