@@ -66,7 +66,9 @@ def heights(name: str, shift: float = 0.0, turn: float = 0.0, bristles: bool = F
 
 CARRIED = [(name, 0.0, 0.0) for name in PAIRS]
 CARRIED += [("boxes", 1e-3, 0.0), ("boxes", 0.0, 0.5 * np.pi), ("hulls", 1e-3, 0.0)]
-CARRIED += [(name, 0.0, turn) for name in ("boxes", "hulls", "meshes") for turn in (1e-9, 0.3)]
+CARRIED += [(name, 0.0, turn) for name in ("boxes", "hulls", "meshes") for turn in (1e-9, 1e-6, 1e-3, 0.3)]
+CARRIED += [(name, shift, 0.0) for name in ("boxes", "hulls", "meshes") for shift in (1e-12, 1e-9, 1e-6)]
+CARRIED += [("smaller on larger", 1e-3, 0.0), ("flush in one direction", 0.0, 1e-6)]
 """Pair, shift [m] and turn [rad] of the upper body."""
 
 
