@@ -53,8 +53,15 @@ _ACCELERATION = 2.0
 
 @kernel("b1(ws, ContactRecord)")
 def _is_far(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if an open contact of convex shapes stays open while these move by the reach of their pair."""
+    """True if an open contact of convex shapes stays open while these move by the reach of their pair.
+
+    The depth of shapes of several parts, or of pieces of a surface, is not known: their springs are all listed.
+    """
     if contact.mode != Mode.OPEN or contact.bound_function == 0 or contact.pair == NO_PAIR:
+        return False
+    following = contact.pair + 1
+    has_several = following < ws.model.n_pairs and ws.pairs[following].group == contact.pair
+    if contact.is_compliant and has_several:
         return False
     a, b = at(ws.floats, contact.frame_a), at(ws.floats, contact.frame_b)
     call_pair(contact.bound_function, a, b, at(ws.floats, contact.geometry_parameters), contact.geometry)
