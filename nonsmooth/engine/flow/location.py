@@ -16,7 +16,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     first_user_guard,
     number_of_guards,
 )
-from nonsmooth.engine.flow.guard_values import evaluate_guards, write_guards
+from nonsmooth.engine.flow.guard_values import write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
 from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces
 from nonsmooth.engine.flow.step import try_step
@@ -24,7 +24,6 @@ from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR, PARTS
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
-from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.engine.pairs.motion import rate_of
 
 NEGLIGIBLE = 0.01
@@ -53,10 +52,7 @@ _SLOW = 3
 A slow iteration leaves more than half of the bracket.
 """
 _FINE = 0.01
-"""Accuracy of roots, relative to the time tolerance.
-
-Also the first step past the jump of a guard. This step doubles until the guard is negative.
-"""
+"""Accuracy of roots, relative to the time tolerance."""
 
 
 @kernel("f8(ws, f8, f8, i8, b1)")
@@ -139,28 +135,6 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
                 following = newton
         theta = following
     return float(theta)
-
-
-@kernel("f8(ws, f8, i8)")
-def _behind_jump(ws: Workspace, step: float, i: int) -> float:
-    """Make a step that ends right after the jump of guard ``i``, which the interpolant has at ``step`` [s].
-
-    Returns the length of the step [s], or -1 if the step is inaccurate or the guard does not jump close to its end.
-    """
-    ws.step.h = step
-    if not try_step(ws, step) <= TRUSTED:
-        return -1.0
-    way = _FINE * ws.tolerance.time
-    while way <= ALLOWED * ws.tolerance.time:
-        evaluate_guards(ws, ws.island.time + step, ws.step.y_new.start, step, needs_forces=True)
-        if ws.guards[i].value < 0.0:
-            return step
-        # over so short a time the motion is linear
-        for j in range(ws.model.n_y):
-            ws.step.y_new[j] += way * ws.island.slopes[LAST_STAGE * ws.model.n_y + j]
-        step += way
-        way *= 2.0
-    return -1.0
 
 
 @kernel("v2(ws, f8, i8)")
@@ -270,6 +244,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     if ws.step.error <= NEGLIGIBLE:
         state_within(ws, h, theta, ws.step.y_new.start)
         return step
+    # a step up to a jump cannot be corrected: shorter steps are accurate without
     if ws.step.guard_slope == -math.inf:
-        return _behind_jump(ws, step, fired)
+        return -1.0
     return _corrected(ws, step, fired)
