@@ -80,21 +80,18 @@ class Block:
 
 @dataclass
 class Kind:
-    """Fields and blocks of contacts, the same for all contacts with the same geometry and laws.
+    """Fields and block of the kinematics of a contact, or of its laws: the same for all contacts of a kind.
 
     Attributes
     ----------
     fields : dict
         Fields of the record of the kind, by their declarations in the record of active contacts.
-    geometry : Block
-        Parameters of the kinematics. Nothing writes them, except those of a search for features.
-    laws : Block
-        Parameters and outputs of the laws.
+    block : Block
+        Parameters. Those of kinematics are written by a search for features only. Laws have outputs, too.
     """
 
     fields: dict[Any, float] = field(default_factory=dict)
-    geometry: Block = field(default_factory=Block)
-    laws: Block = field(default_factory=Block)
+    block: Block = field(default_factory=Block)
 
 
 def lay_contacts(
@@ -109,50 +106,53 @@ def lay_contacts(
     tried = set[tuple[Any, ...]]()
     # where the parameters of a kinematics are, by its identity
     known: dict[int, int] = {}
+    geometry_stride, law_stride = owners.KindRecord.geometry_stride, owners.KindRecord.law_stride
     number = 0
     for group in groups:
         row, times = contacts.rows[group[0]], len(group)
         memory[owners.RowRecord.first_kind][group], memory[owners.RowRecord.rank][group] = number, np.arange(times)
+        # all contacts of a row have the same laws
+        laws, kinds = laws_of(memory, row.contact(0)), slice(number, number + len(row))
+        write_fields(memory, kinds, laws.fields)
+        _lay_block(memory, blocks, laws.block, kinds, times, law_stride)
         for contact in map(row.contact, range(len(row))):
-            kind = kind_of(memory, contact, tried)
-            write_fields(memory, number, kind.fields)
-            _lay_block(memory, blocks, kind.laws, number, times, owners.KindRecord.law_stride)
-            if kind.geometry.written:
-                _lay_block(memory, blocks, kind.geometry, number, times, owners.KindRecord.geometry_stride)
-            elif (start := known.get(id(contact.kinematics))) is not None:
-                write_fields(memory, number, {one: start + offset for one, offset in kind.geometry.offsets.items()})
-            else:
-                known[id(contact.kinematics)] = _lay_block(
-                    memory, blocks, kind.geometry, number, times, owners.KindRecord.geometry_stride
-                )
+            kind, own = _geometry_of(contact, tried), slice(number, number + 1)
+            write_fields(memory, own, kind.fields)
+            start = None if kind.block.written else known.get(id(contact.kinematics))
+            known[id(contact.kinematics)] = _lay_block(memory, blocks, kind.block, own, times, geometry_stride, start)
             number += 1
     memory[owners.RowRecord.first_contact] = contacts.starts
     lay_states(memory, contacts)
     _lay_sides(memory, table, bodies)
 
 
-def write_fields(memory: Memory, kind: int, fields: Mapping[Any, float]) -> None:
-    """Write fields of the record of a kind, by their declarations in the record of active contacts."""
+def write_fields(memory: Memory, kinds: slice, fields: Mapping[Any, Any]) -> None:
+    """Write fields of the records of kinds, by their declarations in the record of active contacts."""
     for declared, value in fields.items():
-        memory[getattr(owners.KindRecord, declared.name)][kind] = value
+        memory[getattr(owners.KindRecord, declared.name)][kinds] = value
 
 
-def _lay_block(memory: Memory, blocks: Heap, block: Block, kind: int, n_rows: int, stride: Any) -> int:
-    """Write the block of a kind, once if nothing writes it, else for each of its ``n_rows`` contacts.
+def _lay_block(
+    memory: Memory, blocks: Heap, block: Block, kinds: slice, n_rows: int, stride: Any, start: int | None = None
+) -> int:
+    """Write the block of some kinds, once if nothing writes it, else for each of the ``n_rows`` contacts of each kind.
 
-    The copies follow one another; their distance becomes the field ``stride`` of the kind. The result is the offset of
-    the first.
+    The copies follow one another; their distance becomes the field ``stride`` of the kinds. The result is the offset of
+    the first. A block that is already at the offset ``start`` is not written again.
     """
-    times, size = (n_rows, len(block.numbers)) if block.written else (1, 0)
-    first = blocks.repeat(block.numbers, times)
-    starts = first + size * np.arange(times)
+    n_kinds = kinds.stop - kinds.start
+    copies, size = (n_rows, len(block.numbers)) if block.written else (1, 0)
+    n_blocks = copies * n_kinds if block.written else 1
+    first = blocks.repeat(block.numbers, n_blocks) if start is None else start
+    starts = first + size * np.arange(n_blocks)
     for place, length in block.written:
         blocks.write(starts + place, length)
-    memory[stride][kind] = size
-    write_fields(memory, kind, {declared: first + offset for declared, offset in block.offsets.items()})
-    for place, start, shared in block.tables:
-        for begin in starts.tolist():
-            blocks.refer(begin + place, begin + start, shared)
+    firsts = first + size * copies * np.arange(n_kinds)
+    memory[stride][kinds] = size
+    write_fields(memory, kinds, {declared: firsts + offset for declared, offset in block.offsets.items()})
+    for place, begin, shared in block.tables if start is None else ():
+        for at in starts.tolist():
+            blocks.refer(at + place, at + begin, shared)
     return first
 
 
@@ -208,79 +208,95 @@ def initial_state(law: Any) -> tuple[float, ...]:
     return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
 
-def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None = None) -> Kind:
-    """Compile the functions of a contact, and collect the fields and the block of its kind.
+def _geometry_of(contact: Contact, tried: set[tuple[Any, ...]]) -> Kind:
+    """Compile the kinematics of a contact, and collect the fields and the block of its kind.
 
-    The kind holds for all contacts of the same geometry and laws. A function with tables takes long to try out.
-    ``tried`` holds those tried so far, and gets the new ones; None tries none of them. The address of an impact map is
-    written into the memory, because all contacts share it.
+    A function with tables takes long to try out. ``tried`` holds those tried so far, and gets the new ones.
     """
-    made, law, impact, kinematics = Kind(), contact.friction, contact.impact, contact.kinematics
+    made, kinematics = Kind(), contact.kinematics
+    part = LawFunction(
+        _CONTACT.geometry_function, _CONTACT.geometry_parameters, kinematics, kinematics.evaluator, "pair"
+    )
+    available = kinematics.parameters()
+    names = parameter_names(part.function, part.form)
+    tables = {n: v for n in names if isinstance(v := available.get(n), SharedNumbers)}
+    # the parameters, with nothing in place of tables: the memory holds each table once, and a reference to it here
+    without_tables, owner = {**available, **dict.fromkeys(tables, ())}, _owner_of(part, contact)
+    made.fields[part.address], values = bind(part.function, part.form, without_tables, owner)
+    # geometry with large tables is slow to try out: once for the same function and tables
+    key = part.function, *map(id, tables.values())
+    if not tables:
+        _try_function(contact, part, values)
+    elif key not in tried:
+        tried.add(key)
+        # the trial reads the tables behind the parameters
+        _try_function(contact, part, bind(part.function, part.form, available, owner)[1])
+    start = made.block.store(part.parameters, values)
+    made.block.tables = [
+        (start + parameter_place(part.function, part.form, n), start, table) for n, table in tables.items()
+    ]
+    if kinematics.candidates is not None:
+        # what a search finds: kind and numbers of two features, and the distance up to which they are valid
+        place = start + vector_place(part.function, part.form, values, "candidate")
+        made.block.mark_written(_CONTACT.features, place, CANDIDATE + 1)
+    if (bound := kinematics.bound) is not None:
+        made.fields[_CONTACT.bound_function] = _address_of_bound(contact, bound, available, values, tables)
+    return made
+
+
+def laws_of(memory: Memory, contact: Contact) -> Kind:
+    """Compile the laws of a contact, and collect the fields and the block of its kind.
+
+    The address of an impact map is written into the memory, because all contacts share it.
+    """
+    made, law, impact = Kind(), contact.friction, contact.impact
     # duration of an impact [s], and gap up to which a compliant contact acts [m]
     made.fields[_CONTACT.contact_time] = 0.0 if impact is None else impact.contact_time
     made.fields[_CONTACT.reach] = contact.normal.reach if isinstance(contact.normal, CompliantNormalLaw) else 0.0
-    geometry = LawFunction(
-        _CONTACT.geometry_function, _CONTACT.geometry_parameters, kinematics, kinematics.evaluator, "pair"
-    )
-    for part in (geometry, *law_functions(law, impact, contact.normal)):
-        _add_function(made, contact, part, tried)
+    for part in law_functions(law, impact, contact.normal):
+        _add_law(made, contact, part)
     start = initial_state(contact.friction)
     # a law with inner states writes their rates; a traction law also force and moment
     if start or isinstance(law, TractionLaw):
         made.fields[_CONTACT.n_inner_states] = len(start)
-        made.laws.store(_CONTACT.inner_states_at_start, start)
-        made.laws.output(_CONTACT.traction_out, FORCE_AND_MOMENT + len(start))
-        made.laws.output(_CONTACT.rates_out, len(start))
+        made.block.store(_CONTACT.inner_states_at_start, start)
+        made.block.output(_CONTACT.traction_out, FORCE_AND_MOMENT + len(start))
+        made.block.output(_CONTACT.rates_out, len(start))
     if isinstance(law, AnisotropicFrictionLaw):
         # the block has the body that carries the axis (0 or 1), the unit axis, and the ratios forward, backward, across
         on_second = float(law.body == "second")
         made.fields[_CONTACT.is_anisotropic] = True
-        made.laws.store(
+        made.block.store(
             _CONTACT.anisotropy, (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios)
         )
     if isinstance(impact, ImpactMap):
-        made.laws.store(_CONTACT.map_parameters, _map_values(memory, impact))
+        made.block.store(_CONTACT.map_parameters, _map_values(memory, impact))
     return made
 
 
-def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tuple[Any, ...]] | None) -> None:
-    """Compile a function of the kinematics or of a law, try it out, and add its address and parameters to a kind.
+def _owner_of(part: LawFunction, contact: Contact) -> str:
+    """Law or kinematics of a function, and its contact, for messages."""
+    return f"{type(part.law).__name__} ({contact})"
 
-    Parameters that a run writes are marked: features that a search finds, and inner states that a coefficient reads.
-    ``tried`` as in :func:`kind_of`.
+
+def _add_law(made: Kind, contact: Contact, part: LawFunction) -> None:
+    """Compile a function of a law, try it out, and add its address and parameters to a kind.
+
+    Inner states that a coefficient reads are marked as written.
     """
-    function, form, law, owner = part.function, part.form, part.law, f"{type(part.law).__name__} ({contact})"
+    function, form, law = part.function, part.form, part.law
     available = law.parameters()
     # a coefficient of friction may take the inner states as a parameter, "state"
     is_coefficient = part.address is _CONTACT.friction_function
     with_state = law if is_coefficient and isinstance(law, StatefulFrictionLaw) else None
     if with_state is not None:
         available = {**available, "state": with_state.initial_state}
-    tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), SharedNumbers)}
-    # the parameters, with nothing in place of tables: the memory holds each table once, and a reference to it here
-    address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
-    # geometry with large tables is slow to try out: once for the same function and tables
-    if tables and form == "pair":
-        key = function, *map(id, tables.values())
-        if tried is not None and key not in tried:
-            tried.add(key)
-            # the trial reads the tables behind the parameters
-            _try_function(contact, part, bind(function, form, available, owner)[1])
-    else:
-        _try_function(contact, part, values)
-    is_geometry = part.address is _CONTACT.geometry_function
-    block = made.geometry if is_geometry else made.laws
-    made.fields[part.address] = address
-    start = block.store(part.parameters, values)
-    block.tables += [(start + parameter_place(function, form, n), start, table) for n, table in tables.items()]
-    if is_geometry and contact.kinematics.candidates is not None:
-        # what a search finds: kind and numbers of two features, and the distance up to which they are valid
-        block.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
-    if is_geometry and (bound := contact.kinematics.bound) is not None:
-        made.fields[_CONTACT.bound_function] = _address_of_bound(contact, bound, available, values, tables)
+    made.fields[part.address], values = bind(function, form, available, _owner_of(part, contact))
+    _try_function(contact, part, values)
+    start = made.block.store(part.parameters, values)
     if with_state is not None:
         place = start + _place_of_state(with_state, values)
-        block.mark_written(_CONTACT.inner_states_copy, place, len(with_state.initial_state))
+        made.block.mark_written(_CONTACT.inner_states_copy, place, len(with_state.initial_state))
 
 
 def _address_of_bound(
@@ -330,7 +346,7 @@ def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) 
     }
     if part.form in trials:
         size, arguments = trials[part.form]
-        owner = f"{type(part.law).__name__} ({contact})"
+        owner = _owner_of(part, contact)
         try_out(part.function, part.form, part.law.parameters(), values, size, owner, arguments)
 
 

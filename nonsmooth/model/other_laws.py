@@ -12,7 +12,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying_contacts import Kind, groups_of, kind_of, lay_states, write_fields
+from nonsmooth.model.laying_contacts import Kind, groups_of, laws_of, lay_states, write_fields
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
@@ -37,16 +37,18 @@ def lay_laws(model: LaidOut, system: System, engine: Engine) -> LaidOut:
     for rows in groups:
         # the rows have equal laws now, but their former laws may differ: take one row for each of those
         examples = {former_group[row]: former.rows[row] for row in rows.tolist()}.values()
-        first_kind = int(memory[owners.RowRecord.first_kind][rows[0]])
-        for index, contact in enumerate(map(contacts.rows[rows[0]].contact, range(len(contacts.rows[rows[0]])))):
-            after = kind_of(memory, contact)
-            for example in examples:
-                # the new parameters must fit in the places of the old ones, within blocks of the same length
-                before = kind_of(memory, example.contact(index))
-                if (before.laws.offsets, len(before.laws.numbers)) != (after.laws.offsets, len(after.laws.numbers)):
-                    _refuse(contact, example.contact(index))
-            if is_same:
-                _overwrite(memory, first_kind + index, after, len(rows))
+        row = contacts.rows[rows[0]]
+        # all contacts of a row have the same laws
+        contact = row.contact(0)
+        after = laws_of(memory, contact)
+        for example in (row.contact(0) for row in examples):
+            # the new parameters must fit in the places of the old ones, within blocks of the same length
+            before = laws_of(memory, example)
+            if (before.block.offsets, len(before.block.numbers)) != (after.block.offsets, len(after.block.numbers)):
+                _refuse(contact, example)
+        if is_same:
+            first_kind = int(memory[owners.RowRecord.first_kind][rows[0]])
+            _overwrite(memory, slice(first_kind, first_kind + len(row)), after, len(rows))
     if not is_same:
         return lay(system, engine)
     lay_states(memory, contacts)
@@ -55,15 +57,16 @@ def lay_laws(model: LaidOut, system: System, engine: Engine) -> LaidOut:
     return replace(model, system=system)
 
 
-def _overwrite(memory: Memory, number: int, kind: Kind, n_rows: int) -> None:
-    """Write fields and parameters of the laws of a kind in place of those of the kind ``number``."""
-    write_fields(memory, number, kind.fields)
-    # any field with an offset in the block of the laws shows where this block begins
-    for declared, offset in [*kind.laws.offsets.items()][:1]:
-        first = memory[getattr(owners.KindRecord, declared.name)][number] - offset
-        stride = int(memory[owners.KindRecord.law_stride][number])
-        starts = first + stride * np.arange(n_rows if stride > 0 else 1)
-        memory.floats[starts[:, None] + np.arange(len(kind.laws.numbers))] = kind.laws.numbers
+def _overwrite(memory: Memory, kinds: slice, laws: Kind, n_rows: int) -> None:
+    """Write fields and parameters of laws in place of those of some kinds."""
+    write_fields(memory, kinds, laws.fields)
+    numbers = laws.block.numbers
+    # any field with an offset in the block shows where this block begins
+    for declared, offset in [*laws.block.offsets.items()][:1]:
+        firsts = memory[getattr(owners.KindRecord, declared.name)][kinds] - offset
+        stride = int(memory[owners.KindRecord.law_stride][kinds][0])
+        starts = np.add.outer(firsts, stride * np.arange(n_rows if stride > 0 else 1))
+        memory.floats[np.add.outer(starts, np.arange(len(numbers)))] = numbers
 
 
 def _check_same(one: System, other: System) -> None:
