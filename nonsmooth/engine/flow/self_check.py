@@ -83,9 +83,12 @@ def _has_closed_contact(ws: Workspace, contact: ContactRecord) -> bool:
 def _allowed_overlap(ws: Workspace, number: int) -> float:
     """Overlap of pair ``number`` of convex parts that the tolerances of gaps and of steps allow [m].
 
-    The tolerance of steps is relative to the distance from the origin of space and the size of the parts.
+    A pair without a closed contact is watched within each step, so that the tolerance of gaps suffices. The tolerance
+    of steps is relative to the distance from the origin of space and the size of the parts.
     """
     pair = ws.pairs[number]
+    if ws.pairs[pair.group].is_guarded and not ws.pairs[pair.group].is_closed:
+        return float(ALLOWED * ws.tolerance.gap)
     farthest = 0.0
     for side in range(2):
         origin = frame_at(ws.floats, pair.frame_a if side == 0 else pair.frame_b).origin
