@@ -16,28 +16,28 @@ from nonsmooth.types import Floats
 from ...blocks import Vector3, put
 from ...shapes.frustum import SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.flat_rim import Touching, touching_point, write_rim
+from ..features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table
 from ..features.vertex_face import REACH, past_face, plane_height
-from ..features.writing import write_flat, write_principal, write_round, write_sweep
-from ..plane.plane_rim import FLATTEST
+from ..features.writing import write_flat, write_round
 from .frustum import axis_in_world, center_in_world, least_height, separation_over_faces
 from .frustum_writing import size_of_both
 
 
 @compiled
-def _lowest(
-    a: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
-) -> tuple[float, float, float, float, float, float, float]:
-    """Return the rim's lowest point over a plane [m], the unit vector from the rim's centre to it, and a sine.
+def _touching(
+    a: Floats, b: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
+) -> tuple[float, float, float, Touching]:
+    """Return the rim's point that touches a plane with ``normal`` [m], lifted to where the gap is measured.
 
-    The lowest point is the farthest against ``normal``, the normal of the plane.  The sine is that of the angle between
-    ``normal`` and the axis of the rim.
+    Also return the numbers of this point (:func:`bodies.contacts.features.flat_rim.touching_point`).
     """
-    (x, y, z), (ax, ay, az), (nx, ny, nz) = center, axis, normal
-    _, sine, ex, ey, ez = across(-nx, -ny, -nz, ax, ay, az)
+    (x, y, z), (nx, ny, nz) = center, normal
+    at = touching_point(a, b, normal, axis, radius)
+    reach, (ex, ey, ez), lift, _, _, _ = at
     px, py, pz = point_in_world(a, x, y, z)
-    return px + radius * ex, py + radius * ey, pz + radius * ez, ex, ey, ez, sine
+    return px + reach * ex - lift * nx, py + reach * ey - lift * ny, pz + reach * ez - lift * nz, at
 
 
 def _evaluate(
@@ -67,7 +67,7 @@ def _evaluate(
         if least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine) < best - margin:
             continue
         nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-        px, py, pz, _, _, _, _ = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
+        px, py, pz, _ = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
         px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
         height = plane_height(faces, f, px, py, pz)
         beyond = past_face(faces, n_faces, f, height, px, py, pz)
@@ -83,7 +83,7 @@ def _evaluate(
         gap = math.hypot(gap, past)
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-    px, py, pz, ex, ey, ez, sine = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
+    px, py, pz, at = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(found), past
     put(out, NORMAL, -nx, -ny, -nz)
     put(out, POINT_A, px - own * nx, py - own * ny, pz - own * nz)
@@ -92,11 +92,9 @@ def _evaluate(
     write_tangent(a, out)
     write_flat(out, SIDE_B)
     if radius > 0.0:
-        rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
-        write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
+        write_rim(out, SIDE_A, (ax, ay, az), radius, at, own)
     else:
-        write_round(out, SIDE_A, 0.0)
-    write_sweep(out, SIDE_A, own)
+        write_round(out, SIDE_A, own)
 
 
 @final
