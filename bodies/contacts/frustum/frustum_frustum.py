@@ -63,10 +63,12 @@ def _evaluate(
     nx, ny, nz = -up * bx, -up * by, -up * bz
     cx, cy, cz = point_in_world(own, x, y, z)
     _, sine, _, _, _ = across(nx, ny, nz, ax, ay, az)
-    is_flat = radius > 0.0 and sine < FLATTEST
+    is_flat, outside = radius > 0.0 and sine < FLATTEST, -size
     if is_flat:
         _, offset, fx, fy, fz = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
         middle, half = common_length(radius, wide, offset)
+        # no part of the rim is over the cap
+        outside = radius - offset - wide
         if half > 0.0:
             radius = half
             cx, cy, cz = cx + middle * fx, cy + middle * fy, cz + middle * fz
@@ -77,7 +79,7 @@ def _evaluate(
     gap = up * (along - height)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
-    past = away - wide - margin * size
+    past = max(away - wide, outside) - margin * size
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
     else:

@@ -16,8 +16,8 @@ from nonsmooth.types import Floats
 from ...blocks import Vector3, put
 from ...shapes.frustum import SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.flat_rim import Touching, touching_point, write_rim
-from ..features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.flat_rim import FLATTEST, Touching, touching_point, write_rim
+from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table
 from ..features.vertex_face import REACH, past_face, plane_height
 from ..features.writing import write_flat, write_round
@@ -40,6 +40,35 @@ def _touching(
     return px + reach * ex - lift * nx, py + reach * ey - lift * ny, pz + reach * ez - lift * nz, at
 
 
+@compiled
+def _past_flat(faces: Floats, n_faces: float, face: int, x: float, y: float, z: float, radius: float) -> float:
+    """Return the distance past a face of a rim that lies flat on it and touches in its middle [m]; negative inside.
+
+    The middle (x, y, z), in the body frame, must be over the face.  So must a part of the rim: otherwise vertices and
+    crossings of edges carry the rim's whole disc.
+    """
+    over = past_face(faces, n_faces, face, plane_height(faces, face, x, y, z), x, y, z)
+    if over <= -radius:
+        return over
+    n = faces[face], faces[face + 1], faces[face + 2]
+    least = radius
+    for i in range(int(n_faces)):
+        f = FACE * i
+        # the vector from the middle to the line of another face, in the plane of this one
+        along, sine, ex, ey, ez = across(faces[f], faces[f + 1], faces[f + 2], n[0], n[1], n[2])
+        away = along * plane_height(faces, face, x, y, z) - plane_height(faces, f, x, y, z)
+        if f == face or abs(away) >= radius * sine:
+            continue
+        away /= sine
+        half = math.sqrt(radius * radius - away * away)
+        tx, ty, tz = n[1] * ez - n[2] * ey, n[2] * ex - n[0] * ez, n[0] * ey - n[1] * ex
+        for sign in (-half, half):
+            px, py, pz = x + away * ex + sign * tx, y + away * ey + sign * ty, z + away * ez + sign * tz
+            height = plane_height(faces, face, px, py, pz)
+            least = min(least, past_face(faces, n_faces, face, height, px, py, pz))
+    return float(max(over, least))
+
+
 def _evaluate(
     a: Floats,
     b: Floats,
@@ -58,7 +87,9 @@ def _evaluate(
     cx, cy, cz = center_in_world(a, frustum)
     ux, uy, uz = vector_in_body(b, ax, ay, az)
     kx, ky, kz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
-    margin = REACH * size
+    px, py, pz = point_in_world(a, x, y, z)
+    px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+    center, margin = (px, py, pz), REACH * size
     best = separation_over_faces(a, b, frustum, n_faces, faces)
     found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
@@ -67,10 +98,13 @@ def _evaluate(
         if least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine) < best - margin:
             continue
         nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-        px, py, pz, _ = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
+        px, py, pz, at = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
         px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
         height = plane_height(faces, f, px, py, pz)
         beyond = past_face(faces, n_faces, f, height, px, py, pz)
+        if radius > 0.0 and at[4] == FLATTEST:
+            px, py, pz = center
+            beyond = _past_flat(faces, n_faces, f, px, py, pz, radius)
         if height < 0.0:
             # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
             for j in range(int(n_faces)):
