@@ -49,7 +49,7 @@ def _past_flat(faces: Floats, n_faces: float, face: int, x: float, y: float, z: 
     """
     over = past_face(faces, n_faces, face, plane_height(faces, face, x, y, z), x, y, z)
     if over <= -radius:
-        return over
+        return float(over)
     n = faces[face], faces[face + 1], faces[face + 2]
     least = radius
     for i in range(int(n_faces)):
