@@ -160,8 +160,8 @@ def _evaluate(
     nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
     apart = math.sqrt(wx * wx + wy * wy + wz * wz)
-    # rims that lie on each other all around touch as rims over caps
-    is_ring = crossing <= PARALLEL and math.sqrt(wx * wx + wy * wy) < FLATTEST * apart
+    # rounded rims that lie on each other all around touch as rims over caps
+    is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(wx * wx + wy * wy) < FLATTEST * apart
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
         nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
