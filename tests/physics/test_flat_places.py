@@ -60,6 +60,46 @@ def test_a_face_that_starts_flat_lands_where_it_turns_down() -> None:
     np.testing.assert_allclose(-arm, 0.01 * np.array([-0.8, -0.6, 0.0]), atol=1e-12)
 
 
+SIZES = (2e-4, 0.02, 0.2)
+"""Radii of cylinders without feet [m]."""
+
+
+def _leaning(radius: float, lean: float, turning: float = 0.0) -> tuple[CylinderBody, ns.System]:
+    body = CylinderBody(radius, 0.5 * radius, density=1000.0, foot_height=0.0)
+    system = _on_a_plate(body, Frictionless(), PlasticImpact())
+    turn = np.roll(Rotation.from_rotvec([0.0, lean, 0.0]).as_quat(), 1)
+    place = (0.0, 0.0, 2.0 * radius)
+    ns.touching(system, body, position=place, orientation=turn, angular_velocity=(0.0, turning, 0.0))
+    return body, system
+
+
+@pytest.mark.parametrize("radius", SIZES)
+@pytest.mark.parametrize("lean", [3e-10, 2e-9, 1e-8, 1e-6])
+def test_a_face_without_feet_next_to_flat_gains_no_energy(radius: float, lean: float) -> None:
+    """It rocks on its rim, then on the crown of its face, which is 5e-10 of the radius high."""
+    body, system = _leaning(radius, lean)
+    span = 20.0 * np.sqrt(max(lean, 1e-9) * radius / 9.81)
+    solution = ns.simulate(system, span, sample_interval=span / 300.0)
+    kinetic = 0.5 * solution.u**2 @ [*[body.total_mass] * 3, *body.inertia]
+    energies = kinetic + body.total_mass * 9.81 * (solution.q[:, 2] - 0.5 * radius)
+    crown = 5e-10 * body.total_mass * 9.81 * radius
+    assert np.max(np.diff(energies)) < 0.3 * crown
+    assert np.max(energies) < energies[0] + 1e-3 * crown
+    leans = 2.0 * np.hypot(solution.q[:, 4], solution.q[:, 5])
+    assert np.max(leans) < lean * (1.0 + 1e-6)
+
+
+@pytest.mark.parametrize("radius", SIZES)
+@pytest.mark.parametrize(("part", "strikes"), [(0.99, False), (1.01, True)])
+def test_a_flat_face_strikes_with_its_rim_above_the_speed_of_a_fall(radius: float, part: float, strikes: bool) -> None:
+    """That speed is the one of a thin disc that falls flat from 1e-9 rad; a face that turns more slowly rolls."""
+    speed = part * np.sqrt(8e-9 * 9.81 / radius)
+    _, system = _leaning(radius, 0.0, speed)
+    solution = ns.simulate(system, 1e-10 / speed, sample_interval=1e-11 / speed)
+    turning = solution.u[1:, 4] / speed
+    assert np.all(turning < 0.5) if strikes else np.all(turning > 0.9)
+
+
 def test_a_cylinder_without_feet_stands() -> None:
     """On the crown of its face, a trillionth of its size high."""
     body = CylinderBody(0.01, 0.017, density=1200.0, foot_height=0.0)

@@ -17,11 +17,11 @@ from nonsmooth.types import Floats
 
 from ...blocks import Vector3
 from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
+from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE
 from ..features.vertex_face import plane_height
 from ..features.writing import write_flat, write_principal, write_round
-from ..plane.plane_rim import FLATTEST
 from ..surface.mesh_point import Corner
 from ..surface.surface_tables import Numbers
 

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
+from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
 from ...shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
+from ..features.flat_rim import FLATTEST, common_length, touching_point, write_rim
 from ..features.frames import across, point_in_world
 from ..features.polytope_tables import Numbers
 from ..features.vertex_face import CLOSED, REACH
@@ -60,13 +62,24 @@ def _evaluate(
         up, height, wide = 1.0, second[HIGH], second[1]
     nx, ny, nz = -up * bx, -up * by, -up * bz
     cx, cy, cz = point_in_world(own, x, y, z)
-    _, _, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
-    px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
+    _, sine, _, _, _ = across(nx, ny, nz, ax, ay, az)
+    is_flat, outside = radius > 0.0 and sine < FLATTEST, -size
+    if is_flat:
+        _, offset, fx, fy, fz = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
+        middle, half = common_length(radius, wide, offset)
+        # no part of the rim is over the cap
+        outside = radius - offset - wide
+        if half > 0.0:
+            radius = half
+            cx, cy, cz = cx + middle * fx, cy + middle * fy, cz + middle * fz
+    at = touching_point(own, other, (-nx, -ny, -nz), (ax, ay, az), radius)
+    reach, (ex, ey, ez), lift, _, _, _ = at
+    px, py, pz = cx + reach * ex + lift * nx, cy + reach * ey + lift * ny, cz + reach * ez + lift * nz
     along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
     gap = up * (along - height)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
-    past = away - wide - margin * size
+    past = max(away - wide, outside) - margin * size
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
     else:
@@ -76,7 +89,10 @@ def _evaluate(
             best = separation_by(own, first, other, second)
             past = max(past, best - separation_along(own, first, other, second, (nx, ny, nz)) - REACH * size)
     write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz))
-    write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
+    if is_flat:
+        write_rim(out, SIDE_B if swap == 1.0 else SIDE_A, (ax, ay, az), radius, at, first[SWEEP])
+    else:
+        write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
     write_side(out, 1.0 - swap, second, part, (bx, by, bz), (fx, fy, fz), (-nx, -ny, -nz), away)
 
 

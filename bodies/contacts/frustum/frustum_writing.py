@@ -75,7 +75,7 @@ def past_disc(
     height = up * (ax * (x - kx) + ay * (y - ky) + az * (z - kz))
     if height < gap - REACH * size:
         return size
-    if gap >= 0.0:
+    if gap > 0.0:
         return -size
     # rounded bodies on the other side of the plane are apart
     if height <= 0.0 or first[SWEEP] + second[SWEEP] > 0.0:

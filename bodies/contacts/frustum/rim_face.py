@@ -16,28 +16,57 @@ from nonsmooth.types import Floats
 from ...blocks import Vector3, put
 from ...shapes.frustum import SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
+from ..features.flat_rim import FLATTEST, Touching, touching_point, write_rim
 from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table
 from ..features.vertex_face import REACH, past_face, plane_height
-from ..features.writing import write_flat, write_principal, write_round, write_sweep
-from ..plane.plane_rim import FLATTEST
+from ..features.writing import write_flat, write_round
 from .frustum import axis_in_world, center_in_world, least_height, separation_over_faces
 from .frustum_writing import size_of_both
 
 
 @compiled
-def _lowest(
-    a: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
-) -> tuple[float, float, float, float, float, float, float]:
-    """Return the rim's lowest point over a plane [m], the unit vector from the rim's centre to it, and a sine.
+def _touching(
+    a: Floats, b: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
+) -> tuple[float, float, float, Touching]:
+    """Return the rim's point that touches a plane with ``normal`` [m], lifted to where the gap is measured.
 
-    The lowest point is the farthest against ``normal``, the normal of the plane.  The sine is that of the angle between
-    ``normal`` and the axis of the rim.
+    Also return the numbers of this point (:func:`bodies.contacts.features.flat_rim.touching_point`).
     """
-    (x, y, z), (ax, ay, az), (nx, ny, nz) = center, axis, normal
-    _, sine, ex, ey, ez = across(-nx, -ny, -nz, ax, ay, az)
+    (x, y, z), (nx, ny, nz) = center, normal
+    at = touching_point(a, b, normal, axis, radius)
+    reach, (ex, ey, ez), lift, _, _, _ = at
     px, py, pz = point_in_world(a, x, y, z)
-    return px + radius * ex, py + radius * ey, pz + radius * ez, ex, ey, ez, sine
+    return px + reach * ex - lift * nx, py + reach * ey - lift * ny, pz + reach * ez - lift * nz, at
+
+
+@compiled
+def _past_flat(faces: Floats, n_faces: float, face: int, x: float, y: float, z: float, radius: float) -> float:
+    """Return the distance past a face of a rim that lies flat on it and touches in its middle [m]; negative inside.
+
+    The middle (x, y, z), in the body frame, must be over the face.  So must a part of the rim: otherwise vertices and
+    crossings of edges carry the rim's whole disc.
+    """
+    over = past_face(faces, n_faces, face, plane_height(faces, face, x, y, z), x, y, z)
+    if over <= -radius:
+        return float(over)
+    n = faces[face], faces[face + 1], faces[face + 2]
+    least = radius
+    for i in range(int(n_faces)):
+        f = FACE * i
+        # the vector from the middle to the line of another face, in the plane of this one
+        along, sine, ex, ey, ez = across(faces[f], faces[f + 1], faces[f + 2], n[0], n[1], n[2])
+        away = along * plane_height(faces, face, x, y, z) - plane_height(faces, f, x, y, z)
+        if f == face or abs(away) >= radius * sine:
+            continue
+        away /= sine
+        half = math.sqrt(radius * radius - away * away)
+        tx, ty, tz = n[1] * ez - n[2] * ey, n[2] * ex - n[0] * ez, n[0] * ey - n[1] * ex
+        for sign in (-half, half):
+            px, py, pz = x + away * ex + sign * tx, y + away * ey + sign * ty, z + away * ez + sign * tz
+            height = plane_height(faces, face, px, py, pz)
+            least = min(least, past_face(faces, n_faces, face, height, px, py, pz))
+    return float(max(over, least))
 
 
 def _evaluate(
@@ -58,7 +87,9 @@ def _evaluate(
     cx, cy, cz = center_in_world(a, frustum)
     ux, uy, uz = vector_in_body(b, ax, ay, az)
     kx, ky, kz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
-    margin = REACH * size
+    px, py, pz = point_in_world(a, x, y, z)
+    px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+    center, margin = (px, py, pz), REACH * size
     best = separation_over_faces(a, b, frustum, n_faces, faces)
     found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
@@ -67,10 +98,13 @@ def _evaluate(
         if least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine) < best - margin:
             continue
         nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-        px, py, pz, _, _, _, _ = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
+        px, py, pz, at = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
         px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
         height = plane_height(faces, f, px, py, pz)
         beyond = past_face(faces, n_faces, f, height, px, py, pz)
+        if radius > 0.0 and at[4] == FLATTEST:
+            px, py, pz = center
+            beyond = _past_flat(faces, n_faces, f, px, py, pz, radius)
         if height < 0.0:
             # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
             for j in range(int(n_faces)):
@@ -83,7 +117,7 @@ def _evaluate(
         gap = math.hypot(gap, past)
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-    px, py, pz, ex, ey, ez, sine = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
+    px, py, pz, at = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(found), past
     put(out, NORMAL, -nx, -ny, -nz)
     put(out, POINT_A, px - own * nx, py - own * ny, pz - own * nz)
@@ -92,11 +126,9 @@ def _evaluate(
     write_tangent(a, out)
     write_flat(out, SIDE_B)
     if radius > 0.0:
-        rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
-        write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
+        write_rim(out, SIDE_A, (ax, ay, az), radius, at, own)
     else:
-        write_round(out, SIDE_A, 0.0)
-    write_sweep(out, SIDE_A, own)
+        write_round(out, SIDE_A, own)
 
 
 @final

@@ -20,6 +20,7 @@ from nonsmooth.types import Floats
 from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ..features.edge_crossing import PARALLEL
+from ..features.flat_rim import FLATTEST
 from ..features.frames import across
 from ..features.polytope_tables import Numbers
 from ..smooth.smooth_core import axes_in_world, back, forth
@@ -159,6 +160,8 @@ def _evaluate(
     nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
     apart = math.sqrt(wx * wx + wy * wy + wz * wz)
+    # rounded rims that lie on each other all around touch as rims over caps
+    is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(wx * wx + wy * wy) < FLATTEST * apart
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
         nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
@@ -190,6 +193,7 @@ def _evaluate(
         past = max(past, _ASIDE * size - apart * lean)
     # there is no minimum within this half of the rim, or Newton's method did not find it
     none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= PARALLEL
+    none = none or is_ring
     if none or (is_edge_to_edge and half < 0.0):
         past = max(past, size)
     if gap < 0.0:

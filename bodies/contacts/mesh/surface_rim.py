@@ -12,12 +12,12 @@ from nonsmooth.types import Floats
 from ...blocks import put
 from ...shapes.frustum import AXIS, SIDE, SWEEP
 from ..features.edge_crossing import ASTRAY
+from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.vertex_face import REACH
 from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
 from ..frustum.frustum import axis_in_world
 from ..frustum.frustum_writing import astray_of_rim
-from ..plane.plane_rim import FLATTEST
 from ..surface.surface_search import box_square, face_height, has_patch
 from ..surface.surface_tables import (
     FACE,

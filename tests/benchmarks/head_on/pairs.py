@@ -150,6 +150,8 @@ PAIRS: dict[str, Pair] = {
     "prism of 8": _pair(lambda: _prism(8)),
     "cylinder": _pair(_cylinder),
     "cylinder without feet": _pair(_smooth_cylinder),
+    "cylinder without feet, box": _pair(_smooth_cylinder, lambda: BoxBody(0.06, 0.06, 0.07)),
+    "rounded cylinder without feet": _pair(lambda: CylinderBody(0.05, 0.07, rounding=0.005, foot_height=0.0)),
     "rounded cylinder": _pair(lambda: CylinderBody(0.05, 0.07, rounding=0.005)),
     "coin": _pair(lambda: CylinderBody(0.012, 0.001)),
     "cone": _pair(lambda: ConeBody(0.05, 0.05), central=(2,)),
