@@ -46,6 +46,13 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
 
 
 @compiled
+def across_of(e: Vector3, f: Vector3) -> Vector3:
+    """Return f - e, or f + e if that is shorter."""
+    sign = 1.0 if e[0] * f[0] + e[1] * f[1] + e[2] * f[2] > 0.0 else -1.0
+    return f[0] - sign * e[0], f[1] - sign * e[1], f[2] - sign * e[2]
+
+
+@compiled
 def cross_edges(
     a: Floats,
     b: Floats,
@@ -74,9 +81,11 @@ def cross_edges(
     ex, ey, ez = vector_in_world(a, edge_a[along_a], edge_a[along_a + 1], edge_a[along_a + 2])
     fx, fy, fz = vector_in_world(b, edge_b[along_b], edge_b[along_b + 1], edge_b[along_b + 2])
     wx, wy, wz = bx - ax, by - ay, bz - az
-    nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
+    # e x f = e x (f - e): of edges that are nearly parallel, this is perpendicular to them without round-off
+    dx, dy, dz = across_of((ex, ey, ez), (fx, fy, fz))
+    nx, ny, nz = ey * dz - ez * dy, ez * dx - ex * dz, ex * dy - ey * dx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)
-    s, t, over, past = 0.0, 0.0, 0.0, size * parallel
+    s, t, over, past = 0.0, 0.0, 0.0, size
     if sine > 1e-3 * parallel:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
         # s and t: distances of the nearest points along the lines, s = (w x f) . n / sine and t = (w x e) . n / sine,
@@ -84,7 +93,7 @@ def cross_edges(
         s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
         t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[at_a + LENGTH]), max(-t, t - edge_b[at_b + LENGTH]))
-        past = max(over - margin, size * (parallel - sine))
+        past = max(over - margin, size * (1.0 - sine / parallel))
     else:
         along = wx * ex + wy * ey + wz * ez
         nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez

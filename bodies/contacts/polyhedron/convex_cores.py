@@ -9,10 +9,13 @@ from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 from ...blocks import Vector3
-from ..features.edge_crossing import Crossing, cross_edges
+from ..features.edge_crossing import Crossing, cross_edges, edge_astray
 from ..features.frames import point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import ALONG, EDGE, INTO_FIRST, INTO_SECOND, LENGTH, START
 from ..features.vertex_face import height_over, separation_of_faces
+
+_FLUSH = 1e-5
+"""Sine of the angle between the common normal of two edges and a face next to one, up to which the face is flush."""
 
 
 @compiled
@@ -93,15 +96,16 @@ def cross_convex_edges(
     if a face separates the cores as well: then the vertices over the face touch.  The numbers of the cores are those of
     :class:`bodies.contacts.features.polytope_tables.ConvexCore`.
     """
-    p, e, f, n, gap, over, past = cross_edges(
-        a, b, edges_a, EDGE * int(edge_a), edges_b, EDGE * int(edge_b), parallel, margin, size
-    )
+    one, two = EDGE * int(edge_a), EDGE * int(edge_b)
+    p, e, f, n, gap, over, past = cross_edges(a, b, edges_a, one, edges_b, two, parallel, margin, size)
     within = abs(margin)
-    ends = min(edges_a[EDGE * int(edge_a) + LENGTH], edges_b[EDGE * int(edge_b) + LENGTH]) * _sine(e, f)
-    if past <= within and (gap < -within or ends < within):
+    ends = min(edges_a[one + LENGTH], edges_b[two + LENGTH]) * _sine(e, f)
+    inside = max(edge_astray(a, edges_a, one, 1.0, *n), edge_astray(b, edges_b, two, -1.0, *n))
+    is_flush = ends < within and inside > -_FLUSH
+    if past <= within and (gap < -within or is_flush):
         best = separation_of_faces(a, b, n_faces_a, faces_a, n_vertices_b, vertices_b)
         best = max(best, separation_of_faces(b, a, n_faces_b, faces_b, n_vertices_a, vertices_a))
-        if best >= gap - within:
+        if is_flush and best >= gap - within:
             past = max(past, within - ends)
         q = p[0] + gap * n[0], p[1] + gap * n[1], p[2] + gap * n[2]
         outside = min(height_over(b, n_faces_b, faces_b, *p), height_over(a, n_faces_a, faces_a, *q))

@@ -61,7 +61,7 @@ def _evaluate(
         edges_a,
         n_edges_b,
         edges_b,
-        CLOSED,
+        1e-12,
         CLOSED * size,
         size,
     )

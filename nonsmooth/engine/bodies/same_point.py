@@ -67,10 +67,8 @@ def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
     """
     slow, is_redundant = NEGLIGIBLE * ws.tolerance.velocity, False
     for other in ws.contacts:
-        if not other.is_touching or other.pair != contact.pair or not _share_point(contact, other):
+        if not other.is_touching or other.pair != contact.pair or not coincide(contact, other):
             continue
-        if not _share_normal(contact, other):
-            return False
         apart = minus(sliding_of(ws, contact), sliding_of(ws, other))
         is_as_fast = other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
         is_redundant = is_redundant or (is_as_fast and dot(apart, apart) <= slow * slow)
