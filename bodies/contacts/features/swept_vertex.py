@@ -134,9 +134,10 @@ def _evaluate(
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
-    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 2.0 * END * size)
     nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
-    past = past_star(own, star, n_star, found[1], nx, ny, nz, size)
+    # over a face both ends of an edge touch, however the edge leans: its depth varies along it
+    past = past_star(own, star, n_star if found[0] >= int(n_faces) else 0.0, found[1], nx, ny, nz, size)
     write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
 
 
@@ -162,7 +163,7 @@ def _bound(
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
-    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 2.0 * END * size)
     out[0] = distance - sweep - radius
 
 
