@@ -192,7 +192,9 @@ def _evaluate(
         c = int(surface[CORNERS]) + CORNER * i
         x, y, z, length = surface[c], surface[c + 1], surface[c + 2], surface[c + 5]
         star = block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
-        write_vertex(a, b, out, 1.0, n_faces, faces, n_edges, edges, ends, sweep, x, y, z, length, star, 0.0, size)
+        write_vertex(
+            a, b, out, 1.0, n_faces, faces, n_edges, edges, ends, sweep, x, y, z, length, star, 0.0, faces, 0.0, size
+        )
     elif kind == ACROSS:
         one, two = int(surface[EDGES]) + EDGE * i, CORE_EDGE * j
         write_edges(a, b, out, surface, one, edges, two, sweep, size)
