@@ -18,6 +18,7 @@ from ...blocks import put
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Point
 from .frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from .overlap_corners import common_direction, vertex_past_corner
 from .polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
 from .vertex_face import Nearest, nearest_feature
 from .writing import write_flat, write_principal, write_round
@@ -60,12 +61,12 @@ def past_star(
 def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
     """Return gap and distance past the vertex [m], as the geometry block stores them.
 
-    ``past`` is the result of :func:`past_star`.  A contact with a gap above ``NEAR`` times the size is always valid.  A
-    smaller gap with a positive ``past`` is replaced by hypot(gap, past), so that the contact is open.
+    A contact with a gap above ``NEAR`` times the size is always valid.  A smaller positive gap with a positive ``past``
+    is replaced by hypot(gap, past).  A negative one is the depth at which another contact takes its place.
     """
     if gap > NEAR * size:
         return gap, min(past, -END * size)
-    if past > 0.0:
+    if past > 0.0 and gap >= 0.0:
         return math.sqrt(gap * gap + past * past), past
     return gap, past
 
@@ -127,6 +128,8 @@ def _evaluate(
     z_v: float,
     n_star: float,
     star: Floats,
+    n_own_faces: float,
+    own_faces: Floats,
     radius: float,
     size: float,
 ) -> None:
@@ -134,9 +137,25 @@ def _evaluate(
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
-    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 2.0 * END * size)
     nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
-    past = past_star(own, star, n_star, found[1], nx, ny, nz, size)
+    number, distance, _, _, _, within = found
+    past = -size
+    if 0.0 < distance <= radius + sweep + NEAR * size:
+        # from the first body to the second
+        sign = 1.0 - 2.0 * swap
+        if swap == 1.0:
+            u = common_direction(a, b, n_own_faces, own_faces, n_faces, faces, -nx, -ny, -nz)
+        else:
+            u = common_direction(a, b, n_faces, faces, n_own_faces, own_faces, nx, ny, nz)
+        if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] == 0.0:
+            past = past_star(own, star, n_star, distance, nx, ny, nz, size)
+        else:
+            u = sign * u[0], sign * u[1], sign * u[2]
+            past, within = vertex_past_corner(
+                own, other, swap == 1.0, u, n_faces, faces, n_edges, edges, ends, n_star, star, x, y, z, size
+            )
+    found = number, distance, found[2], found[3], found[4], within
     write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
 
 
@@ -156,13 +175,15 @@ def _bound(
     z_v: float,
     n_star: float,
     star: Floats,
+    n_own_faces: float,
+    own_faces: Floats,
     radius: float,
     size: float,
 ) -> None:
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
-    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 2.0 * END * size)
     out[0] = distance - sweep - radius
 
 
@@ -196,6 +217,8 @@ class SweptVertex(ContactKinematics):
         The vertex in its body frame [m].
     star : tuple of float
         Unit vectors along the edges that begin at the vertex, in the body frame.
+    own_faces : tuple of float
+        All faces of the core of the vertex; empty if it is not convex.
     radius : float
         Radius of the sphere about the vertex, the rounding of its body [m]; 0 if it is sharp.
     size : float
@@ -212,6 +235,7 @@ class SweptVertex(ContactKinematics):
     sweep: float
     place: tuple[float, float, float]
     star: Numbers
+    own_faces: Numbers
     radius: float
     size: float
     name: str
@@ -231,6 +255,7 @@ class SweptVertex(ContactKinematics):
                 own.sweep,
                 size,
                 swap,
+                face_table(own.core),
             )
         )
 
@@ -242,11 +267,18 @@ class SweptVertex(ContactKinematics):
         radius: float,
         size: float,
         swap: bool,
+        own_faces: Numbers = (),
     ) -> tuple[SweptVertex, ...]:
-        """Return the contacts of vertices with the core of ``other``; a vertex is a place, a star and a name."""
+        """Return the contacts of vertices with the core of ``other``; a vertex is a place, a star and a name.
+
+        ``own_faces`` are the faces of the core of the vertices if it is convex.
+        """
         core = other.core
         tables = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
-        return tuple(cls(swap, *tables, other.sweep, place, star, radius, size, name) for place, star, name in vertices)
+        return tuple(
+            cls(swap, *tables, other.sweep, place, star, own_faces, radius, size, name)
+            for place, star, name in vertices
+        )
 
     def parameters(self) -> dict[str, Value]:
         """Return the parameters of the evaluator: the tables of the core, and the numbers of the vertex."""
@@ -264,6 +296,8 @@ class SweptVertex(ContactKinematics):
             "z_v": z,
             "n_star": float(len(self.star) // 3),
             "star": self.star,
+            "n_own_faces": float(len(self.own_faces) // FACE),
+            "own_faces": self.own_faces or (0.0,),
             "radius": self.radius,
             "size": self.size,
         }

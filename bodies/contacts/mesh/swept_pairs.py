@@ -99,7 +99,7 @@ def corners_over(
             0.5 * (surface[at + 5] - surface[at + 2]),
         )
         x, y, z = seen_from(b, a, surface[at] + dx, surface[at + 1] + dy, surface[at + 2] + dz)
-        found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+        found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
         if found[1] > sweep + reach + math.sqrt(dx * dx + dy * dy + dz * dz):
             node = int(surface[at + 6])
             continue
@@ -109,7 +109,7 @@ def corners_over(
                 continue
             c = int(surface[CORNERS]) + CORNER * corner
             x, y, z = seen_from(b, a, surface[c], surface[c + 1], surface[c + 2])
-            _, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+            _, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
             if distance > sweep + reach:
                 continue
             nx, ny, nz = vector_in_world(b, nx, ny, nz)
@@ -192,7 +192,9 @@ def _evaluate(
         c = int(surface[CORNERS]) + CORNER * i
         x, y, z, length = surface[c], surface[c + 1], surface[c + 2], surface[c + 5]
         star = block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
-        write_vertex(a, b, out, 1.0, n_faces, faces, n_edges, edges, ends, sweep, x, y, z, length, star, 0.0, size)
+        write_vertex(
+            a, b, out, 1.0, n_faces, faces, n_edges, edges, ends, sweep, x, y, z, length, star, 0.0, faces, 0.0, size
+        )
     elif kind == ACROSS:
         one, two = int(surface[EDGES]) + EDGE * i, CORE_EDGE * j
         write_edges(a, b, out, surface, one, edges, two, sweep, size)

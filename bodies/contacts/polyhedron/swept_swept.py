@@ -15,8 +15,9 @@ from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import PARALLEL
+from ..features.edge_crossing import PARALLEL, cross_edges
 from ..features.frames import write_tangent
+from ..features.overlap_corners import common_direction, crossing_past_corner
 from ..features.polytope_tables import EDGE, ConvexCore
 from ..features.swept_vertex import END, SweptVertex, size_of
 from ..features.writing import write_principal
@@ -52,29 +53,38 @@ def _evaluate(
     radius_b: float,
     size: float,
 ) -> None:
-    p, e, f, n, gap, _, past = cross_convex_edges(
-        a,
-        b,
-        edge_a,
-        edge_b,
-        n_faces_a,
-        faces_a,
-        n_faces_b,
-        faces_b,
-        n_vertices_a,
-        vertices_a,
-        n_vertices_b,
-        vertices_b,
-        n_edges_a,
-        edges_a,
-        n_edges_b,
-        edges_b,
-        PARALLEL,
-        -END * size,
-        size,
-    )
+    at_a, at_b = EDGE * int(edge_a), EDGE * int(edge_b)
+    # the ends of the edges are tested below
+    p, e, f, n, gap, over, past = cross_edges(a, b, edges_a, at_a, edges_b, at_b, PARALLEL, size, size)
+    if gap < 0.0:
+        found = cross_convex_edges(
+            a,
+            b,
+            edge_a,
+            edge_b,
+            n_faces_a,
+            faces_a,
+            n_faces_b,
+            faces_b,
+            n_vertices_a,
+            vertices_a,
+            n_vertices_b,
+            vertices_b,
+            n_edges_a,
+            edges_a,
+            n_edges_b,
+            edges_b,
+            PARALLEL,
+            -END * size,
+            size,
+        )
+        past = found[6]
+    elif past <= 0.0:
+        past, u = over + END * size, common_direction(a, b, n_faces_a, faces_a, n_faces_b, faces_b, *n)
+        if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
+            past = crossing_past_corner(a, b, u, edges_a, at_a, edges_b, at_b, p, e, f, n, gap, size)
     gap -= radius_a + radius_b
-    if past > 0.0:
+    if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     for i in range(3):

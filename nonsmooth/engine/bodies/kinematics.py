@@ -62,11 +62,12 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
 
     If ``past_feature`` > 0, the contact points lie past the end of their features, such as a face or an edge. The
-    bodies may overlap there while another contact of theirs is closed. Then ``overlap`` keeps the negative gap, and the
-    gap becomes a positive substitute, the length of gap and ``past_feature``, so that this contact does not act.
-    ``overlap`` is zero otherwise. A substitute is the gap, too, of an open contact along whose normal the parts of its
-    pair overlap more than they do: its features do not separate the bodies
-    (:func:`nonsmooth.engine.bodies.support.separates`).
+    bodies may overlap there while another contact of theirs is closed. Then ``overlap`` of an open contact keeps the
+    negative gap, and the gap becomes a positive substitute, the length of gap and ``past_feature``, so that this
+    contact does not act. ``overlap`` is zero otherwise. A closed contact keeps its gap past the end, until the event in
+    which another one takes its place: its force has no jump within a step. A substitute is the gap, too, of an open
+    rigid contact along whose normal the parts of its pair overlap more than they do: its features do not separate the
+    bodies (:func:`nonsmooth.engine.bodies.support.separates`).
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -75,11 +76,13 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
     contact.overlap = 0.0
+    if contact.mode != Mode.OPEN:
+        return
     if contact.gap < 0.0 < contact.past_feature:
         contact.overlap = contact.gap
         contact.gap = length((contact.gap, contact.past_feature))
     near = ADJACENT * ws.tolerance.gap
-    is_near = contact.mode == Mode.OPEN and contact.gap <= near and contact.past_feature <= 0.0
+    is_near = not contact.is_compliant and contact.gap <= near and contact.past_feature <= 0.0
     if is_near and contact.pair != NO_PAIR and not separates(ws, contact.pair, contact.normal, near):
         # as small as the gap of neighbours at rest, so that a contact of which round-off decides does not move far
         contact.gap = contact.past_feature = 0.5 * near

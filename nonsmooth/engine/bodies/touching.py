@@ -50,8 +50,15 @@ def _approaches(ws: Workspace, contact: ContactRecord) -> bool:
     evaluate_jacobian(ws, contact.index)
     evaluate_bias(ws, contact.index, rows=3)
     if contact.is_compliant:
+        contact.gap, contact.overlap = _depth_or_gap(contact), 0.0
         evaluate_compliant_force(ws, contact.index)
     return not contact.is_compliant and contact.normal_rate < -ws.tolerance.velocity
+
+
+@kernel("f8(ContactRecord)")
+def _depth_or_gap(contact: ContactRecord) -> float:
+    """Gap of a contact along its normal, also right past the end of its features [m]."""
+    return float(contact.overlap if contact.overlap < 0.0 else contact.gap)
 
 
 @kernel("b1(ws, ContactRecord)")
@@ -70,6 +77,7 @@ def _does_touch(ws: Workspace, contact: ContactRecord) -> bool:
         return False
     if contact.is_compliant:
         end = 0.0 if contact.mode == Mode.OPEN else contact.reach
+        gap = _depth_or_gap(contact)
         # a rate that is not a number counts as separating
         separates = not rate <= ws.tolerance.velocity
         return not (gap > end + ws.tolerance.gap or (gap > end - ws.tolerance.gap and separates))

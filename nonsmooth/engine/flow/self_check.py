@@ -154,7 +154,8 @@ def _deepest_other(ws: Workspace, contact: ContactRecord, after: bool) -> float:
         mode = other.mode_agreed if after else other.mode
         is_same_pair = other.frame_a == contact.frame_a and other.frame_b == contact.frame_b
         if other.index != contact.index and is_same_pair and mode != Mode.OPEN:
-            deepest = min(deepest, other.gap)
+            # past its end, the gap is only a distance
+            deepest = min(deepest, other.gap, other.overlap)
     return float(deepest)
 
 
