@@ -17,7 +17,7 @@ from ...shapes.polyhedron import SweptPolytope
 from ..features.polytope_tables import LENGTH, ConvexCore, Numbers, edge_rows
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
-from .frustum import FLANK, center_in_world, write_part
+from .frustum import FLANK, center_in_world, set_back, write_part
 from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
@@ -119,10 +119,11 @@ class FlankEdge(ContactKinematics):
         """Return one contact for each edge; empty for a disc, which has no side."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        if first.frustum[SIDE] == 0.0:
+        numbers = set_back(first)
+        if numbers[SIDE] == 0.0:
             return ()
         size, core, rows = size_of_both(first, second), ConvexCore.of(second.core), enumerate(edge_rows(second.core))
-        return tuple(cls(first.frustum, row, second.sweep, core, size, f"edge {i}") for i, row in rows)
+        return tuple(cls(numbers, row, second.sweep, core, size, f"edge {i}") for i, row in rows)
 
     def parameters(self) -> dict[str, Value]:
         """Return the numbers of both bodies by the names of the evaluator's arguments."""

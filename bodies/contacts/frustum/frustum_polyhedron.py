@@ -30,6 +30,7 @@ from .frustum import (
     least_over,
     part_names,
     part_number,
+    set_back,
     tip_past_rim,
     write_part,
 )
@@ -165,8 +166,9 @@ class FrustumPolyhedron(ContactKinematics):
         core, size = second.core, size_of_both(first, second)
         check_number(len(core.edges))
         vertices, faces = vertex_table(core), face_table(core)
+        numbers = set_back(first)
         own = (
-            cls(first.frustum, vertices, i, star_of(core, i), star_lengths(core, i), faces, size)
+            cls(numbers, vertices, i, star_of(core, i), star_lengths(core, i), faces, size)
             for i in range(len(vertices) // 3)
         )
         edges = FlankEdge.between(first, second), RimEdge.between(first, second)

@@ -14,7 +14,7 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import Frustum, without_feet
+from ...shapes.frustum import Frustum
 from ...shapes.polyhedron import SweptPolytope
 from ..features.polytope_tables import Numbers, star_of
 from ..features.swept_vertex import ended_gap, past_star
@@ -22,7 +22,7 @@ from ..features.writing import place_sphere
 from ..polyhedron.swept_swept import MOST_CONTACTS
 from .apex_swept import ApexSwept
 from .flank_edge import FlankEdge
-from .frustum import part_names
+from .frustum import part_names, set_back
 from .frustum_sphere import write_frustum_ball
 from .frustum_writing import size_of_both
 from .rim_edge import RimEdge
@@ -72,8 +72,7 @@ class FrustumSwept(ContactKinematics):
     The vertex is a sphere with the radius of rounding, or a point.  The two bodies touch if the distance of their cores
     is the sum of their radii.  :meth:`between` also returns the other contacts of the two bodies: edges with side and
     rims, rims and feet with faces, and the apex, as a sphere.  The features of a contact never change.  A contact whose
-    features are not the nearest ones is open: its distance past the feature's boundary is positive.  Vertices ignore
-    the feet.  Corners of meshes have these contacts, too (:class:`bodies.FrustumMesh`).
+    features are not the nearest ones is open: its distance past the feature's boundary is positive.  Corners of meshes have these contacts, too (:class:`bodies.FrustumMesh`).
 
     Attributes
     ----------
@@ -105,7 +104,7 @@ class FrustumSwept(ContactKinematics):
         """Return the contacts of all vertices, of all edges with side and rims, and of rims, feet and apex."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        core, size, numbers = second.core, size_of_both(first, second), without_feet(first.frustum)
+        core, size, numbers = second.core, size_of_both(first, second), set_back(first)
         check_number(len(core.edges))
         vertices = (
             cls(numbers, second.sweep, place, star_of(core, i), size, f"vertex {i}")
