@@ -25,7 +25,7 @@ from ..features.frames import across
 from ..features.polytope_tables import Numbers
 from ..features.vertex_face import CLOSED, REACH
 from ..smooth.smooth_core import axes_in_world, back, forth
-from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
+from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
 from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
 
 _BOTH = 1e-9
@@ -207,7 +207,9 @@ def _evaluate(
     px, py, pz = kx + px, ky + py, kz + pz
     write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz))
     write_side(out, 0.0, first, LOW_RIM, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
-    write_side(out, 1.0, second, LOW_RIM, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
+    # of two edges in one plane, one is the side of a cylinder: the normal would turn at any slip of edge over edge
+    part = FLANK if is_edge_to_edge else LOW_RIM
+    write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
 
 
 @final
