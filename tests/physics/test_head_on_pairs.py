@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from tests.benchmarks.head_on.meeting import Meeting
 from tests.benchmarks.head_on.pairs import PAIRS
 from tests.physics.head_on import FINE, central_of, drawn_of, wrong
 from tests.physics.test_head_on import NAMES as OTHERS
@@ -19,6 +20,15 @@ EXACT = [name for name in NAMES if PAIRS[name].central and name not in _INEXACT]
 def test_pairs_collide_and_never_overlap(name: str) -> None:
     """Shifted by 0 to 5 mm, turned by 0 to a quarter turn, at 0.1 to 10 m/s."""
     assert wrong(drawn_of(name)) == []
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("shift", [(0.0, 0.0), (1e-12, 0.0), (1e-9, 1e-9), (1e-6, 1e-6), (5e-3, 3e-3)])
+def test_discs_in_almost_one_plane_meet_or_pass_each_other(axis: int, shift: tuple[float, float]) -> None:
+    """Their planes are 0 to 5 mm apart, and turned by 0 to 1e-6 rad, in three orientations of the world."""
+    worlds = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
+    rows = [Meeting("disc", axis, shift, turn, world=world) for turn in (0.0, 1e-9, 1e-6) for world in worlds]
+    assert wrong(rows) == []
 
 
 @pytest.mark.fast_cases(3)

@@ -67,8 +67,8 @@ def _evaluate(
     if is_flat:
         _, offset, fx, fy, fz = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
         middle, half = common_length(radius, wide, offset)
-        # no part of the rim is over the cap
-        outside = radius - offset - wide
+        # a part of the rim must be over the cap, and the common area must be no mere point
+        outside = max(radius - offset - wide, 2.0 * CLOSED * size - half)
         if half > 0.0:
             radius = half
             cx, cy, cz = cx + middle * fx, cy + middle * fy, cz + middle * fz

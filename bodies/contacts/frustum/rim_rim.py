@@ -23,8 +23,9 @@ from ..features.edge_crossing import PARALLEL
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across
 from ..features.polytope_tables import Numbers
+from ..features.vertex_face import CLOSED, REACH
 from ..smooth.smooth_core import axes_in_world, back, forth
-from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
+from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
 from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
 
 _BOTH = 1e-9
@@ -35,11 +36,6 @@ _ASIDE = 1e-11
 The offset [m] is the distance of the rims' cores, times the sine of the angle between their common normal and the
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
-"""
-_COPLANAR = 3e-11
-"""Largest distance of two discs in one plane from each other's plane, relative to the size, and squared angle of both.
-
-It is a few gap tolerances: discs that are farther apart pass each other or cross.
 """
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 """Intervals into which half of a rim is sampled, most rounds of sampling, most Newton steps."""
@@ -145,8 +141,8 @@ def _evaluate(
         angle = after
     total = first[SWEEP] + second[SWEEP]
     are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
-    # discs in one plane touch on the line of centres, where their rims are parallel
-    is_edge_to_edge = are_discs and ax * ax + ay * ay <= _COPLANAR and abs(cz + radius * gz) <= _COPLANAR * size
+    # discs in one plane touch on the line of centres, where their rims are parallel; others pass each other or cross
+    is_edge_to_edge = are_discs and ax * ax + ay * ay <= CLOSED and abs(cz + radius * gz) <= CLOSED * size
     if is_edge_to_edge:
         angle = 0.0
     c, s = math.cos(angle), math.sin(angle)
@@ -198,11 +194,12 @@ def _evaluate(
         past = max(past, size)
     if gap < 0.0:
         past = max(past, size * (astray - PARALLEL))
-    past = max(past, past_depth(a, first, b, second, gap, size))
+    if not is_edge_to_edge:
+        past = max(past, past_depth(a, first, b, second, gap, size))
     if are_discs and gap < 0.0 and not is_edge_to_edge:
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
         linked = _link_depth(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
-        past = max(past, crossing * (-0.5 * gap - _COPLANAR * size) - linked)
+        past = max(past, crossing * (-0.5 * gap - REACH * size) - linked)
     wx, wy, wz = forth(axes, nx, ny, nz)
     px, py, pz = forth(axes, x, y, z + level)
     ux, uy, uz = forth(axes, ux, uy, uz)
@@ -210,7 +207,9 @@ def _evaluate(
     px, py, pz = kx + px, ky + py, kz + pz
     write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz))
     write_side(out, 0.0, first, LOW_RIM, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
-    write_side(out, 1.0, second, LOW_RIM, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
+    # of two edges in one plane, one is the side of a cylinder: the normal would turn at any slip of edge over edge
+    part = FLANK if is_edge_to_edge else LOW_RIM
+    write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
 
 
 @final

@@ -35,6 +35,8 @@ SPEEDS = (0.1, 1.0, 10.0)
 """Speeds of the first body [m/s]."""
 SPEED, TIME, DEPTH, MOMENTUM = 1e-7, 1e-12, 1e-9, 1e-10
 """Error of a speed relative to that of the first body, of a time [s], deepest overlap [m], error of the momentum."""
+CLOSED = 1e-8
+"""Clearance up to which bodies may collide [m]: features reach out by 1e-7 of the size of the bodies."""
 LEAST = 1e-9
 """Velocity after a collision, relative to the speed before: the normal of rims that cross may be next to across."""
 MARKS = {".": "right", "X": "passed", "F": "failed", "~": "wrong speed"}
@@ -210,8 +212,10 @@ def _judged(placed: Placed, solution: ns.Solution, accuracy: float) -> tuple[str
         return "X", "discs pass through each other", gained
     clearance = placed.clearance
     if clearance > DEPTH:
-        still = float(np.abs(two).max()) <= SPEED * v
-        return (".", "", gained) if still else ("~", f"they pass each other {clearance:.2g} m apart", gained)
+        if float(np.abs(two).max()) <= SPEED * v:
+            return ".", "", gained
+        if clearance > CLOSED:
+            return "~", f"they pass each other {clearance:.2g} m apart", gained
     is_moved = float(np.abs(two).max()) > LEAST * v
     collides = placed.collides
     if collides and not is_moved:
