@@ -144,7 +144,7 @@ def nearest_face(
     if past <= 0.0 and gap < -margin:
         best = separation_of_faces(other, frame, n_faces_other, faces_other, n_vertices_own, vertices_own)
         past = max(past, best - gap - margin)
-    if past > 0.0:
+    if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
     return float(found), gap, past
 

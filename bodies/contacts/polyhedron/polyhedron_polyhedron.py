@@ -65,7 +65,7 @@ def _evaluate(
         CLOSED * size,
         size,
     )
-    if past > 0.0:
+    if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     for i in range(3):

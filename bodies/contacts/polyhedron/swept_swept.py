@@ -15,7 +15,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import PARALLEL, cross_edges
+from ..features.edge_crossing import ASTRAY, PARALLEL, cross_edges
 from ..features.frames import write_tangent
 from ..features.overlap_corners import common_direction, crossing_past_corner
 from ..features.polytope_tables import EDGE, ConvexCore
@@ -83,6 +83,8 @@ def _evaluate(
         past, u = over + END * size, common_direction(a, b, n_faces_a, faces_a, n_faces_b, faces_b, *n)
         if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
             past = crossing_past_corner(a, b, u, edges_a, at_a, edges_b, at_b, p, e, f, n, gap, size)
+            # of edges that are almost parallel, a tilt moves the nearest points far past the ends
+            past = max(past, over - ASTRAY * gap)
     gap -= radius_a + radius_b
     if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
