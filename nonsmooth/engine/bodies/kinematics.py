@@ -83,7 +83,7 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
         contact.gap = length((contact.gap, contact.past_feature))
     near = ADJACENT * ws.tolerance.gap
     is_near = not contact.is_compliant and contact.gap <= near and contact.past_feature <= 0.0
-    if is_near and contact.pair != NO_PAIR and not separates(ws, contact.pair, contact.normal, near):
+    if is_near and contact.pair != NO_PAIR and not separates(ws, contact.pair, contact.normal, contact.gap, near):
         # as small as the gap of neighbours at rest, so that a contact of which round-off decides does not move far
         contact.gap = contact.past_feature = 0.5 * near
 

@@ -14,6 +14,7 @@ import math
 
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.native.kernel import Floats, Pair, Workspace, at, call_support, frame_at, kernel, part_at
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
 
 
@@ -189,13 +190,14 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
     return dot(n, closest_difference(ws, number, n))
 
 
-@kernel("b1(ws, i8, v3, f8)")
-def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
+@kernel("b1(ws, i8, v3, f8, f8)")
+def separates(ws: Workspace, number: int, n: Vector, gap: float, near: float) -> bool:
     """True if two convex shapes are as far apart along ``n`` as along the direction of their pair, up to ``near`` [m].
 
     The normal of a contact that touches has this property: along any other direction the shapes overlap. ``n`` points
-    from the first body of the contact to the second. The contacts themselves decide of shapes with several parts, of a
-    pair that is not guarded, and of shapes that overlap, as on springs.
+    from the first body of the contact to the second. Nor is its ``gap`` [m] below zero while the shapes do not overlap,
+    as that of a foot which slides over an edge from below the face. The contacts themselves decide of shapes with
+    several parts, of a pair that is not guarded, and of shapes that overlap, as on springs.
     """
     pair = ws.pairs[number]
     known = known_direction(ws, pair)
@@ -207,6 +209,8 @@ def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     allowed = near + pair.clearance
     if largest < -allowed:
         return True
+    if gap < -ALLOWED * ws.tolerance.gap:
+        return False
     along = opposite(n) if pair.is_swapped else n
     turned = minus(along, known)
     # the normals of flush faces are uncertain by round-off
