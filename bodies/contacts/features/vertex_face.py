@@ -118,7 +118,7 @@ def nearest_face(
 
     The face belongs to the polyhedron in ``frame``.  It is the face over which the least height of all vertices is the
     largest, so that all vertices get the same face.  If several faces are equal in this, as in contact at an edge, the
-    vertex gets the face on which it projects.  A vertex below its face does not touch it if a face of its own body
+    vertex gets the face on which it projects, or of two such faces that over which it is higher.  A vertex below its face does not touch it if a face of its own body
     separates the bodies better.  Past the border of its face, the gap of a vertex is positive.
     """
     v = 3 * int(vertex)
@@ -139,8 +139,9 @@ def nearest_face(
         if height < 0.0:
             # a vertex below the plane of a face touches it from inside of the polyhedron only
             beyond = max(beyond, highest)
-        if beyond - margin < past:
-            found, gap, past = i, height, beyond - margin
+        beyond -= margin
+        if height > gap if max(past, beyond) <= 0.0 else beyond < past:
+            found, gap, past = i, height, beyond
     if past <= 0.0 and gap < -margin:
         best = separation_of_faces(other, frame, n_faces_other, faces_other, n_vertices_own, vertices_own)
         past = max(past, best - gap - margin)

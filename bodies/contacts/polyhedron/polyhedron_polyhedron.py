@@ -9,6 +9,8 @@ from types import MappingProxyType
 from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
+from nonsmooth.engine.numerics.tolerances import GAP as GAP_TOLERANCE
+from nonsmooth.engine.numerics.tolerances import RELATIVE_GAP
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -61,7 +63,8 @@ def _evaluate(
         edges_a,
         n_edges_b,
         edges_b,
-        1e-12,
+        # at this sine the ends of the edges are aside by the default gap tolerance
+        min(GAP_TOLERANCE / size, RELATIVE_GAP),
         CLOSED * size,
         size,
     )

@@ -16,7 +16,14 @@ import math
 from typing import NamedTuple
 
 from nonsmooth.engine.bodies.anisotropy import stretch_bias, stretch_tangents
-from nonsmooth.engine.bodies.support import separates
+from nonsmooth.engine.bodies.support import (
+    along_pair,
+    farthest_of_first,
+    farthest_of_second,
+    is_of_one_part_each,
+    known_direction,
+    separates,
+)
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import FIRST_ROW, NO_PAIR, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
@@ -33,7 +40,7 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.linear import multiply, product
 from nonsmooth.engine.numerics.tolerances import ADJACENT
-from nonsmooth.engine.numerics.vectors import Pair, Vector, cross, dot, length, minus, opposite, scaled
+from nonsmooth.engine.numerics.vectors import Pair, Vector, are_alike, cross, dot, length, minus, opposite, scaled
 
 NOT_EVALUATED = -1
 """Version of its bodies that a contact has which was never evaluated. No body has this version."""
@@ -57,6 +64,51 @@ class WitnessMotion(NamedTuple):
     """Rate of the normal along t2 relative to the first body [1/s]."""
 
 
+@kernel("v3(F, i8, v3)")
+def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
+    """Velocity of a point that is fixed to the frame at offset ``place`` [m/s]: v + omega x (point - origin)."""
+    frame = frame_at(floats, place)
+    x, y, z = minus(point, frame.origin)
+    ox, oy, oz = frame.spin
+    ux, uy, uz = frame.velocity
+    return ux + oy * z - oz * y, uy + oz * x - ox * z, uz + ox * y - oy * x
+
+
+@kernel("b1(ws, ContactRecord, f8)")
+def _opens_aside(ws: Workspace, contact: ContactRecord, near: float) -> bool:
+    """True if two convex shapes are apart, up to ``near`` [m], along another direction than the normal of a contact.
+
+    It is that of their pair, and they do not approach along it.
+    """
+    pair = ws.pairs[contact.pair]
+    n = known_direction(ws, pair)
+    if not is_of_one_part_each(ws, pair.index) or are_alike(along_pair(pair, contact.normal), n):
+        return False
+    first, second = farthest_of_first(ws, pair.index, n), farthest_of_second(ws, pair.index, opposite(n))
+    if dot(n, n) == 0.0 or dot(n, minus(second, first)) < -near - pair.clearance:
+        return False
+    v = minus(velocity_of_point(ws.floats, pair.frame_b, second), velocity_of_point(ws.floats, pair.frame_a, first))
+    return dot(n, v) >= -ws.tolerance.velocity
+
+
+@kernel("b1(ws, ContactRecord, f8)")
+def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
+    """True if the shapes of a near contact can meet along its normal.
+
+    They cannot if they overlap along it while they are apart along the direction of their pair
+    (:func:`nonsmooth.engine.bodies.support.separates`), nor if they approach along it only, and not along that
+    direction. ``near`` is the largest gap of surfaces that are next to each other [m].
+    """
+    if not separates(ws, contact.pair, contact.normal, contact.gap, near):
+        return False
+    v = minus(
+        velocity_of_point(ws.floats, contact.frame_b, contact.point_b),
+        velocity_of_point(ws.floats, contact.frame_a, contact.point_a),
+    )
+    approaches = dot(contact.normal, v) < -ws.tolerance.velocity
+    return not (approaches and _opens_aside(ws, contact, near))
+
+
 @kernel("void(ws, i8)")
 def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
@@ -66,8 +118,7 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     negative gap, and the gap becomes a positive substitute, the length of gap and ``past_feature``, so that this
     contact does not act. ``overlap`` is zero otherwise. A closed contact keeps its gap past the end, until the event in
     which another one takes its place: its force has no jump within a step. A substitute is the gap, too, of an open
-    rigid contact along whose normal the parts of its pair overlap more than they do: its features do not separate the
-    bodies (:func:`nonsmooth.engine.bodies.support.separates`).
+    rigid contact that is near but cannot close.
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -83,19 +134,9 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
         contact.gap = length((contact.gap, contact.past_feature))
     near = ADJACENT * ws.tolerance.gap
     is_near = not contact.is_compliant and contact.gap <= near and contact.past_feature <= 0.0
-    if is_near and contact.pair != NO_PAIR and not separates(ws, contact.pair, contact.normal, contact.gap, near):
+    if is_near and contact.pair != NO_PAIR and not _can_close(ws, contact, near):
         # as small as the gap of neighbours at rest, so that a contact of which round-off decides does not move far
         contact.gap = contact.past_feature = 0.5 * near
-
-
-@kernel("v3(F, i8, v3)")
-def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
-    """Velocity of a point that is fixed to the frame at offset ``place`` [m/s]: v + omega x (point - origin)."""
-    frame = frame_at(floats, place)
-    x, y, z = minus(point, frame.origin)
-    ox, oy, oz = frame.spin
-    ux, uy, uz = frame.velocity
-    return ux + oy * z - oz * y, uy + oz * x - ox * z, uz + ox * y - oy * x
 
 
 @kernel("void(ws, i8)")

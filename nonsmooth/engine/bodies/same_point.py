@@ -13,37 +13,17 @@ from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import dot, minus
-
-_LARGEST_DIFFERENCE = 1e-5
-"""Difference of normals, and of points relative to the size of the smaller body, up to which contacts coincide.
-
-The relative error of the energy of an approach is its square, which is below the energy tolerances.
-"""
-
-
-@kernel("b1(ContactRecord, ContactRecord)")
-def _share_point(one: ContactRecord, other: ContactRecord) -> bool:
-    """True if two different rigid contacts of the same frames have the same point within the tolerance."""
-    if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
-        return False
-    moved = minus(one.point_b, other.point_b)
-    is_rigid = not one.is_compliant and not other.is_compliant
-    return is_rigid and dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
-
-
-@kernel("b1(ContactRecord, ContactRecord)")
-def _share_normal(one: ContactRecord, other: ContactRecord) -> bool:
-    """True if two contacts have the same normal within the tolerance."""
-    # the length of the difference of two unit normals is the angle between them if that is small
-    turned = minus(one.normal, other.normal)
-    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2
+from nonsmooth.engine.numerics.vectors import ALIKE, are_alike, distance, dot, minus
 
 
 @kernel("b1(ContactRecord, ContactRecord)")
 def coincide(one: ContactRecord, other: ContactRecord) -> bool:
     """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
-    return _share_point(one, other) and _share_normal(one, other)
+    if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
+        return False
+    is_rigid = not one.is_compliant and not other.is_compliant
+    is_same_point = distance(one.point_b, other.point_b) <= ALIKE * one.size
+    return is_rigid and is_same_point and are_alike(one.normal, other.normal)
 
 
 @kernel()
@@ -71,5 +51,6 @@ def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
             continue
         apart = minus(sliding_of(ws, contact), sliding_of(ws, other))
         is_as_fast = other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
-        is_redundant = is_redundant or (is_as_fast and dot(apart, apart) <= slow * slow)
+        collides = contact.normal_rate < -ws.tolerance.velocity
+        is_redundant = is_redundant or (is_as_fast and (collides or dot(apart, apart) <= slow * slow))
     return is_redundant

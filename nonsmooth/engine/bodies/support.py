@@ -15,7 +15,7 @@ import math
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.native.kernel import Floats, Pair, Workspace, at, call_support, frame_at, kernel, part_at
 from nonsmooth.engine.numerics.tolerances import ALLOWED
-from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
+from nonsmooth.engine.numerics.vectors import Vector, are_alike, dot, minus, opposite
 
 
 @kernel("v3(F, v3)")
@@ -190,6 +190,19 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
     return dot(n, closest_difference(ws, number, n))
 
 
+@kernel("b1(ws, i8)")
+def is_of_one_part_each(ws: Workspace, number: int) -> bool:
+    """True if pair ``number`` is guarded and the only one of its shapes: two convex shapes."""
+    has_others = number + 1 < ws.model.n_pairs and ws.pairs[number + 1].group == number
+    return ws.pairs[number].is_guarded and not has_others
+
+
+@kernel("v3(Pair, v3)")
+def along_pair(pair: Pair, n: Vector) -> Vector:
+    """Normal of a contact, from the first to the second body of the contact, as a direction of its pair."""
+    return opposite(n) if pair.is_swapped else n
+
+
 @kernel("b1(ws, i8, v3, f8, f8)")
 def separates(ws: Workspace, number: int, n: Vector, gap: float, near: float) -> bool:
     """True if two convex shapes are as far apart along ``n`` as along the direction of their pair, up to ``near`` [m].
@@ -201,8 +214,7 @@ def separates(ws: Workspace, number: int, n: Vector, gap: float, near: float) ->
     """
     pair = ws.pairs[number]
     known = known_direction(ws, pair)
-    has_others = number + 1 < ws.model.n_pairs and ws.pairs[number + 1].group == number
-    if has_others or not pair.is_guarded or dot(known, known) == 0.0:
+    if not is_of_one_part_each(ws, number) or dot(known, known) == 0.0:
         return True
     largest = separation_along(ws, number, known)
     # feet may extend beyond the parts by the clearance
@@ -211,10 +223,9 @@ def separates(ws: Workspace, number: int, n: Vector, gap: float, near: float) ->
         return True
     if gap < -ALLOWED * ws.tolerance.gap:
         return False
-    along = opposite(n) if pair.is_swapped else n
-    turned = minus(along, known)
-    # the normals of flush faces are uncertain by round-off
-    least = -2.0 * allowed if dot(turned, turned) <= 1e-10 else largest - ws.tolerance.gap - pair.clearance
+    along = along_pair(pair, n)
+    # round-off of the normal of flush faces lets them overlap by more than the gap tolerance
+    least = -2.0 * allowed if are_alike(along, known) else largest - ws.tolerance.gap - pair.clearance
     return largest <= allowed and separation_along(ws, number, along) >= least
 
 

@@ -10,10 +10,14 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import copy_inner_states, evaluate_compliant_force
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
-from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian, evaluate_kinematics
+from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED, evaluate_bias, evaluate_jacobian, evaluate_kinematics
 from nonsmooth.engine.bodies.same_point import leave_out_coincident
+from nonsmooth.engine.bodies.support import along_pair, is_of_one_part_each, separation_along, store_direction
+from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.tolerances import ADJACENT
+from nonsmooth.engine.numerics.vectors import are_alike
 
 
 @entry_point("b1(ws)")
@@ -34,11 +38,56 @@ def find_touching(ws: Workspace) -> bool:
             evaluate_kinematics(ws, contact.index)
             contact.is_touching = _does_touch(ws, contact)
         leave_out_coincident(ws)
+        _leave_out_blocked(ws)
         for contact in ws.contacts:
             if contact.is_touching:
                 is_approaching = _approaches(ws, contact) or is_approaching
                 has_ended = end_own_steps_of(ws, contact.index) > 0 or has_ended
     return is_approaching
+
+
+@kernel()
+def _leave_out_blocked(ws: Workspace) -> None:
+    """Let an open contact that approaches take no part if its shapes are apart along the normal of another contact.
+
+    Convex shapes that are apart along a direction, and do not approach along it, do not meet. So a body that slides
+    over the seam of two flush faces does not collide with the side of the second one.
+    """
+    for contact in ws.contacts:
+        is_rigid = contact.is_touching and contact.mode == Mode.OPEN and not contact.is_compliant
+        collides = is_rigid and contact.normal_rate < -ws.tolerance.velocity
+        if collides and contact.pair != NO_PAIR and is_of_one_part_each(ws, contact.pair) and _is_blocked(ws, contact):
+            # it is evaluated anew, as the direction of its pair has changed
+            contact.version_a = NOT_EVALUATED
+            evaluate_kinematics(ws, contact.index)
+            contact.is_touching = _does_touch(ws, contact)
+
+
+@kernel("b1(ws, ContactRecord)")
+def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if the shapes of a contact are apart along the normal of another one, and do not approach along it.
+
+    Stores that direction as the one of their pair.
+    """
+    pair, near = ws.pairs[contact.pair], ADJACENT * ws.tolerance.gap
+    for other in ws.contacts:
+        if other.pair != contact.pair or not other.is_touching or are_alike(contact.normal, other.normal):
+            continue
+        along = along_pair(pair, other.normal)
+        if not _closes_along(ws, other) and separation_along(ws, pair.index, along) >= -near - pair.clearance:
+            store_direction(ws, pair, along)
+            return True
+    return False
+
+
+@kernel("b1(ws, ContactRecord)")
+def _closes_along(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if a touching contact with the normal of a given one, between the same shapes, approaches."""
+    for other in ws.contacts:
+        is_along = other.pair == contact.pair and other.is_touching and are_alike(contact.normal, other.normal)
+        if is_along and other.normal_rate < -ws.tolerance.velocity:
+            return True
+    return False
 
 
 @kernel("b1(ws, ContactRecord)")

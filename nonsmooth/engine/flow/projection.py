@@ -30,6 +30,7 @@ from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
+from nonsmooth.engine.flow.guard_values import feature_guard
 from nonsmooth.engine.flow.self_check import allowed_gap, energies_of_bodies, fail_check, held_gap
 from nonsmooth.engine.flow.spins import normalise, square_of_quaternion
 from nonsmooth.engine.memory.layout import NORMAL_ROW
@@ -351,14 +352,14 @@ def _project_active(ws: Workspace, at_event: bool) -> Projected:
     """Project the rates of the active contacts, and add the velocities that close their gaps to ``y_stage``.
 
     Result: kinetic energy that was removed, and whether velocities were added. Nothing is projected if a contact is
-    past the end of its feature, where the rate is that of another gap. The next event opens such a contact.
+    past the end of its feature, or has changed its features in the step: its rate is then that of another gap. The next
+    event opens such a contact.
     """
-    past = 0.0
     for active in ws.actives:
         evaluate_kinematics(ws, active.contact)
-        past = max(past, ws.contacts[active.contact].past_feature)
-    if past > ws.tolerance.gap:
-        return Projected(0.0, False)
+        contact = ws.contacts[active.contact]
+        if contact.past_feature > ws.tolerance.gap or (not at_event and feature_guard(ws, contact) < 0.0):
+            return Projected(0.0, False)
     # at an event a slow slip is removed too, which needs the tangential rows
     if not at_event and _is_lone_slip(ws):
         # without a gap the velocities are zero, and displace nothing

@@ -11,6 +11,11 @@ Pair: TypeAlias = tuple[float, float]
 """A vector of a tangent plane, ``v2`` in signatures."""
 Vector: TypeAlias = tuple[float, float, float]
 """A vector of space, ``v3`` in signatures."""
+ALIKE = 1e-5
+"""Difference of normals, and of points relative to the size of the smaller body, up to which contacts coincide.
+
+The relative error of the energy of an approach is its square, which is below the energy tolerances.
+"""
 
 
 @kernel("f8(v2)")
@@ -55,6 +60,13 @@ def distance(a: Vector, b: Vector) -> float:
     """Length of a - b."""
     difference = minus(a, b)
     return math.sqrt(dot(difference, difference))
+
+
+@kernel("b1(v3, v3)")
+def are_alike(a: Vector, b: Vector) -> bool:
+    """True if two unit vectors are the same within the tolerance."""
+    # the length of the difference of two unit vectors is the angle between them if that is small
+    return distance(a, b) <= ALIKE
 
 
 @kernel("v3(v3, v3)")
