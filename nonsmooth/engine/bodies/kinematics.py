@@ -78,14 +78,15 @@ def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
 def _opens_aside(ws: Workspace, contact: ContactRecord, near: float) -> bool:
     """True if two convex shapes are apart, up to ``near`` [m], along another direction than the normal of a contact.
 
-    It is that of their pair, and they do not approach along it.
+    It is that of their pair, and they do not approach along it. Feet touch while the shapes are apart along any
+    direction, so nothing is known of shapes with feet.
     """
     pair = ws.pairs[contact.pair]
-    n = known_direction(ws, pair)
-    if not is_of_one_part_each(ws, pair.index) or are_alike(along_pair(pair, contact.normal), n):
+    n, has_feet = known_direction(ws, pair), pair.clearance > 0.0
+    if has_feet or not is_of_one_part_each(ws, pair.index) or are_alike(along_pair(pair, contact.normal), n):
         return False
     first, second = farthest_of_first(ws, pair.index, n), farthest_of_second(ws, pair.index, opposite(n))
-    if dot(n, n) == 0.0 or dot(n, minus(second, first)) < -near - pair.clearance:
+    if dot(n, n) == 0.0 or dot(n, minus(second, first)) < -near:
         return False
     v = minus(velocity_of_point(ws.floats, pair.frame_b, second), velocity_of_point(ws.floats, pair.frame_a, first))
     return dot(n, v) >= -ws.tolerance.velocity
@@ -99,7 +100,7 @@ def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
     (:func:`nonsmooth.engine.bodies.support.separates`), nor if they approach along it only, and not along that
     direction. ``near`` is the largest gap of surfaces that are next to each other [m].
     """
-    if not separates(ws, contact.pair, contact.normal, contact.gap, near):
+    if not separates(ws, contact.pair, contact.normal, near):
         return False
     v = minus(
         velocity_of_point(ws.floats, contact.frame_b, contact.point_b),

@@ -14,7 +14,6 @@ import math
 
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.native.kernel import Floats, Pair, Workspace, at, call_support, frame_at, kernel, part_at
-from nonsmooth.engine.numerics.tolerances import ALLOWED
 from nonsmooth.engine.numerics.vectors import Vector, are_alike, dot, minus, opposite
 
 
@@ -203,14 +202,13 @@ def along_pair(pair: Pair, n: Vector) -> Vector:
     return opposite(n) if pair.is_swapped else n
 
 
-@kernel("b1(ws, i8, v3, f8, f8)")
-def separates(ws: Workspace, number: int, n: Vector, gap: float, near: float) -> bool:
+@kernel("b1(ws, i8, v3, f8)")
+def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     """True if two convex shapes are as far apart along ``n`` as along the direction of their pair, up to ``near`` [m].
 
     The normal of a contact that touches has this property: along any other direction the shapes overlap. ``n`` points
-    from the first body of the contact to the second. Nor is its ``gap`` [m] below zero while the shapes do not overlap,
-    as that of a foot which slides over an edge from below the face. The contacts themselves decide of shapes with
-    several parts, of a pair that is not guarded, and of shapes that overlap, as on springs.
+    from the first body of the contact to the second. The contacts themselves decide of shapes with several parts, of a
+    pair that is not guarded, and of shapes that overlap, as on springs.
     """
     pair = ws.pairs[number]
     known = known_direction(ws, pair)
@@ -221,8 +219,6 @@ def separates(ws: Workspace, number: int, n: Vector, gap: float, near: float) ->
     allowed = near + pair.clearance
     if largest < -allowed:
         return True
-    if gap < -ALLOWED * ws.tolerance.gap:
-        return False
     along = along_pair(pair, n)
     # round-off of the normal of flush faces lets them overlap by more than the gap tolerance
     least = -2.0 * allowed if are_alike(along, known) else largest - ws.tolerance.gap - pair.clearance
