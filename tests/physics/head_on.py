@@ -19,9 +19,8 @@ def wrong(meetings: list[Meeting], **options: object) -> list[str]:
 
 
 def drawn_of(name: str) -> list[Meeting]:
-    """Return the fixed draw of a pair, without capsules at the angle from which on their sides are parallel."""
-    rows = [drawn(name, number, SEED) for number in range(COUNT)]
-    return [row for row in rows if (name, row.turn) != ("capsule", 1e-6)]
+    """Return the fixed draw of a pair."""
+    return [drawn(name, number, SEED) for number in range(COUNT)]
 
 
 def central_of(name: str) -> list[Meeting]:

@@ -15,12 +15,14 @@ from nonsmooth.types import Floats
 
 from ...blocks import put
 from ...shapes.capsule import Capsule
-from ..features.edge_crossing import PARALLEL
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.writing import by_side, join_cores, write_principal, write_round
 
 ROUNDING = 1e-12
-"""Part of the lengths by which the middle of the overlap may be farther than the nearest points."""
+"""Part of the lengths by which the middle of the overlap may be farther than the nearest points.
+
+Segments are then parallel within round-off, which moves the point where they cross along both.
+"""
 _PARTS = "end -", "side", "end +"
 _FEATURES = tuple(f"{one} and {two}" for one in _PARTS for two in _PARTS)
 
@@ -62,7 +64,7 @@ def _evaluate(
     cx, cy, cz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     square = cx * cx + cy * cy + cz * cz
     s = t = 0.0
-    shortest = math.inf
+    shortest, is_parallel = math.inf, False
     for end in range(6):
         if end < 4:
             # an end of one and the point of the other that is nearest to it
@@ -86,7 +88,7 @@ def _evaluate(
             # the middle of the overlap, as near as the ends but for rounding
             low = max(ru - half_length_b, -half_length_a)
             high = min(ru + half_length_b, half_length_a)
-            if square > PARALLEL * PARALLEL or low > high:
+            if low > high:
                 continue
             s_tried = 0.5 * (low + high)
             t_tried = _within(cosine * s_tried - rv, half_length_b)
@@ -94,7 +96,7 @@ def _evaluate(
         dx, dy, dz = x + t_tried * vx - s_tried * ux, y + t_tried * vy - s_tried * uy, z + t_tried * vz - s_tried * uz
         distance = math.sqrt(dx * dx + dy * dy + dz * dz)
         if distance <= shortest + allowed:
-            s, t, shortest = s_tried, t_tried, distance
+            s, t, shortest, is_parallel = s_tried, t_tried, distance, end == 5
     put(out, POINT_A, first_x + s * ux, first_y + s * uy, first_z + s * uz)
     put(out, POINT_B, second_x + t * vx, second_y + t * vy, second_z + t * vz)
     if square > 0.0:
@@ -108,7 +110,7 @@ def _evaluate(
     write_round(out, SIDE_B, radius_b)
     if side_b:
         write_principal(out, SIDE_B, vx, vy, vz, 0.0, 1.0, 1.0, radius_b)
-    if side_a and side_b and square <= PARALLEL * PARALLEL:
+    if side_a and side_b and is_parallel:
         write_principal(out, SIDE_A, ux, uy, uz, 1.0, 0.0, 1.0, radius_a)
     elif side_a:
         write_principal(out, SIDE_A, ux, uy, uz, 0.0, 1.0, 1.0, radius_a)
