@@ -118,8 +118,9 @@ def nearest_face(
 
     The face belongs to the polyhedron in ``frame``.  It is the face over which the least height of all vertices is the
     largest, so that all vertices get the same face.  If several faces are equal in this, as in contact at an edge, the
-    vertex gets the face on which it projects, or of two such faces that over which it is higher.  A vertex below its face does not touch it if a face of its own body
-    separates the bodies better.  Past the border of its face, the gap of a vertex is positive.
+    vertex gets the face on which it projects, or the one over which it is highest if it projects on several.  A vertex
+    below its face does not touch it if a face of its own body separates the bodies better.  Past the border of its
+    face, the gap of a vertex is positive.
     """
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])

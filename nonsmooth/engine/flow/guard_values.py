@@ -10,6 +10,7 @@ from nonsmooth.engine.flow.flow import right_hand_side, value_of_normal_guard, v
 from nonsmooth.engine.flow.guard_numbers import end_of, first_user_guard, friction_of, normal_of
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, at, call_guard, entry_point, kernel
+from nonsmooth.engine.numerics.tolerances import ALLOWED
 
 NO_FEATURE = -1
 """Number of features that is stored for a contact whose change of features is no event."""
@@ -23,13 +24,16 @@ def feature_guard(ws: Workspace, contact: ContactRecord) -> float:
     """End guard of a closed contact [m]: the distance to the end of its features, negative past it.
 
     Features are the faces, edges or corners in contact. If they are others than at the start of the step, the sign of a
-    positive distance is turned, so that the guard fires.
+    positive distance is turned, so that the guard fires. They are others, too, if the gap of a rigid contact changes
+    faster than the tolerances allow: its normal is that of another face.
     """
     # a contact may close a gap tolerance past the end, so the guard ends two of them past it; without an end it is 1
     distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0
     # features are numbered; with NO_FEATURE a change is no event in this step
     is_unchanged = contact.feature == NO_FEATURE or int(contact.feature_now) == contact.feature
-    return distance if distance < 0.0 or is_unchanged else -distance
+    is_held = not (contact.is_compliant or contact.is_averaged)
+    leaves = is_held and abs(contact.normal_rate) > ALLOWED * ws.tolerance.velocity
+    return distance if distance < 0.0 or (is_unchanged and not leaves) else -distance
 
 
 @kernel("b1(ws, ContactRecord)")
