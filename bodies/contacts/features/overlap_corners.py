@@ -134,7 +134,7 @@ def vertex_past_corner(
         return past - edge, math.inf
     if past <= margin:
         return past + margin, math.inf
-    _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
+    _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     along = nx * fx + ny * fy + nz * fz
     nx, ny, nz = vector_in_world(other, nx - along * fx, ny - along * fy, nz - along * fz)
     nx, ny, nz = vector_in_body(own, nx, ny, nz)
