@@ -75,8 +75,8 @@ def corners_over(
 ) -> int:
     """Append the corners of the surface in ``a`` that may soon touch a core in ``b``; return the number of candidates.
 
-    A corner touches over a face of the core, or if none of its edges leads towards the nearest point of the core.  It is
-    a candidate if this can hold before the next search, until which the corner moves by at most ``reach`` [m] and the
+    A corner touches over a face of the core, or if none of its edges leads towards the nearest point of the core.  A
+    corner is a candidate if this can hold before the next search, until which it moves by at most ``reach`` [m] and the
     bodies turn by at most ``turn`` [rad].
 
     Parameters
