@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 import nonsmooth as ns
-from bodies import BoxBody, HullBody, MeshBody, Plate, Triangles
+from bodies import BoxBody, CylinderBody, HullBody, MeshBody, Plate, Triangles
 from laws import Bristle, Frictionless, HuntCrossley
 from nonsmooth.interfaces import Body
 
@@ -34,8 +34,8 @@ def _mesh() -> Body:
     return MeshBody(Triangles(made.vertices, made.faces))
 
 
-def _wide(x: float, y: float) -> Make:
-    return lambda: BoxBody(x, y, HALF)
+def _wide(x: float, y: float, rounding: float = 0.0) -> Make:
+    return lambda: BoxBody(x, y, HALF, rounding=rounding)
 
 
 PAIRS: dict[str, tuple[Make, Make]] = {
@@ -43,39 +43,89 @@ PAIRS: dict[str, tuple[Make, Make]] = {
     "hulls": (_hull, _hull),
     "meshes": (_mesh, _mesh),
     "box on hull": (_hull, _box),
-    "rounded boxes": (lambda: BoxBody(HALF, HALF, HALF, rounding=1e-3),) * 2,
+    "rounded boxes": (_wide(HALF, HALF, 1e-3),) * 2,
     "smaller on larger": (_box, lambda: BoxBody(0.019, 0.019, HALF)),
     "flush in one direction": (_wide(0.03, HALF), _box),
+    "rounded, flush in one direction": (_wide(0.03, HALF, 1e-3), _wide(HALF, HALF, 1e-3)),
+    "rounded on mesh": (_mesh, _wide(HALF, HALF, 1e-3)),
+    "rounded on cylinder": (lambda: CylinderBody(0.04, HALF), _wide(HALF, HALF, 1e-3)),
 }
 """Lower and upper body, both 4 cm high."""
 
 
-def heights(name: str, shift: float = 0.0, turn: float = 0.0, bristles: bool = False) -> list[float]:
-    """Return the heights of the mass centres 0.5 s after the upper body fell by 0.1 mm [m]."""
-    floor, bodies = Plate(), [make() for make in PAIRS[name]]
+def heights(
+    name: str,
+    shift: float = 0.0,
+    turn: float = 0.0,
+    bristles: bool = False,
+    height: float = 1e-4,
+    t_end: float = 0.5,
+    n: int = 2,
+) -> list[float]:
+    """Return the heights of the mass centres [m] after a time; each upper body fell by ``height`` [m] on the next one.
+
+    The energy account of the run must be kept. ``n`` is the number of bodies, each but the lowest like the second one.
+    """
+    lowest, upper = PAIRS[name]
+    floor, bodies = Plate(), [lowest(), *(upper() for _ in range(n - 1))]
     friction = Bristle(friction=0.4, static_friction=0.4) if bristles else Frictionless()
     system = ns.System([floor, *bodies])
     system.contact_all(ns.ContactLaws(HuntCrossley(stiffness=1e5, exponent=1.0, dissipation=0.5), friction))
-    system.place(bodies[0], position=(0.0, 0.0, HALF))
-    turned = ns.turned_about((0.0, 0.0, 1.0), turn)
-    system.place(bodies[1], position=(shift, 0.0, 3.0 * HALF + 1e-4), orientation=turned)
-    solution = ns.simulate(system, 0.5)
+    for i, body in enumerate(bodies):
+        turned = ns.turned_about((0.0, 0.0, 1.0), i * turn)
+        system.place(body, position=(i * shift, 0.0, (2 * i + 1) * HALF + i * height), orientation=turned)
+    solution = ns.simulate(system, t_end)
     assert solution.status == "done"
+    assert solution.energy.residual < 1e-6
     return [float(solution.of(body)[0][-1, 2]) for body in bodies]
 
 
+SHIFTS = (1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-3)
+"""Shifts of an upper body along x [m]."""
+TURNS = (1e-9, 1e-6, 1e-3, 0.01, 0.3)
+"""Turns of an upper body about the vertical [rad]."""
+ALIKE = (
+    "rounded boxes",
+    "boxes",
+    "hulls",
+    "meshes",
+    "flush in one direction",
+    "rounded, flush in one direction",
+    "smaller on larger",
+)
 CARRIED = [(name, 0.0, 0.0) for name in PAIRS]
-CARRIED += [("boxes", 1e-3, 0.0), ("boxes", 0.0, 0.5 * np.pi), ("hulls", 1e-3, 0.0)]
-CARRIED += [(name, 0.0, turn) for name in ("boxes", "hulls", "meshes") for turn in (1e-9, 1e-6, 1e-3, 0.3)]
-CARRIED += [(name, shift, 0.0) for name in ("boxes", "hulls", "meshes") for shift in (1e-12, 1e-9, 1e-6)]
-CARRIED += [("smaller on larger", 1e-3, 0.0), ("flush in one direction", 0.0, 1e-6)]
+CARRIED += [(name, shift, 0.0) for name in ALIKE for shift in SHIFTS]
+CARRIED += [(name, 0.0, turn) for name in ALIKE for turn in TURNS]
+CARRIED += [("rounded on mesh", 1e-3, 0.0), ("rounded on cylinder", 1e-3, 0.0), ("boxes", 0.0, 0.5 * np.pi)]
 """Pair, shift [m] and turn [rad] of the upper body."""
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(7)
 @pytest.mark.parametrize(("name", "shift", "turn"), CARRIED)
 def test_the_upper_body_is_carried(name: str, shift: float, turn: float) -> None:
     assert heights(name, shift, turn) == pytest.approx([HALF, 3.0 * HALF], abs=INDENTED)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["rounded boxes", "boxes", "hulls"])
+@pytest.mark.parametrize(("shift", "turn"), [(0.0, 0.0), (1e-9, 0.0), (1e-6, 0.0), (0.0, 1e-9), (0.0, 0.01)])
+def test_a_body_that_falls_by_millimetres_is_carried(name: str, shift: float, turn: float) -> None:
+    assert heights(name, shift, turn, height=3e-3, t_end=1.0) == pytest.approx([HALF, 3.0 * HALF], abs=INDENTED)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["rounded boxes", "boxes", "hulls"])
+@pytest.mark.parametrize("shift", [0.0, 1e-9, 1e-6, 1e-3])
+def test_bodies_stay_for_seconds(name: str, shift: float) -> None:
+    assert heights(name, shift, t_end=2.0) == pytest.approx([HALF, 3.0 * HALF], abs=INDENTED)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["rounded boxes", "boxes", "hulls"])
+@pytest.mark.parametrize("shift", [0.0, 1e-9, 1e-6, 1e-3])
+def test_three_bodies_carry_each_other(name: str, shift: float) -> None:
+    # the lowest contacts bear the weight of three bodies
+    assert heights(name, shift, n=3) == pytest.approx([HALF, 3.0 * HALF, 5.0 * HALF], abs=3.0 * INDENTED)
 
 
 @pytest.mark.slow

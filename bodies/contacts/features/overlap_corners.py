@@ -27,8 +27,6 @@ from .vertex_face import CLOSED, nearest_feature, past_face, plane_height
 
 _COSINE = math.sqrt(1.0 - ASTRAY * ASTRAY)
 """Cosine of the largest angle between the normals of a contact and a face at which the face is next to the contact."""
-NO_DIRECTION = (0.0, 0.0, 0.0)
-"""Common direction of two features if no face is next to them."""
 
 
 @compiled
@@ -45,7 +43,7 @@ def _nearest_normal(n_faces: float, faces: Floats, x: float, y: float, z: float)
 
 @compiled
 def _normal_near(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> Vector3:
-    """Return the normal of a face next to the unit vector (x, y, z), in world axes; ``NO_DIRECTION`` if none is."""
+    """Return the normal of a face next to the unit vector (x, y, z), in world axes; zero if none is."""
     x, y, z = vector_in_body(frame, x, y, z)
     face, cosine = _nearest_normal(n_faces, faces, x, y, z)
     if cosine < _COSINE:
@@ -67,10 +65,10 @@ def common_direction(
     y: float,
     z: float,
 ) -> Vector3:
-    """Return the direction of projection for a contact normal (x, y, z) from the first to the second body, in the world.
+    """Return the direction of projection next to a contact normal (x, y, z) from the first to the second body.
 
-    It is the normal of a face of the first body, or of the second one if the first has no faces.  It is
-    ``NO_DIRECTION`` if no face is next to the contact.
+    Both are in world axes.  The direction is the normal of a face of the first body, or of the second one if the first
+    has no faces.  It is zero if no face is next to the contact.
     """
     if n_faces_a > 0.0:
         return _normal_near(a, n_faces_a, faces_a, x, y, z)
@@ -134,7 +132,7 @@ def vertex_past_corner(
         return past - edge, math.inf
     if past <= margin:
         return past + margin, math.inf
-    _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
+    _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     along = nx * fx + ny * fy + nz * fz
     nx, ny, nz = vector_in_world(other, nx - along * fx, ny - along * fy, nz - along * fz)
     nx, ny, nz = vector_in_body(own, nx, ny, nz)

@@ -137,7 +137,7 @@ def _evaluate(
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
-    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 2.0 * END * size)
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
     number, distance, _, _, _, within = found
     past = -size
@@ -183,7 +183,7 @@ def _bound(
     own, other = (a, b) if swap == 1.0 else (b, a)
     px, py, pz = point_in_world(own, x_v, y_v, z_v)
     x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
-    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 2.0 * END * size)
+    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     out[0] = distance - sweep - radius
 
 

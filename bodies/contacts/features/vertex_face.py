@@ -161,11 +161,8 @@ _SAME = 1e-14
 
 
 @compiled
-def _face(faces: Floats, n_faces: float, x: float, y: float, z: float, margin: float) -> tuple[int, float]:
-    """Return the face nearest to a point and the point's height over it [m]; -1 if an edge or a vertex is nearest.
-
-    Each face is extended beyond its border by ``margin`` [m].
-    """
+def _face(faces: Floats, n_faces: float, x: float, y: float, z: float) -> tuple[int, float]:
+    """Return the face nearest to a point and the point's height over it [m]; -1 if an edge or a vertex is nearest."""
     highest, best = -math.inf, -1
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
@@ -175,7 +172,7 @@ def _face(faces: Floats, n_faces: float, x: float, y: float, z: float, margin: f
         return best, highest
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
-        if height > 0.0 and past_face(faces, n_faces, FACE * i, height, x, y, z) <= margin:
+        if height > 0.0 and past_face(faces, n_faces, FACE * i, height, x, y, z) <= 0.0:
             return i, height
     return -1, 0.0
 
@@ -202,22 +199,14 @@ def _edge(edges: Floats, n_edges: float, x: float, y: float, z: float) -> tuple[
 
 @compiled
 def nearest_feature(
-    n_faces: float,
-    faces: Floats,
-    n_edges: float,
-    edges: Floats,
-    ends: Floats,
-    x: float,
-    y: float,
-    z: float,
-    margin: float,
+    n_faces: float, faces: Floats, n_edges: float, edges: Floats, ends: Floats, x: float, y: float, z: float
 ) -> Nearest:
-    """Return the feature nearest to the point (x, y, z) of the body frame; faces extend beyond their borders by ``margin``.
+    """Return the feature nearest to the point (x, y, z) of the body frame.
 
     For a point inside, this is the nearest face, with a negative distance.  The direction from an edge to a point on
     it is undefined; a unit vector perpendicular to the edge is returned.
     """
-    face, distance = _face(faces, n_faces, x, y, z, margin)
+    face, distance = _face(faces, n_faces, x, y, z)
     if face >= 0:
         f = FACE * face
         return face, distance, faces[f], faces[f + 1], faces[f + 2], math.inf

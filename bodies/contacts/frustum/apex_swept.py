@@ -53,7 +53,7 @@ def _evaluate(
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
     x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
-    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
+    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(b, found[2], found[3], found[4])
     past = past_apex(first, found[1], -nx * ax - ny * ay - nz * az, size)
     write_vertex_over(a, b, out, 1.0, (px, py, pz), first[SWEEP], found, past, n_faces, n_edges, edges, sweep, size)

@@ -30,10 +30,10 @@ from .frustum import (
 @compiled
 def write_frustum_ball(
     a: Floats, b: Floats, out: Floats, first: Floats, radius: float, x: float, y: float, z: float
-) -> tuple[float, float, float, float]:
+) -> tuple[float, float, float, float, int]:
     """Write the geometry block of a frustum and a ball about a point of the second body.
 
-    Return the point in the world [m], and its distance from the frustum's core [m].
+    Return the point in the world [m], its distance from the frustum's core [m], and the nearest part.
     """
     ax, ay, az = axis_in_world(a, first)
     cx, cy, cz = center_in_world(a, first)
@@ -46,7 +46,7 @@ def write_frustum_ball(
     write_part(out, SIDE_A, part, (ax, ay, az), (ex, ey, ez), radial, away - distance * radial)
     write_sweep(out, SIDE_A, first[SWEEP])
     write_round(out, SIDE_B, radius)
-    return x, y, z, distance
+    return x, y, z, distance, part
 
 
 def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, radius: float, x: float, y: float, z: float) -> None:

@@ -22,7 +22,7 @@ from ..features.writing import place_sphere
 from ..polyhedron.swept_swept import MOST_CONTACTS
 from .apex_swept import ApexSwept
 from .flank_edge import FlankEdge
-from .frustum import part_names, set_back
+from .frustum import HIGH_CAP, LOW_CAP, part_names, set_back
 from .frustum_sphere import write_frustum_ball
 from .frustum_writing import size_of_both
 from .rim_edge import RimEdge
@@ -43,8 +43,10 @@ def _evaluate(
     size: float,
 ) -> None:
     """Write the geometry block of a vertex, with a radius; parameters as the attributes of :class:`FrustumSwept`."""
-    x, y, z, distance = write_frustum_ball(a, b, out, first, radius, x, y, z)
-    past = past_star(b, star, n_star, distance, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2], size)
+    x, y, z, distance, part = write_frustum_ball(a, b, out, first, radius, x, y, z)
+    # over a flat cap, both ends of an edge touch however the edge leans
+    is_flat = part in (LOW_CAP, HIGH_CAP)
+    past = past_star(b, star, 0.0 if is_flat else n_star, distance, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2], size)
     gap, out[PAST_END] = ended_gap(out[GAP], past, size)
     place_sphere(a, out, x, y, z, gap + radius, radius)
 
@@ -72,7 +74,8 @@ class FrustumSwept(ContactKinematics):
     The vertex is a sphere with the radius of rounding, or a point.  The two bodies touch if the distance of their cores
     is the sum of their radii.  :meth:`between` also returns the other contacts of the two bodies: edges with side and
     rims, rims and feet with faces, and the apex, as a sphere.  The features of a contact never change.  A contact whose
-    features are not the nearest ones is open: its distance past the feature's boundary is positive.  Corners of meshes have these contacts, too (:class:`bodies.FrustumMesh`).
+    features are not the nearest ones is open: its distance past the feature's boundary is positive.  Corners of meshes
+    have these contacts, too (:class:`bodies.FrustumMesh`).
 
     Attributes
     ----------

@@ -75,9 +75,9 @@ def corners_over(
 ) -> int:
     """Append the corners of the surface in ``a`` that may soon touch a core in ``b``; return the number of candidates.
 
-    A corner touches only if none of its edges leads towards the nearest point of the core.  A corner is a candidate if
-    this can hold before the next search, until which the corner moves by at most ``reach`` [m] and the bodies turn by
-    at most ``turn`` [rad].
+    A corner touches over a face of the core, or if none of its edges leads towards the nearest point of the core.  A
+    corner is a candidate if this can hold before the next search, until which it moves by at most ``reach`` [m] and the
+    bodies turn by at most ``turn`` [rad].
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def corners_over(
             0.5 * (surface[at + 5] - surface[at + 2]),
         )
         x, y, z = seen_from(b, a, surface[at] + dx, surface[at + 1] + dy, surface[at + 2] + dz)
-        found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
+        found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
         if found[1] > sweep + reach + math.sqrt(dx * dx + dy * dy + dz * dz):
             node = int(surface[at + 6])
             continue
@@ -109,12 +109,13 @@ def corners_over(
                 continue
             c = int(surface[CORNERS]) + CORNER * corner
             x, y, z = seen_from(b, a, surface[c], surface[c + 1], surface[c + 2])
-            _, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
+            number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
             if distance > sweep + reach:
                 continue
             nx, ny, nz = vector_in_world(b, nx, ny, nz)
             nx, ny, nz = vector_in_body(a, nx, ny, nz)
-            if distance <= 0.0 or distance * steepest(surface, c, -nx, -ny, -nz) <= reach + turn * distance:
+            is_over_face = number < int(n_faces) or distance <= 0.0
+            if is_over_face or distance * steepest(surface, c, -nx, -ny, -nz) <= reach + turn * distance:
                 out[NORMAL + 3 * n], out[NORMAL + 1 + 3 * n], out[NORMAL + 2 + 3 * n] = kind, float(corner), 0.0
                 n += 1
         node += 1

@@ -39,7 +39,7 @@ def _evaluate(
 ) -> None:
     center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
     x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
-    number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z, 0.0)
+    number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(a, nx, ny, nz)
     off = distance - rounding
     out[GAP], out[FEATURE] = off - radius, number

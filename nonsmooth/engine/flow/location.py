@@ -13,6 +13,7 @@ from nonsmooth.engine.flow.crossing import asks_forces, closed_before, guard_at,
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
+    first_end_guard,
     first_user_guard,
     number_of_guards,
 )
@@ -108,8 +109,9 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
             if ws.guards[i].is_deflated:
                 ws.step.guard_slope = (ws.step.guard_slope - g) / (theta * h)
         # accept no root while the guard is as large as at the start: across a jump the slope is steep, so that
-        # Newton's estimate would be wrong
-        near = abs(g) <= -fine * ws.step.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i))
+        # Newton's estimate would be wrong; behind its jump, the distance to the end of features may be small
+        size = max(abs(g), left) if i >= first_end_guard(ws) else abs(g)
+        near = abs(g) <= -fine * ws.step.guard_slope and (size <= _NEARER * g_first or is_gap(ws, i))
         if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
             if left <= _JUMP * g_first or span * h > ws.tolerance.time or is_gap(ws, i):
