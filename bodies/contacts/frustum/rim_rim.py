@@ -185,7 +185,7 @@ def _evaluate(
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(lean, other))
-    elif crossing * max(crossing, abs(lean), abs(other)) <= REACH:
+    elif crossing * crossing <= REACH and crossing * max(abs(lean), abs(other)) <= PARALLEL:
         # nearly parallel rims have no exact normal; that of both sides is within their error
         past = max(past, size)
     # there is no minimum within this half of the rim, or Newton's method did not find it
