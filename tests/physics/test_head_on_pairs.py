@@ -31,6 +31,15 @@ def test_discs_in_almost_one_plane_meet_or_pass_each_other(axis: int, shift: tup
     assert wrong(rows) == []
 
 
+@pytest.mark.parametrize("name", ["capsule", "coin", "cylinder", "rounded cylinder"])
+@pytest.mark.parametrize("turn", [1e-6, 2e-6, 5e-6, 1e-5, 1e-2])
+def test_sides_that_are_nearly_parallel_meet(name: str, turn: float) -> None:
+    """In line or 1 mm aside. Next to parallel all along the sides touch, else one end after the other."""
+    worlds = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
+    rows = [Meeting(name, 0, (shift, 0.0), turn, world=world) for shift in (0.0, 1e-3) for world in worlds]
+    assert wrong(rows) == []
+
+
 @pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("name", EXACT)
 def test_speeds_are_as_exact_as_the_integration_of_the_impact(name: str) -> None:

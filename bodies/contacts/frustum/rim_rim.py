@@ -178,15 +178,16 @@ def _evaluate(
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = nx * wx + ny * wy + nz * wz
     past = past_border(-size, astray, size)
+    # sines of the angles between the normal and those of the sides
+    radial, axial = nx * ux + ny * uy + nz * uz, nx * ax + ny * ay + nz * az
+    lean = up_a * (first[COS] * axial - first[SIN] * radial) if first[SIDE] > 0.0 else size
+    other = -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)) if second[SIDE] > 0.0 else size
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
-        lean = size
-        if first[SIDE] > 0.0:
-            radial, axial = nx * ux + ny * uy + nz * uz, nx * ax + ny * ay + nz * az
-            lean = up_a * (first[COS] * axial - first[SIN] * radial)
-        if second[SIDE] > 0.0:
-            lean = min(lean, -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)))
-        past = max(past, _ASIDE * size - apart * lean)
+        past = max(past, _ASIDE * size - apart * min(lean, other))
+    elif crossing * crossing <= REACH and crossing * max(abs(lean), abs(other)) <= PARALLEL:
+        # nearly parallel rims have no exact normal; that of both sides is within their error
+        past = max(past, size)
     # there is no minimum within this half of the rim, or Newton's method did not find it
     none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= PARALLEL
     none = none or is_ring

@@ -64,10 +64,12 @@ def watch_pairs(ws: Workspace, h: float) -> None:
         pair.begin, pair.level = 0.0, pair.clearance
         if group.is_searched and not group.is_apart and budget(ws, pair) <= enough:
             pair.begin = _begin_of(ws, h, pair)
-            _evaluate(ws, h, 1.0, pair)
             group.is_watched = group.is_watched and pair.begin < 1.0
-            if pair.begin == 1.0 and budget(ws, pair) + pair.clearance > enough:
-                pair.begin = pair.level = 0.0
+            if pair.begin == 1.0 and pair.clearance > 0.0:
+                # within the clearance the parts themselves may touch, and are watched once they are apart
+                pair.level = 0.0
+                pair.begin = 0.0 if budget(ws, pair) + pair.clearance > enough else _begin_of(ws, h, pair)
+            _evaluate(ws, h, 1.0, pair)
 
 
 @entry_point("f8(ws, f8, f8)")
