@@ -71,7 +71,8 @@ def common_direction(
     has no faces.  It is zero if no face is next to the contact.
     """
     if n_faces_a > 0.0:
-        return _normal_near(a, n_faces_a, faces_a, x, y, z)
+        x, y, z = _normal_near(a, n_faces_a, faces_a, x, y, z)
+        return x, y, z
     x, y, z = _normal_near(b, n_faces_b, faces_b, -x, -y, -z)
     return -x, -y, -z
 
@@ -181,4 +182,4 @@ def crossing_past_corner(
     x, y, z = p[0] + gap * n[0] - bx, p[1] + gap * n[1] - by, p[2] + gap * n[2] - bz
     t = x * f[0] + y * f[1] + z * f[2] + gap * _triple(direction, n, e) / sine
     over_a, over_b = max(-s, s - edges_a[at_a + LENGTH]), max(-t, t - edges_b[at_b + LENGTH])
-    return max(over_a * abs(sine) - margin, over_b * abs(sine) + margin)
+    return float(max(over_a * abs(sine) - margin, over_b * abs(sine) + margin))

@@ -27,7 +27,8 @@ END = 3e-10
 """Distance from a vertex, along an edge, at which the contact of the edge ends; relative to the size of the bodies.
 
 The contact of the vertex ends at twice this distance.  Both contacts are valid between the two distances, so that a
-point that slides from the edge to the vertex always has a contact.
+point that slides from the edge to the vertex always has a contact.  Next to a face, the corners of the overlap decide
+(:mod:`bodies.contacts.features.overlap_corners`).
 """
 OPEN = 100.0
 """Gap of a contact that another contact replaces, over its distance past the end of an edge; large, so it is open."""
