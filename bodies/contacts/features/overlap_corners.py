@@ -1,9 +1,9 @@
-"""Which features of two rounded bodies touch where a face is next to a face: the corners of the overlap of the faces.
+"""Which features of two rounded bodies touch if they overlap with faces next to each other, as on springs.
 
 Two faces next to each other touch over the overlap of their outlines. Its corners are vertices of one body over the
 face of the other, and edges that cross. Each corner must be one contact, and it must stay one when the bodies tilt or
-shift. Otherwise the force of a spring jumps. So vertices and crossings are all projected along one direction, and one
-outline is slightly larger than given:
+shift. Otherwise the force of a spring jumps. The nearest features do not have this property. So vertices and crossings
+are all projected along one direction, and one outline is slightly larger than given:
 
 1. The direction is the normal of a face of the first body. If each feature were projected along a normal of its own, a
    tilt by an angle would move the projections by this angle times the distance of the cores. A corner would then be two
