@@ -1,9 +1,9 @@
-"""Which features of two rounded bodies touch where a face is next to a face: the corners of the overlap of the faces.
+"""Which features of two rounded bodies touch if they overlap with faces next to each other, as on springs.
 
 Two faces next to each other touch over the overlap of their outlines. Its corners are vertices of one body over the
 face of the other, and edges that cross. Each corner must be one contact, and it must stay one when the bodies tilt or
-shift. Otherwise the force of a spring jumps. So vertices and crossings are all projected along one direction, and one
-outline is slightly larger than given:
+shift. Otherwise the force of a spring jumps. The nearest features do not have this property. So vertices and crossings
+are all projected along one direction, and one outline is slightly larger than given:
 
 1. The direction is the normal of a face of the first body. If each feature were projected along a normal of its own, a
    tilt by an angle would move the projections by this angle times the distance of the cores. A corner would then be two
@@ -71,7 +71,8 @@ def common_direction(
     has no faces.  It is zero if no face is next to the contact.
     """
     if n_faces_a > 0.0:
-        return _normal_near(a, n_faces_a, faces_a, x, y, z)
+        x, y, z = _normal_near(a, n_faces_a, faces_a, x, y, z)
+        return x, y, z
     x, y, z = _normal_near(b, n_faces_b, faces_b, -x, -y, -z)
     return -x, -y, -z
 
@@ -181,4 +182,4 @@ def crossing_past_corner(
     x, y, z = p[0] + gap * n[0] - bx, p[1] + gap * n[1] - by, p[2] + gap * n[2] - bz
     t = x * f[0] + y * f[1] + z * f[2] + gap * _triple(direction, n, e) / sine
     over_a, over_b = max(-s, s - edges_a[at_a + LENGTH]), max(-t, t - edges_b[at_b + LENGTH])
-    return max(over_a * abs(sine) - margin, over_b * abs(sine) + margin)
+    return float(max(over_a * abs(sine) - margin, over_b * abs(sine) + margin))

@@ -20,14 +20,15 @@ from ...shapes.polytope import Point
 from .frames import point_in_world, vector_in_body, vector_in_world, write_tangent
 from .overlap_corners import common_direction, vertex_past_corner
 from .polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
-from .vertex_face import Nearest, nearest_feature
+from .vertex_face import CLOSED, Nearest, nearest_feature
 from .writing import write_flat, write_principal, write_round
 
 END = 3e-10
 """Distance from a vertex, along an edge, at which the contact of the edge ends; relative to the size of the bodies.
 
 The contact of the vertex ends at twice this distance.  Both contacts are valid between the two distances, so that a
-point that slides from the edge to the vertex always has a contact.
+point that slides from the edge to the vertex always has a contact.  If the bodies overlap next to a face,
+the corners of the overlap decide (:mod:`bodies.contacts.features.overlap_corners`).
 """
 OPEN = 100.0
 """Gap of a contact that another contact replaces, over its distance past the end of an edge; large, so it is open."""
@@ -140,17 +141,17 @@ def _evaluate(
     found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
     number, distance, _, _, _, within = found
-    past = -size
-    if 0.0 < distance <= radius + sweep + NEAR * size:
+    # over a face, both ends of an edge touch however the edge leans
+    past = past_star(own, star, n_star if number >= int(n_faces) else 0.0, distance, nx, ny, nz, size)
+    # bodies on springs overlap; without an overlap the nearest features touch
+    if 0.0 < distance < radius + sweep - CLOSED * size:
         # from the first body to the second
         sign = 1.0 - 2.0 * swap
         if swap == 1.0:
             u = common_direction(a, b, n_own_faces, own_faces, n_faces, faces, -nx, -ny, -nz)
         else:
             u = common_direction(a, b, n_faces, faces, n_own_faces, own_faces, nx, ny, nz)
-        if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] == 0.0:
-            past = past_star(own, star, n_star, distance, nx, ny, nz, size)
-        else:
+        if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
             u = sign * u[0], sign * u[1], sign * u[2]
             past, within = vertex_past_corner(
                 own, other, swap == 1.0, u, n_faces, faces, n_edges, edges, ends, n_star, star, x, y, z, size

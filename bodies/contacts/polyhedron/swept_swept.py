@@ -20,6 +20,7 @@ from ..features.frames import write_tangent
 from ..features.overlap_corners import common_direction, crossing_past_corner
 from ..features.polytope_tables import EDGE, ConvexCore
 from ..features.swept_vertex import END, SweptVertex, size_of
+from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
 from .convex_cores import cross_convex_edges
 
@@ -81,7 +82,9 @@ def _evaluate(
         past = found[6]
     elif past <= 0.0:
         past, u = over + END * size, common_direction(a, b, n_faces_a, faces_a, n_faces_b, faces_b, *n)
-        if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
+        # bodies on springs overlap; without an overlap the nearest features touch
+        is_deep = gap < radius_a + radius_b - CLOSED * size
+        if is_deep and u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
             past = crossing_past_corner(a, b, u, edges_a, at_a, edges_b, at_b, p, e, f, n, gap, size)
             # of edges that are almost parallel, a tilt moves the nearest points far past the ends
             past = max(past, over - ASTRAY * gap)
