@@ -21,7 +21,7 @@ from nonsmooth.engine.bodies.support import (
     farthest_of_first,
     farthest_of_second,
     is_of_one_part_each,
-    known_direction,
+    normal_of_either,
     separates,
 )
 from nonsmooth.engine.memory.blocks import FRAME
@@ -74,20 +74,22 @@ def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
     return ux + oy * z - oz * y, uy + oz * x - ox * z, uz + ox * y - oy * x
 
 
-@kernel("b1(ws, ContactRecord, f8)")
-def _opens_aside(ws: Workspace, contact: ContactRecord, near: float) -> bool:
+@kernel("b1(ws, ContactRecord, b1, f8)")
+def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: float) -> bool:
     """True if two convex shapes are apart, up to ``near`` [m], along another direction than the normal of a contact.
 
-    It is that of their pair, and they do not approach along it.
+    It is that of their pair, as a normal of the second or the first part, and they do not approach along it.
     """
     pair = ws.pairs[contact.pair]
-    n = known_direction(ws, pair)
+    n = normal_of_either(ws, pair, of_second)
     if not is_of_one_part_each(ws, pair.index) or are_alike(along_pair(pair, contact.normal), n):
         return False
     first, second = farthest_of_first(ws, pair.index, n), farthest_of_second(ws, pair.index, opposite(n))
     if dot(n, n) == 0.0 or dot(n, minus(second, first)) < -near - pair.clearance:
         return False
-    v = minus(velocity_of_point(ws.floats, pair.frame_b, second), velocity_of_point(ws.floats, pair.frame_a, first))
+    # the face is fixed to one part, and the point that is nearest to it moves with the other
+    point = first if of_second else second
+    v = minus(velocity_of_point(ws.floats, pair.frame_b, point), velocity_of_point(ws.floats, pair.frame_a, point))
     return dot(n, v) >= -ws.tolerance.velocity
 
 
@@ -105,8 +107,9 @@ def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
         velocity_of_point(ws.floats, contact.frame_b, contact.point_b),
         velocity_of_point(ws.floats, contact.frame_a, contact.point_a),
     )
-    approaches = dot(contact.normal, v) < -ws.tolerance.velocity
-    return not (approaches and not contact.is_compliant and _opens_aside(ws, contact, near))
+    if contact.is_compliant or dot(contact.normal, v) >= -ws.tolerance.velocity:
+        return True
+    return not (_opens_aside(ws, contact, False, near) or _opens_aside(ws, contact, True, near))
 
 
 @kernel("void(ws, i8)")
