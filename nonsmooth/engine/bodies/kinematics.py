@@ -21,7 +21,7 @@ from nonsmooth.engine.bodies.support import (
     farthest_of_first,
     farthest_of_second,
     is_of_one_part_each,
-    known_direction,
+    normal_of_either,
     separates,
 )
 from nonsmooth.engine.memory.blocks import FRAME
@@ -74,21 +74,23 @@ def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
     return ux + oy * z - oz * y, uy + oz * x - ox * z, uz + ox * y - oy * x
 
 
-@kernel("b1(ws, ContactRecord, f8)")
-def _opens_aside(ws: Workspace, contact: ContactRecord, near: float) -> bool:
+@kernel("b1(ws, ContactRecord, b1, f8)")
+def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: float) -> bool:
     """True if two convex shapes are apart, up to ``near`` [m], along another direction than the normal of a contact.
 
-    It is that of their pair, and they do not approach along it. Feet touch while the shapes are apart along any
-    direction, so nothing is known of shapes with feet.
+    It is that of their pair, as a normal of the second or the first part, and they do not approach along it. Feet touch
+    while the shapes are apart along any direction, so nothing is known of shapes with feet.
     """
     pair = ws.pairs[contact.pair]
-    n, has_feet = known_direction(ws, pair), pair.clearance > 0.0
+    n, has_feet = normal_of_either(ws, pair, of_second), pair.clearance > 0.0
     if has_feet or not is_of_one_part_each(ws, pair.index) or are_alike(along_pair(pair, contact.normal), n):
         return False
     first, second = farthest_of_first(ws, pair.index, n), farthest_of_second(ws, pair.index, opposite(n))
     if dot(n, n) == 0.0 or dot(n, minus(second, first)) < -near:
         return False
-    v = minus(velocity_of_point(ws.floats, pair.frame_b, second), velocity_of_point(ws.floats, pair.frame_a, first))
+    # the face is fixed to one part, and the point that is nearest to it moves with the other
+    point = first if of_second else second
+    v = minus(velocity_of_point(ws.floats, pair.frame_b, point), velocity_of_point(ws.floats, pair.frame_a, point))
     return dot(n, v) >= -ws.tolerance.velocity
 
 
@@ -106,8 +108,9 @@ def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
         velocity_of_point(ws.floats, contact.frame_b, contact.point_b),
         velocity_of_point(ws.floats, contact.frame_a, contact.point_a),
     )
-    approaches = dot(contact.normal, v) < -ws.tolerance.velocity
-    return not (approaches and _opens_aside(ws, contact, near))
+    if dot(contact.normal, v) >= -ws.tolerance.velocity:
+        return True
+    return not (_opens_aside(ws, contact, False, near) or _opens_aside(ws, contact, True, near))
 
 
 @kernel("void(ws, i8)")

@@ -13,7 +13,7 @@ from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import ALIKE, are_alike, distance, dot, minus
+from nonsmooth.engine.numerics.vectors import ALIKE, are_alike, distance
 
 
 @kernel("b1(ContactRecord, ContactRecord)")
@@ -42,15 +42,15 @@ def leave_out_coincident(ws: Workspace) -> None:
 def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
     """True if another contact takes part at the point of an open one, and approaches as fast within the tolerance.
 
-    Their points must move together. If a corner slides past an edge, two crossings of edges begin at its point. Shapes
-    that touch in a point or along an edge only have several normals there; then all contacts take part.
+    Their points must move together. If a corner slides past an edge, two crossings of edges begin at its point. In a
+    collision it does not matter where the points move, and several contacts at one point would count several times.
     """
-    slow, is_redundant = NEGLIGIBLE * ws.tolerance.velocity, False
+    slow, collides = NEGLIGIBLE * ws.tolerance.velocity, contact.normal_rate < -ws.tolerance.velocity
     for other in ws.contacts:
-        if not other.is_touching or other.pair != contact.pair or not coincide(contact, other):
-            continue
-        apart = minus(sliding_of(ws, contact), sliding_of(ws, other))
-        is_as_fast = other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
-        collides = contact.normal_rate < -ws.tolerance.velocity
-        is_redundant = is_redundant or (is_as_fast and (collides or dot(apart, apart) <= slow * slow))
-    return is_redundant
+        is_as_fast = other.is_touching and other.normal_rate <= contact.normal_rate + ws.tolerance.velocity
+        if is_as_fast and other.pair == contact.pair and coincide(contact, other):
+            if collides and other.mode == Mode.OPEN:
+                return True
+            if distance(sliding_of(ws, contact), sliding_of(ws, other)) <= slow:
+                return True
+    return False

@@ -149,8 +149,9 @@ def known_direction(ws: Workspace, pair: Pair) -> Vector:
 
 @kernel("void(ws, Pair, v3)")
 def store_direction(ws: Workspace, pair: Pair, n: Vector) -> None:
-    """Store a unit vector ``n`` of the world as the direction of a pair, along the axes of the first frame."""
+    """Store a unit vector ``n`` of the world as the direction of a pair, along the axes of either frame."""
     pair.direction = turned_back(frame_at(ws.floats, pair.frame_a).rotation, n)
+    pair.facing = turned_back(frame_at(ws.floats, pair.frame_b).rotation, n)
 
 
 @kernel("v3(ws, i8, v3)")
@@ -202,6 +203,17 @@ def along_pair(pair: Pair, n: Vector) -> Vector:
     return opposite(n) if pair.is_swapped else n
 
 
+@kernel("v3(ws, Pair, b1)")
+def normal_of_either(ws: Workspace, pair: Pair, of_second: bool) -> Vector:
+    """Direction of a pair in the world, that was stored as a normal of its second or its first part; zero if unknown.
+
+    The normal of a face turns with the part that has the face.
+    """
+    if of_second:
+        return turned(frame_at(ws.floats, pair.frame_b).rotation, pair.facing)
+    return known_direction(ws, pair)
+
+
 @kernel("b1(ws, i8, v3, f8)")
 def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     """True if two convex shapes are as far apart along ``n`` as along the direction of their pair, up to ``near`` [m].
@@ -211,10 +223,12 @@ def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     pair that is not guarded, and of shapes that overlap, as on springs.
     """
     pair = ws.pairs[number]
-    known = known_direction(ws, pair)
-    if not is_of_one_part_each(ws, number) or dot(known, known) == 0.0:
+    first, second = normal_of_either(ws, pair, False), normal_of_either(ws, pair, True)
+    if not is_of_one_part_each(ws, number) or dot(first, first) == 0.0:
         return True
-    largest = separation_along(ws, number, known)
+    largest, of_second = separation_along(ws, number, first), separation_along(ws, number, second)
+    known = second if of_second > largest else first
+    largest = max(largest, of_second)
     # feet may extend beyond the parts by the clearance
     allowed = near + pair.clearance
     if largest < -allowed:

@@ -124,12 +124,12 @@ def _renewed_gap(ws: Workspace, h: float, theta: float, pair: Pair) -> float:
 @kernel("void(ws, f8, f8, Pair)")
 def _measure_drift(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
     """Measure the rate of the direction of a pair, which was searched at the fraction ``theta`` of the step."""
-    n, speed = pair.direction, speed_of(ws, pair)
+    n, facing, speed = pair.direction, pair.facing, speed_of(ws, pair)
     later = min(theta + _LITTLE * pair.size / (speed * h), 1.0) if speed > 0.0 else theta
     if later > theta:
         _renewed_gap(ws, h, later, pair)
         span, change = (later - theta) * h, minus(pair.direction, n)
-        pair.direction, pair.searched = n, theta * h
+        pair.direction, pair.facing, pair.searched = n, facing, theta * h
         if dot(change, change) <= _JUMP * _JUMP:
             pair.drift = scaled(1.0 / span, change)
 
