@@ -78,6 +78,15 @@ def common_direction(
 
 
 @compiled
+def part_of_overlap(depth: float, size: float) -> float:
+    """Return by which part the corners of the overlap decide, from 0 without a depth [m] to 1 at the margin.
+
+    Rigid bodies touch with their nearest features.  The part is continuous, so that the ends of features have roots.
+    """
+    return min(max(depth / (CLOSED * size), 0.0), 1.0)
+
+
+@compiled
 def vertex_past_corner(
     own: Floats,
     other: Floats,

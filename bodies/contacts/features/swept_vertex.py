@@ -18,9 +18,9 @@ from ...blocks import put
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Point
 from .frames import point_in_world, vector_in_body, vector_in_world, write_tangent
-from .overlap_corners import common_direction, vertex_past_corner
+from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
 from .polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
-from .vertex_face import CLOSED, Nearest, nearest_feature
+from .vertex_face import Nearest, nearest_feature
 from .writing import write_flat, write_principal, write_round
 
 END = 3e-10
@@ -144,7 +144,8 @@ def _evaluate(
     # over a face, both ends of an edge touch however the edge leans
     past = past_star(own, star, n_star if number >= int(n_faces) else 0.0, distance, nx, ny, nz, size)
     # bodies on springs overlap; without an overlap the nearest features touch
-    if 0.0 < distance < radius + sweep - CLOSED * size:
+    part = part_of_overlap(radius + sweep - distance, size)
+    if distance > 0.0 and part > 0.0:
         # from the first body to the second
         sign = 1.0 - 2.0 * swap
         if swap == 1.0:
@@ -153,9 +154,10 @@ def _evaluate(
             u = common_direction(a, b, n_faces, faces, n_own_faces, own_faces, nx, ny, nz)
         if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
             u = sign * u[0], sign * u[1], sign * u[2]
-            past, within = vertex_past_corner(
+            beyond, within = vertex_past_corner(
                 own, other, swap == 1.0, u, n_faces, faces, n_edges, edges, ends, n_star, star, x, y, z, size
             )
+            past = (1.0 - part) * past + part * beyond
     found = number, distance, found[2], found[3], found[4], within
     write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
 

@@ -17,10 +17,9 @@ from ...shapes.polyhedron import SweptPolytope
 from ..features.bounds import edges_bound
 from ..features.edge_crossing import ASTRAY, PARALLEL, cross_edges
 from ..features.frames import write_tangent
-from ..features.overlap_corners import common_direction, crossing_past_corner
+from ..features.overlap_corners import common_direction, crossing_past_corner, part_of_overlap
 from ..features.polytope_tables import EDGE, ConvexCore
 from ..features.swept_vertex import END, SweptVertex, size_of
-from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
 from .convex_cores import cross_convex_edges
 
@@ -83,11 +82,11 @@ def _evaluate(
     elif past <= 0.0:
         past, u = over + END * size, common_direction(a, b, n_faces_a, faces_a, n_faces_b, faces_b, *n)
         # bodies on springs overlap; without an overlap the nearest features touch
-        is_deep = gap < radius_a + radius_b - CLOSED * size
-        if is_deep and u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
-            past = crossing_past_corner(a, b, u, edges_a, at_a, edges_b, at_b, p, e, f, n, gap, size)
+        part = part_of_overlap(radius_a + radius_b - gap, size)
+        if part > 0.0 and u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
+            beyond = crossing_past_corner(a, b, u, edges_a, at_a, edges_b, at_b, p, e, f, n, gap, size)
             # of edges that are almost parallel, a tilt moves the nearest points far past the ends
-            past = max(past, over - ASTRAY * gap)
+            past = (1.0 - part) * past + part * max(beyond, over - ASTRAY * gap)
     gap -= radius_a + radius_b
     if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
