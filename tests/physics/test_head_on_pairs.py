@@ -10,8 +10,7 @@ from tests.physics.head_on import FINE, central_of, drawn_of, wrong
 from tests.physics.test_head_on import NAMES as OTHERS
 
 NAMES = [name for name in PAIRS if name not in (*OTHERS, "hollow mesh")]
-_INEXACT = ("prism of 6", "prism of 8")
-EXACT = [name for name in NAMES if PAIRS[name].central and name not in _INEXACT]
+EXACT = [name for name in NAMES if PAIRS[name].central]
 """Pairs whose speeds are as exact as the tolerances, in line and turned by any angle."""
 
 

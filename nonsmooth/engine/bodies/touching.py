@@ -67,14 +67,15 @@ def _leave_out_blocked(ws: Workspace) -> None:
 def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
     """True if the shapes of a contact are apart along the normal of another one, and do not approach along it.
 
-    Stores that direction as the one of their pair.
+    If they are apart by more than the gap tolerance, they may approach. Stores that direction as the one of their pair.
     """
     pair, near = ws.pairs[contact.pair], ADJACENT * ws.tolerance.gap
     for other in ws.contacts:
-        if other.pair != contact.pair or not other.is_touching or are_alike(contact.normal, other.normal):
+        if other.pair != contact.pair or other.past_feature > 0.0 or are_alike(contact.normal, other.normal):
             continue
         along = along_pair(pair, other.normal)
-        if not _closes_along(ws, other) and separation_along(ws, pair.index, along) >= -near - pair.clearance:
+        apart = separation_along(ws, pair.index, along) - pair.clearance
+        if apart > ws.tolerance.gap or (apart >= -near - 2.0 * pair.clearance and not _closes_along(ws, other)):
             store_direction(ws, pair, along)
             return True
     return False
