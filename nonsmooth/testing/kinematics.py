@@ -251,8 +251,11 @@ def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
 
 @_AT_PLACES.claim(GIVEN)
 def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
-    """The vector between the witness points is the gap times the normal."""
+    """The vector between the witness points is the gap times the normal, unless they are past the end of a feature."""
     block = at.put().geometry
+    # past an end the engine takes another length for a gap below zero
+    if block[blocks.PAST_END] > 0.0:
+        return ""
     gap, n = block[blocks.GAP], block[_NORMAL]
     apart = block[blocks.POINT_B : blocks.SIDE_A] - block[blocks.POINT_A : blocks.POINT_B]
     if np.max(np.abs(apart - gap * n)) > 1e-9 * (at.reach + abs(gap)):

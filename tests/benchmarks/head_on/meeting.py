@@ -35,8 +35,8 @@ SPEEDS = (0.1, 1.0, 10.0)
 """Speeds of the first body [m/s]."""
 SPEED, TIME, DEPTH, MOMENTUM = 1e-7, 1e-12, 1e-9, 1e-10
 """Error of a speed relative to that of the first body, of a time [s], deepest overlap [m], error of the momentum."""
-CLOSED = 1e-8
-"""Clearance up to which bodies may collide [m]: features reach out by 1e-7 of the size of the bodies."""
+EDGES = 1e-8
+"""Clearance up to which the edges of discs without thickness may collide [m]: 1e-7 of their size."""
 LEAST = 1e-9
 """Velocity after a collision, relative to the speed before: the normal of rims that cross may be next to across."""
 MARKS = {".": "right", "X": "passed", "F": "failed", "~": "wrong speed"}
@@ -186,6 +186,12 @@ class Placed:
         return any(len(passed(a, b, poses)) for a in self.pieces[0] for b in self.pieces[1])  # type: ignore[arg-type]
 
 
+def _is_flat(pieces: list[Piece]) -> bool:
+    """Return whether a body has no thickness along one of its axes."""
+    widths = [farthest(piece, way) + farthest(piece, -way) for piece in pieces for way in np.eye(3)]
+    return min(widths) == 0.0
+
+
 def _thickness(placed: Placed) -> float:
     """Return the least width of a piece along the line [m], at least a millimetre."""
     axes = [rotations(np.array([turn]))[0].T @ placed.way for turn in placed.turns]
@@ -214,7 +220,7 @@ def _judged(placed: Placed, solution: ns.Solution, accuracy: float) -> tuple[str
     if clearance > DEPTH:
         if float(np.abs(two).max()) <= SPEED * v:
             return ".", "", gained
-        if clearance > CLOSED:
+        if clearance > EDGES or not all(map(_is_flat, placed.pieces)):
             return "~", f"they pass each other {clearance:.2g} m apart", gained
     is_moved = float(np.abs(two).max()) > LEAST * v
     collides = placed.collides
