@@ -234,8 +234,9 @@ def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     if largest < -allowed:
         return True
     along = along_pair(pair, n)
-    # round-off of the normal of flush faces lets them overlap by more than the gap tolerance
-    least = -2.0 * allowed if are_alike(along, known) else largest - ws.tolerance.gap - pair.clearance
+    # round-off of the normal of flush faces lets them overlap by more than the gap tolerance, and feet are no parts
+    is_exact = pair.clearance == 0.0 and not are_alike(along, known)
+    least = largest - ws.tolerance.gap if is_exact else -2.0 * allowed
     return largest <= allowed and separation_along(ws, number, along) >= least
 
 

@@ -56,7 +56,9 @@ def _leave_out_blocked(ws: Workspace) -> None:
     for contact in ws.contacts:
         is_rigid = contact.is_touching and contact.mode == Mode.OPEN and not contact.is_compliant
         collides = is_rigid and contact.normal_rate < -ws.tolerance.velocity
-        if collides and contact.pair != NO_PAIR and is_of_one_part_each(ws, contact.pair) and _is_blocked(ws, contact):
+        is_of_parts = collides and contact.pair != NO_PAIR and is_of_one_part_each(ws, contact.pair)
+        # feet extend beyond the parts, so these do not decide
+        if is_of_parts and ws.pairs[contact.pair].clearance == 0.0 and _is_blocked(ws, contact):
             # it is evaluated anew, as the direction of its pair has changed
             contact.version_a = NOT_EVALUATED
             evaluate_kinematics(ws, contact.index)
@@ -74,8 +76,8 @@ def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
         if other.pair != contact.pair or other.past_feature > 0.0 or are_alike(contact.normal, other.normal):
             continue
         along = along_pair(pair, other.normal)
-        apart = separation_along(ws, pair.index, along) - pair.clearance
-        if apart > ws.tolerance.gap or (apart >= -near - 2.0 * pair.clearance and not _closes_along(ws, other)):
+        apart = separation_along(ws, pair.index, along)
+        if apart > ws.tolerance.gap or (apart >= -near and not _closes_along(ws, other)):
             store_direction(ws, pair, along)
             return True
     return False
