@@ -11,7 +11,8 @@ from bodies import BoxBody, DrivenBody, HullBody, Rest
 from bodies.free import FreeBody
 from bodies.shapes.box import Box
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from tests.benchmarks.head_on.meeting import UPRIGHT, Meeting
+from tests.benchmarks.head_on.meeting import Meeting
+from tests.benchmarks.random_systems.families.aligned import UPRIGHT
 from tests.physics.head_on import FINE, wrong
 
 TURNS = (0.0, 1e-15, 1e-13, 1e-12, 1e-11, 3e-11, 1e-10, 1e-9, 1e-8, 9e-8, 1.1e-7, 1e-6, 1e-4, 1e-2)

@@ -85,9 +85,6 @@ def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: f
     n, has_feet = normal_of_either(ws, pair, of_second), pair.clearance > 0.0
     if has_feet or not is_of_one_part_each(ws, pair.index) or are_alike(along_pair(pair, contact.normal), n):
         return False
-    # feet extend beyond the parts, so these do not decide
-    if pair.clearance > 0.0:
-        return False
     first, second = farthest_of_first(ws, pair.index, n), farthest_of_second(ws, pair.index, opposite(n))
     if dot(n, n) == 0.0 or dot(n, minus(second, first)) < -near:
         return False
