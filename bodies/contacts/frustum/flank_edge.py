@@ -17,7 +17,7 @@ from ...shapes.polyhedron import SweptPolytope
 from ..features.polytope_tables import LENGTH, ConvexCore, Numbers, edge_rows
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
-from .frustum import FLANK, center_in_world, set_back, write_part
+from .frustum import FLANK, center_in_world, seen_by, write_part
 from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
@@ -119,7 +119,7 @@ class FlankEdge(ContactKinematics):
         """Return one contact for each edge; empty for a disc, which has no side."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        numbers = set_back(first)
+        numbers = seen_by(first, second.core)
         if numbers[SIDE] == 0.0:
             return ()
         size, core, rows = size_of_both(first, second), ConvexCore.of(second.core), enumerate(edge_rows(second.core))

@@ -16,7 +16,8 @@ from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 from ...blocks import Vector3
-from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
+from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers, without_feet
+from ...shapes.polytope import Polytope
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE
@@ -263,6 +264,14 @@ def set_back(first: Frustum) -> Numbers:
     return frustum_numbers(
         [radius for radius, _ in rims], heights, (x, y, z), (axis[0], axis[1], axis[2]), 0.0, own[SWEEP]
     )
+
+
+def seen_by(first: Frustum, core: Polytope) -> Numbers:
+    """Return the numbers of a frustum for the contacts with a core: set back by the feet if the core has faces.
+
+    A face lies on the feet, so the rest of the body must not touch first. A line has no face, and ignores the feet.
+    """
+    return set_back(first) if core.faces else without_feet(first.frustum)
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:

@@ -30,7 +30,7 @@ from .frustum import (
     least_over,
     part_names,
     part_number,
-    set_back,
+    seen_by,
     tip_past_rim,
     write_part,
 )
@@ -166,7 +166,7 @@ class FrustumPolyhedron(ContactKinematics):
         core, size = second.core, size_of_both(first, second)
         check_number(len(core.edges))
         vertices, faces = vertex_table(core), face_table(core)
-        numbers = set_back(first)
+        numbers = seen_by(first, second.core)
         own = (
             cls(numbers, vertices, i, star_of(core, i), star_lengths(core, i), faces, size)
             for i in range(len(vertices) // 3)

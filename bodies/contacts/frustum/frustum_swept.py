@@ -22,7 +22,7 @@ from ..features.writing import place_sphere
 from ..polyhedron.swept_swept import MOST_CONTACTS
 from .apex_swept import ApexSwept
 from .flank_edge import FlankEdge
-from .frustum import HIGH_CAP, LOW_CAP, part_names, set_back
+from .frustum import HIGH_CAP, LOW_CAP, part_names, seen_by
 from .frustum_sphere import write_frustum_ball
 from .frustum_writing import size_of_both
 from .rim_edge import RimEdge
@@ -107,7 +107,7 @@ class FrustumSwept(ContactKinematics):
         """Return the contacts of all vertices, of all edges with side and rims, and of rims, feet and apex."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        core, size, numbers = second.core, size_of_both(first, second), set_back(first)
+        core, size, numbers = second.core, size_of_both(first, second), seen_by(first, second.core)
         check_number(len(core.edges))
         vertices = (
             cls(numbers, second.sweep, place, star_of(core, i), size, f"vertex {i}")

@@ -22,7 +22,7 @@ from ...shapes.polyhedron import SweptPolytope
 from ..features.polytope_tables import LENGTH, ConvexCore, Numbers, edge_rows
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
-from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back, write_part
+from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, seen_by, write_part
 from .frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
@@ -211,7 +211,7 @@ class RimEdge(ContactKinematics):
         """Return the contacts of both halves of each rim with each edge."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        numbers, core, size = set_back(first), ConvexCore.of(second.core), size_of_both(first, second)
+        numbers, core, size = seen_by(first, second.core), ConvexCore.of(second.core), size_of_both(first, second)
         return tuple(
             contact
             for i, row in enumerate(edge_rows(second.core))

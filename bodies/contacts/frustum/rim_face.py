@@ -21,7 +21,7 @@ from ..features.frames import across, point_in_world, vector_in_body, vector_in_
 from ..features.polytope_tables import FACE, Numbers, face_table
 from ..features.vertex_face import REACH, past_face, plane_height
 from ..features.writing import write_flat, write_round
-from .frustum import axis_in_world, center_in_world, least_height, separation_over_faces, set_back
+from .frustum import axis_in_world, center_in_world, least_height, seen_by, separation_over_faces
 from .frustum_writing import size_of_both
 
 
@@ -173,7 +173,7 @@ class RimFace(ContactKinematics):
         """Return the contacts of all rims and feet, and of the apex of two sharp bodies; a segment has no faces."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SweptPolytope)
-        numbers, faces, size = set_back(first), face_table(second.core), size_of_both(first, second)
+        numbers, faces, size = seen_by(first, second.core), face_table(second.core), size_of_both(first, second)
         if not faces:
             return ()
         named = [(*rim, f"rim {i}") for i, rim in enumerate(first.standing_rims) if rim[0] > 0.0]
