@@ -57,13 +57,16 @@ class Pressed:
         behind = min(float(self.place @ way) - farthest(piece, -other.T @ way) for piece in second)
         return behind - max(farthest(piece, one.T @ way) for piece in first)
 
-    def contacts(self) -> Listed:
-        """Return the contacts on the neighbour list, as of the second body against the first."""
+    def contacts(self, of_all: bool = True) -> Listed:
+        """Return the contacts on the neighbour list, as of the second body against the first.
+
+        ``of_all`` is False for the list of a run, which leaves out the contacts that cannot close soon.
+        """
         system = ns.System(list(self.bodies), gravity=0.0)
         system.contact(*self.bodies, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.5))
         system.place(self.bodies[0], orientation=self.turns[0])
         system.place(self.bodies[1], position=tuple(self.place), orientation=self.turns[1])
-        found = listed(system)
+        found = listed(system, of_all)
         swapped = found.bodies[:, :1] == 1
         points = np.where(swapped, found.second, found.first), np.where(swapped, found.first, found.second)
         normal = np.where(swapped, -found.normal, found.normal)
