@@ -43,7 +43,7 @@ from nonsmooth.engine.numerics.tolerances import ADJACENT
 from nonsmooth.engine.numerics.vectors import Pair, Vector, are_alike, cross, dot, length, minus, opposite, scaled
 
 NOT_EVALUATED = -1
-"""Version of its bodies that a contact has which was never evaluated. No body has this version."""
+"""Version of the bodies that is stored for a contact that must be evaluated. No body has this version."""
 
 
 @result
@@ -124,8 +124,8 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
 
     - Open contact with a negative gap: ``overlap`` becomes the gap, and the gap becomes a positive substitute, the
       hypotenuse of gap and ``past_feature``. So this contact does not act. In all other cases ``overlap`` is zero.
-    - Closed contact: it keeps its gap until the event in which another contact replaces it. So its force does not jump
-      within a step.
+    - Closed contact: the gap stays as the geometry function wrote it, until the event in which another contact replaces
+      this one. If the function keeps negative gaps past the end, the force does not jump within a step.
 
     An open rigid contact that is near but cannot close gets a positive substitute, too.
     """
