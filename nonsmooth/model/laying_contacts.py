@@ -1,7 +1,8 @@
 """Writes contacts and their laws into the memory.
 
-Contacts with the same geometry and laws form a kind. Functions are compiled and parameters read once for each kind.
-Its contacts share all numbers that nothing writes.
+Contacts with the same geometry and laws form a kind. Its contacts share all numbers that no run changes. Kinematics are
+compiled and their parameters are read once for each kind. The laws are the same for all kinds of a row of contacts, so
+they are compiled and read once for each group of equal rows.
 """
 
 from __future__ import annotations
@@ -80,14 +81,15 @@ class Block:
 
 @dataclass
 class Kind:
-    """Fields and block of the kinematics of a contact, or of its laws: the same for all contacts of a kind.
+    """Fields and block of the kinematics of a kind of contacts, or of its laws.
 
     Attributes
     ----------
     fields : dict
         Fields of the record of the kind, by their declarations in the record of active contacts.
     block : Block
-        Parameters. Those of kinematics are written by a search for features only. Laws have outputs, too.
+        Parameters, and the outputs of laws. Of the parameters of kinematics, a run writes only the features that a
+        search finds.
     """
 
     fields: dict[Any, float] = field(default_factory=dict)
@@ -135,10 +137,11 @@ def write_fields(memory: Memory, kinds: slice, fields: Mapping[Any, Any]) -> Non
 def _lay_block(
     memory: Memory, blocks: Heap, block: Block, kinds: slice, n_rows: int, stride: Any, start: int | None = None
 ) -> int:
-    """Write the block of some kinds, once if nothing writes it, else for each of the ``n_rows`` contacts of each kind.
+    """Write the block of some kinds, and return the offset of its first copy.
 
-    The copies follow one another; their distance becomes the field ``stride`` of the kinds. The result is the offset of
-    the first. A block that is already at the offset ``start`` is not written again.
+    A block that no run changes is written once, for all kinds. Any other block is written for each kind and each of its
+    ``n_rows`` contacts. The copies follow one another. Their distance becomes the field ``stride`` of the kinds. If the
+    block is already at the offset ``start``, it is not written again.
     """
     n_kinds = kinds.stop - kinds.start
     copies, size = (n_rows, len(block.numbers)) if block.written else (1, 0)
@@ -211,7 +214,8 @@ def initial_state(law: Any) -> tuple[float, ...]:
 def _geometry_of(contact: Contact, tried: set[tuple[Any, ...]]) -> Kind:
     """Compile the kinematics of a contact, and collect the fields and the block of its kind.
 
-    A function with tables takes long to try out. ``tried`` holds those tried so far, and gets the new ones.
+    A function with large tables takes long to try out, so each function is tried out once with the same tables.
+    ``tried`` holds the functions and tables that were tried out, and this function adds to it.
     """
     made, kinematics = Kind(), contact.kinematics
     part = LawFunction(
@@ -223,7 +227,6 @@ def _geometry_of(contact: Contact, tried: set[tuple[Any, ...]]) -> Kind:
     # the parameters, with nothing in place of tables: the memory holds each table once, and a reference to it here
     without_tables, owner = {**available, **dict.fromkeys(tables, ())}, _owner_of(part, contact)
     made.fields[part.address], values = bind(part.function, part.form, without_tables, owner)
-    # geometry with large tables is slow to try out: once for the same function and tables
     key = part.function, *map(id, tables.values())
     if not tables:
         _try_function(contact, part, values)
@@ -245,7 +248,7 @@ def _geometry_of(contact: Contact, tried: set[tuple[Any, ...]]) -> Kind:
 
 
 def laws_of(memory: Memory, contact: Contact) -> Kind:
-    """Compile the laws of a contact, and collect the fields and the block of its kind.
+    """Compile the laws of a contact, and collect their fields and their block.
 
     The address of an impact map is written into the memory, because all contacts share it.
     """
@@ -275,14 +278,14 @@ def laws_of(memory: Memory, contact: Contact) -> Kind:
 
 
 def _owner_of(part: LawFunction, contact: Contact) -> str:
-    """Law or kinematics of a function, and its contact, for messages."""
+    """Name of the law or kinematics that a function belongs to, and its contact, for messages."""
     return f"{type(part.law).__name__} ({contact})"
 
 
 def _add_law(made: Kind, contact: Contact, part: LawFunction) -> None:
     """Compile a function of a law, try it out, and add its address and parameters to a kind.
 
-    Inner states that a coefficient reads are marked as written.
+    Inner states that a coefficient of friction reads are marked as numbers that a run writes.
     """
     function, form, law = part.function, part.form, part.law
     available = law.parameters()

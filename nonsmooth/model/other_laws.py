@@ -58,7 +58,7 @@ def lay_laws(model: LaidOut, system: System, engine: Engine) -> LaidOut:
 
 
 def _overwrite(memory: Memory, kinds: slice, laws: Kind, n_rows: int) -> None:
-    """Write fields and parameters of laws in place of those of some kinds."""
+    """Overwrite the fields and parameters of the laws of some kinds, each with ``n_rows`` contacts."""
     write_fields(memory, kinds, laws.fields)
     numbers = laws.block.numbers
     # any field with an offset in the block shows where this block begins

@@ -253,7 +253,7 @@ def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
 def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
     """The vector between the witness points is the gap times the normal, unless they are past the end of a feature."""
     block = at.put().geometry
-    # past an end the engine takes another length for a gap below zero
+    # past an end the gap may be a substitute, hypot(gap, distance past the end)
     if block[blocks.PAST_END] > 0.0:
         return ""
     gap, n = block[blocks.GAP], block[_NORMAL]

@@ -298,9 +298,10 @@ def test_tangents_follow_the_normal_without_a_jump(build: Any) -> None:
 
 @pytest.mark.parametrize("shape", [Disc(0.3), Cylinder(0.3, 0.2, z=0.2)], ids=["disc", "cylinder"])
 def test_a_nearly_flat_rim_loses_no_digits(build: Any, shape: Shape) -> None:
-    """The lowest point of a rim tilted by 1e-20 to 1e-1, on planes and discs turned together in any way.
+    """The gap of a rim that is tilted by 1e-20 to 1e-1 rad over a plane, in any orientation of both.
 
-    A rim that does not turn, with the same spin as the plane, has a crown of the sine 1e-9 within its face.
+    A rim that turns relative to the plane touches at its lowest point. A rim that does not turn touches as a crown at
+    tilts below 1e-9 rad.
     """
     rig = Rig((Plane(), shape), build.laws())
     rng = np.random.default_rng(5)

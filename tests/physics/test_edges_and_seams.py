@@ -16,11 +16,11 @@ from tests.benchmarks.random_systems.families.aligned import UPRIGHT
 from tests.physics.head_on import FINE, wrong
 
 TURNS = (0.0, 1e-15, 1e-13, 1e-12, 1e-11, 3e-11, 1e-10, 1e-9, 1e-8, 9e-8, 1.1e-7, 1e-6, 1e-4, 1e-2)
-"""Angles between two edges [rad]: on either side of those at which their ends are apart by a tolerance."""
+"""Angles between two edges [rad], below and above those up to which the edges count as parallel."""
 ASLANT = (0.48, -0.6, 0.64, 0.0)
-"""Orientation of the world in which every coordinate has round-off."""
+"""Quaternion of a rotation of both bodies that gives every coordinate round-off."""
 START, FAR = -0.3, 0.6
-"""Place of a body before the seam, and the distance that it slides [m]."""
+"""Coordinate x at which a body starts, before the seam at x = 0, and the distance that it slides [m]."""
 
 
 @pytest.mark.fast_cases(4)
@@ -32,19 +32,19 @@ START, FAR = -0.3, 0.6
 def test_edge_on_edge_is_central_at_any_angle(
     name: str, axis: int, parallel: float, world: tuple[float, float, float, float]
 ) -> None:
-    """Parallel edges touch at both ends, others where they cross, which is at the line of the centres."""
+    """Parallel edges touch at both ends. Other edges touch where they cross, on the line of centres."""
     meetings = [Meeting(name, axis, turn=parallel + turn, world=world) for turn in TURNS]
     assert wrong(meetings, engine=FINE, accuracy=1e-9) == []
 
 
 def _prism() -> FreeBody:
-    """Return a prism of six sides that stands on its base."""
+    """Return a hexagonal prism that stands on its base."""
     angles = [math.pi * k / 3.0 for k in range(6)]
     return HullBody([(0.05 * math.cos(a), 0.05 * math.sin(a), z) for a in angles for z in (-0.03, 0.03)])
 
 
 def _slide(body: FreeBody, height: float, speed: float, yaw: float = 0.0, friction: float = 0.0, step: float = 0.0):  # type: ignore[no-untyped-def]
-    """Let a body slide from one box over the seam to another one, whose top is higher by ``step`` [m]."""
+    """Let a body slide from one box to another, whose top is higher by ``step`` [m]; return its states over time."""
     floors = [
         DrivenBody(Rest(position=(x, 0.0, z - 0.1)), (Box(0.5, 1.0, 0.1),)) for x, z in ((-0.5, 0.0), (0.5, step))
     ]
@@ -63,9 +63,9 @@ def _slide(body: FreeBody, height: float, speed: float, yaw: float = 0.0, fricti
 @pytest.mark.parametrize("name", ["box", "prism"])
 @pytest.mark.filterwarnings("ignore:.*usual range")
 def test_a_flush_seam_stops_nothing(name: str, speed: float, yaw: float) -> None:
-    """With friction and without, the body slides as on one plane."""
+    """The body slides over the seam as on one plane, with and without friction."""
     for part in (0.0, 0.5):
-        # friction takes half of the kinetic energy; with a larger coefficient the body would tip
+        # with friction, the body loses half of its kinetic energy; a coefficient above 0.1 would tip it
         friction = min(0.1, part * 0.5 * speed**2 / (9.81 * FAR))
         body, height = (BoxBody(0.1, 0.05, 0.02), 0.02) if name == "box" else (_prism(), 0.03)
         q, u = _slide(body, height, speed, yaw, friction)
@@ -78,7 +78,7 @@ def test_a_flush_seam_stops_nothing(name: str, speed: float, yaw: float) -> None
 @pytest.mark.parametrize("speed", [0.1, 2.0])
 @pytest.mark.parametrize("step", [1e-12, 5e-12, 1e-11, 1e-9, 1e-6])
 def test_a_lower_neighbour_is_no_obstacle(step: float, speed: float) -> None:
-    """The body slides over the step down, and tips by the step over its length."""
+    """The body slides over a step down, and keeps its speed."""
     q, u = _slide(BoxBody(0.1, 0.05, 0.02), 0.02, speed, step=-step)
     assert u[-1][0] == pytest.approx(speed, rel=1e-3)
     assert q[-1][0] == pytest.approx(START + FAR, abs=1e-3)
@@ -86,6 +86,6 @@ def test_a_lower_neighbour_is_no_obstacle(step: float, speed: float) -> None:
 
 @pytest.mark.parametrize("step", [1e-9, 1e-6])
 def test_a_higher_neighbour_is_one(step: float) -> None:
-    """Rigid bodies bounce off a step up, however low it is."""
+    """A rigid body bounces off a step up of 1 nm or 1 um."""
     q, _ = _slide(BoxBody(0.1, 0.05, 0.02), 0.02, 1.0, step=step)
     assert q[-1][0] < -0.1

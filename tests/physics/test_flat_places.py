@@ -65,6 +65,10 @@ SIZES = (2e-4, 0.02, 0.2)
 
 
 def _leaning(radius: float, lean: float, turning: float = 0.0) -> tuple[CylinderBody, ns.System]:
+    """Return a cylinder without feet that touches a plate, tilted by ``lean`` [rad], and its system.
+
+    ``turning`` is its angular velocity about the axis of the tilt [rad/s].
+    """
     body = CylinderBody(radius, 0.5 * radius, density=1000.0, foot_height=0.0)
     system = _on_a_plate(body, Frictionless(), PlasticImpact())
     turn = np.roll(Rotation.from_rotvec([0.0, lean, 0.0]).as_quat(), 1)
@@ -76,7 +80,7 @@ def _leaning(radius: float, lean: float, turning: float = 0.0) -> tuple[Cylinder
 @pytest.mark.parametrize("radius", SIZES)
 @pytest.mark.parametrize("lean", [3e-10, 2e-9, 1e-8, 1e-6])
 def test_a_face_without_feet_next_to_flat_gains_no_energy(radius: float, lean: float) -> None:
-    """It rocks on its rim, then on the crown of its face, which is 5e-10 of the radius high."""
+    """The cylinder rocks on its rim, then on the crown of its face, which is 5e-10 of the radius high."""
     body, system = _leaning(radius, lean)
     span = 20.0 * np.sqrt(max(lean, 1e-9) * radius / 9.81)
     solution = ns.simulate(system, span, sample_interval=span / 300.0)
@@ -92,7 +96,7 @@ def test_a_face_without_feet_next_to_flat_gains_no_energy(radius: float, lean: f
 @pytest.mark.parametrize("radius", SIZES)
 @pytest.mark.parametrize(("part", "strikes"), [(0.99, False), (1.01, True)])
 def test_a_flat_face_strikes_with_its_rim_above_the_speed_of_a_fall(radius: float, part: float, strikes: bool) -> None:
-    """That speed is the one of a thin disc that falls flat from 1e-9 rad; a face that turns more slowly rolls."""
+    """The limit is the speed of a thin disc that fell from a tilt of 1e-9 rad; a slower face rolls on its crown."""
     speed = part * np.sqrt(8e-9 * 9.81 / radius)
     _, system = _leaning(radius, 0.0, speed)
     solution = ns.simulate(system, 1e-10 / speed, sample_interval=1e-11 / speed)

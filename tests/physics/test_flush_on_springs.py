@@ -62,9 +62,10 @@ def heights(
     t_end: float = 0.5,
     n: int = 2,
 ) -> list[float]:
-    """Return the heights of the mass centres [m] after a time; each upper body fell by ``height`` [m] on the next one.
+    """Return the heights of the mass centres of stacked bodies at the time ``t_end`` [m].
 
-    The energy account of the run must be kept. ``n`` is the number of bodies, each but the lowest like the second one.
+    Each body falls by ``height`` [m] onto the body below. ``n`` is the number of bodies: the lower body of the pair,
+    and copies of the upper one. The run must be done with an energy residual below 1e-6.
     """
     lowest, upper = PAIRS[name]
     floor, bodies = Plate(), [lowest(), *(upper() for _ in range(n - 1))]
@@ -81,9 +82,9 @@ def heights(
 
 
 SHIFTS = (1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-3)
-"""Shifts of an upper body along x [m]."""
+"""Shifts of an upper body along x, relative to the body below [m]."""
 TURNS = (1e-9, 1e-6, 1e-3, 0.01, 0.3)
-"""Turns of an upper body about the vertical [rad]."""
+"""Turns of an upper body about the vertical, relative to the body below [rad]."""
 ALIKE = (
     "rounded boxes",
     "boxes",
@@ -124,7 +125,7 @@ def test_bodies_stay_for_seconds(name: str, shift: float) -> None:
 @pytest.mark.parametrize("name", ["rounded boxes", "boxes", "hulls"])
 @pytest.mark.parametrize("shift", [0.0, 1e-9, 1e-6, 1e-3])
 def test_three_bodies_carry_each_other(name: str, shift: float) -> None:
-    # the lowest contacts bear the weight of three bodies
+    # the lowest contacts carry the weight of three bodies
     assert heights(name, shift, n=3) == pytest.approx([HALF, 3.0 * HALF, 5.0 * HALF], abs=3.0 * INDENTED)
 
 

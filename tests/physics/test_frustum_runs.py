@@ -40,7 +40,7 @@ NARROW = Box(0.05, 0.01, 0.05, z=-0.05)
 """A lying cylinder is longer than it is deep."""
 PILLAR = Cylinder(0.02, 0.02, z=-0.02, foot_height=2e-6)
 ON_RIM = -PILLAR.foot_height
-"""Height over the feet of the pillar at which its rims are: another round body lies on them."""
+"""Height of the rims of the pillar over the tips of its feet [m]: a body that touches no foot lies at this height."""
 LOG = Cylinder(0.02, 0.03, z=-0.02, axis_x=1.0, axis_z=0.0)
 STEEP = math.atan2(0.01, 0.02)
 """Half the angle of a cone."""

@@ -24,7 +24,7 @@ def test_pairs_collide_and_never_overlap(name: str) -> None:
 @pytest.mark.parametrize("axis", [0, 1])
 @pytest.mark.parametrize("shift", [(0.0, 0.0), (1e-12, 0.0), (1e-9, 1e-9), (1e-6, 1e-6), (5e-3, 3e-3)])
 def test_discs_in_almost_one_plane_meet_or_pass_each_other(axis: int, shift: tuple[float, float]) -> None:
-    """Their planes are 0 to 5 mm apart, and turned by 0 to 1e-6 rad, in three orientations of the world."""
+    """The planes of the discs are 0 to 5 mm apart and turned by 0 to 1e-6 rad, in three orientations of both."""
     worlds = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
     rows = [Meeting("disc", axis, shift, turn, world=world) for turn in (0.0, 1e-9, 1e-6) for world in worlds]
     assert wrong(rows) == []
@@ -33,7 +33,7 @@ def test_discs_in_almost_one_plane_meet_or_pass_each_other(axis: int, shift: tup
 @pytest.mark.parametrize("name", ["capsule", "coin", "cylinder", "rounded cylinder"])
 @pytest.mark.parametrize("turn", [1e-6, 2e-6, 5e-6, 1e-5, 1e-2])
 def test_sides_that_are_nearly_parallel_meet(name: str, turn: float) -> None:
-    """In line or 1 mm aside. Next to parallel all along the sides touch, else one end after the other."""
+    """The bodies are in line or shifted by 1 mm. Parallel sides touch along their length, other sides at a point."""
     worlds = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
     rows = [Meeting(name, 0, (shift, 0.0), turn, world=world) for shift in (0.0, 1e-3) for world in worlds]
     assert wrong(rows) == []

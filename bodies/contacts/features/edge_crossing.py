@@ -47,7 +47,7 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
 
 @compiled
 def across_of(e: Vector3, f: Vector3) -> Vector3:
-    """Return f - e, or f + e if that is shorter."""
+    """Return the shorter of the vectors f - e and f + e of two unit vectors."""
     sign = 1.0 if e[0] * f[0] + e[1] * f[1] + e[2] * f[2] > 0.0 else -1.0
     return f[0] - sign * e[0], f[1] - sign * e[1], f[2] - sign * e[2]
 
@@ -81,7 +81,7 @@ def cross_edges(
     ex, ey, ez = vector_in_world(a, edge_a[along_a], edge_a[along_a + 1], edge_a[along_a + 2])
     fx, fy, fz = vector_in_world(b, edge_b[along_b], edge_b[along_b + 1], edge_b[along_b + 2])
     wx, wy, wz = bx - ax, by - ay, bz - az
-    # e x f = e x (f - e): of edges that are nearly parallel, this is perpendicular to them without round-off
+    # e x f = e x (f - e): the short vector f - e keeps its digits, so the normal of nearly parallel edges is accurate
     dx, dy, dz = across_of((ex, ey, ez), (fx, fy, fz))
     nx, ny, nz = ey * dz - ez * dy, ez * dx - ex * dz, ex * dy - ey * dx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)

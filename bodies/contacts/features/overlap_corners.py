@@ -1,15 +1,14 @@
-"""Which features of two rounded bodies touch if they overlap with faces next to each other, as on springs.
+"""Selects the contacts of two rounded bodies whose faces are pressed flush into each other, as on springs.
 
-Two faces next to each other touch over the overlap of their outlines. Its corners are vertices of one body over the
-face of the other, and edges that cross. Each corner must be one contact, and it must stay one when the bodies tilt or
-shift. Otherwise the force of a spring jumps. The nearest features do not have this property. So vertices and crossings
-are all projected along one direction, and one outline is slightly larger than given:
+Two flush faces overlap in an area.  Its corners are vertices of one body over the face of the other, and crossings of
+edges.  Each corner must be exactly one contact, also while the bodies tilt or shift: otherwise the force of a spring
+jumps.  The pairs of nearest features do not have this property.  So all vertices and crossings are projected along one
+common direction, and the projected outlines of the two faces are compared:
 
-1. The direction is the normal of a face of the first body. If each feature were projected along a normal of its own, a
-   tilt by an angle would move the projections by this angle times the distance of the cores. A corner would then be two
-   contacts, or none.
-2. The outline of the first body is larger by a margin. So outlines that are equal, but for round-off, have the vertices
-   of the second body as corners.
+1. The direction is the normal of a face of the first body.  With a separate normal for each feature, a tilt would move
+   the projections by the tilt times the distance of the cores.  A corner could then become two contacts or none.
+2. The outline of the first body is enlarged by a margin.  Two outlines that are equal within round-off then have the
+   vertices of the second body as corners.
 """
 
 from __future__ import annotations
@@ -26,12 +25,15 @@ from .polytope_tables import FACE, LENGTH
 from .vertex_face import CLOSED, nearest_feature, past_face, plane_height
 
 _COSINE = math.sqrt(1.0 - ASTRAY * ASTRAY)
-"""Cosine of the largest angle between the normals of a contact and a face at which the face is next to the contact."""
+"""Cosine of the largest angle between a contact normal and the normal of a face at which the face is flush."""
 
 
 @compiled
 def _nearest_normal(n_faces: float, faces: Floats, x: float, y: float, z: float) -> tuple[int, float]:
-    """Return the face whose normal is nearest to the unit vector (x, y, z) of the body frame, and the cosine."""
+    """Return the number of the face whose normal is nearest to a unit vector, and the cosine of the angle between them.
+
+    The unit vector (x, y, z) is in body axes.
+    """
     found, most = 0, -1.0
     for i in range(int(n_faces)):
         f = FACE * i
@@ -43,7 +45,10 @@ def _nearest_normal(n_faces: float, faces: Floats, x: float, y: float, z: float)
 
 @compiled
 def _normal_near(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> Vector3:
-    """Return the normal of a face next to the unit vector (x, y, z), in world axes; zero if none is."""
+    """Return the normal of the face that is nearest to a unit vector; zero if the angle between them is too large.
+
+    Both vectors are in world axes.  The largest angle has the cosine ``_COSINE``.
+    """
     x, y, z = vector_in_body(frame, x, y, z)
     face, cosine = _nearest_normal(n_faces, faces, x, y, z)
     if cosine < _COSINE:
@@ -65,10 +70,19 @@ def common_direction(
     y: float,
     z: float,
 ) -> Vector3:
-    """Return the direction of projection next to a contact normal (x, y, z) from the first to the second body.
+    """Return the common direction of projection, a unit vector from the first body to the second.
 
-    Both are in world axes.  The direction is the normal of a face of the first body, or of the second one if the first
-    has no faces.  It is zero if no face is next to the contact.
+    It is the outward normal of the face of the first body that is nearest to the contact normal.  If the first body has
+    no faces, it is the inward normal of a face of the second body.  It is zero if no face is flush with the contact.
+
+    Parameters
+    ----------
+    a, b : Floats
+        Frame blocks of the two bodies.
+    n_faces_a, faces_a, n_faces_b, faces_b : float and Floats
+        Number and rows of the faces of both cores (:data:`bodies.contacts.features.polytope_tables.FACE`).
+    x, y, z : float
+        Contact normal from the first body to the second, in world axes.
     """
     if n_faces_a > 0.0:
         x, y, z = _normal_near(a, n_faces_a, faces_a, x, y, z)
@@ -79,9 +93,10 @@ def common_direction(
 
 @compiled
 def part_of_overlap(depth: float, size: float) -> float:
-    """Return by which part the corners of the overlap decide, from 0 without a depth [m] to 1 at the margin.
+    """Return the weight of the corner test, from 0 at zero depth to 1 at the depth ``CLOSED`` times the size.
 
-    Rigid bodies touch with their nearest features.  The part is continuous, so that the ends of features have roots.
+    Without an overlap, as between rigid bodies, the nearest features touch.  The weight is continuous in the ``depth``
+    [m], so that the distance past the end of a feature is continuous and its root can be located.
     """
     return min(max(depth / (CLOSED * size), 0.0), 1.0)
 
@@ -104,27 +119,29 @@ def vertex_past_corner(
     z: float,
     size: float,
 ) -> tuple[float, float]:
-    """Return how far a vertex is from being a corner of the overlap [m], not positive if it is one.
+    """Return the distance by which a vertex misses a corner of the overlap [m]; zero or negative for a corner.
 
-    The second result is the distance of the projected vertex from the nearer end of the nearest edge, as in
-    :data:`bodies.contacts.features.vertex_face.Nearest`.  The vertex (x, y, z), in the frame ``other``, is a corner if
-    it is projected on the face of the other body.  If it is projected beside the face, it is a corner if none of its
-    edges leads towards the face: the bodies then touch with two edges.
+    The vertex is a corner if its projection lies on the face of the other body.  If its projection lies outside of the
+    face, it is a corner if none of its edges leads towards the face: the bodies then touch with two edges.  The second
+    result is the distance [m] of the projected vertex from the nearer end of the nearest edge, infinite on the face
+    (:data:`bodies.contacts.features.vertex_face.Nearest`).
 
     Parameters
     ----------
     own, other : Floats
-        Frame blocks of the vertex's body and of the other body.
+        Frame blocks of the body with the vertex and of the other body.
     is_of_first : bool
         Whether the vertex belongs to the first body.
     direction : tuple of float
-        Common direction, in the world, from the other body to the vertex's body.
+        Common direction from the other body to the body with the vertex, in world axes.
     n_faces, faces, n_edges, edges, ends : float and Floats
-        Core of the other body.
+        Faces and edges of the core of the other body (:mod:`bodies.contacts.features.polytope_tables`).
     n_star, star : float and Floats
-        Unit vectors along the edges of the vertex, in the frame ``own``.
+        Unit vectors along the edges of the vertex, in the axes of its body.
+    x, y, z : float
+        The vertex in the frame of the other body [m].
     size : float
-        Size of the bodies [m].
+        Size of the larger body [m].
     """
     margin, past = CLOSED * size, math.inf
     ux, uy, uz = vector_in_body(other, *direction)
@@ -134,7 +151,7 @@ def vertex_past_corner(
         f = FACE * face
         fx, fy, fz = faces[f], faces[f + 1], faces[f + 2]
         height = plane_height(faces, f, x, y, z)
-        # where the projection along the direction meets the plane of the face, at the same height
+        # move the vertex parallel to the face, so that its foot point becomes its projection along the direction
         x, y, z = x + height * (fx - ux / cosine), y + height * (fy - uy / cosine), z + height * (fz - uz / cosine)
         past = past_face(faces, n_faces, f, height, x, y, z)
     edge = -margin if is_of_first else margin
@@ -175,10 +192,26 @@ def crossing_past_corner(
     gap: float,
     size: float,
 ) -> float:
-    """Return how far two edges are from crossing at a corner of the overlap [m], not positive if they do.
+    """Return the distance by which two edges miss a corner of the overlap [m]; zero or negative for a corner.
 
-    ``p`` is the nearest point of the first edge, ``e`` and ``f`` are the unit vectors along both, ``n`` and ``gap`` the
-    normal and the gap of the cores along it.  The rows of the edges begin at ``at_a`` and ``at_b``.
+    They form a corner if their projections along the common direction cross within both edges.
+
+    Parameters
+    ----------
+    a, b : Floats
+        Frame blocks of the two bodies.
+    direction : tuple of float
+        Common direction from the first body to the second, in world axes.
+    edges_a, at_a, edges_b, at_b : Floats and int
+        Edges of both cores, and the indices at which the rows of the two edges begin.
+    p : tuple of float
+        Nearest point of the first line in the world [m].
+    e, f, n : tuple of float
+        Unit vectors along the two edges, and the contact normal, in world axes.
+    gap : float
+        Gap of the two lines along the normal [m].
+    size : float
+        Size of the larger body [m].
     """
     ax, ay, az = point_in_world(a, edges_a[at_a], edges_a[at_a + 1], edges_a[at_a + 2])
     bx, by, bz = point_in_world(b, edges_b[at_b], edges_b[at_b + 1], edges_b[at_b + 2])
@@ -186,9 +219,10 @@ def crossing_past_corner(
     margin = CLOSED * size
     if sine == 0.0:
         return size
-    # the points are gap n apart; where the projections cross, they are apart along the direction only
+    # the nearest points differ by gap n; the points whose projections coincide differ along the direction only
     s = (p[0] - ax) * e[0] + (p[1] - ay) * e[1] + (p[2] - az) * e[2] + gap * _triple(direction, n, f) / sine
     x, y, z = p[0] + gap * n[0] - bx, p[1] + gap * n[1] - by, p[2] + gap * n[2] - bz
     t = x * f[0] + y * f[1] + z * f[2] + gap * _triple(direction, n, e) / sine
     over_a, over_b = max(-s, s - edges_a[at_a + LENGTH]), max(-t, t - edges_b[at_b + LENGTH])
+    # times the sine, a length along one edge becomes a distance from the line of the other edge
     return float(max(over_a * abs(sine) - margin, over_b * abs(sine) + margin))

@@ -27,8 +27,8 @@ END = 3e-10
 """Distance from a vertex, along an edge, at which the contact of the edge ends; relative to the size of the bodies.
 
 The contact of the vertex ends at twice this distance.  Both contacts are valid between the two distances, so that a
-point that slides from the edge to the vertex always has a contact.  If the bodies overlap next to a face,
-the corners of the overlap decide (:mod:`bodies.contacts.features.overlap_corners`).
+point that slides from the edge to the vertex always has a contact.  If two bodies are pressed into each other with
+flush faces, the corners of their overlap replace this rule (:mod:`bodies.contacts.features.overlap_corners`).
 """
 OPEN = 100.0
 """Gap of a contact that another contact replaces, over its distance past the end of an edge; large, so it is open."""
@@ -62,8 +62,8 @@ def past_star(
 def ended_gap(gap: float, past: float, size: float) -> tuple[float, float]:
     """Return gap and distance past the vertex [m], as the geometry block stores them.
 
-    A contact with a gap above ``NEAR`` times the size is always valid.  A smaller positive gap with a positive ``past``
-    is replaced by hypot(gap, past).  A negative one is the depth at which another contact takes its place.
+    A contact with a gap above ``NEAR`` times the size is always valid.  If ``past`` is positive, a smaller gap that is
+    not negative is replaced by hypot(gap, past).  A negative gap is kept: at this depth another contact takes over.
     """
     if gap > NEAR * size:
         return gap, min(past, -END * size)
@@ -141,12 +141,12 @@ def _evaluate(
     found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
     number, distance, _, _, _, within = found
-    # over a face, both ends of an edge touch however the edge leans
+    # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
     past = past_star(own, star, n_star if number >= int(n_faces) else 0.0, distance, nx, ny, nz, size)
-    # bodies on springs overlap; without an overlap the nearest features touch
+    # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
     part = part_of_overlap(radius + sweep - distance, size)
     if distance > 0.0 and part > 0.0:
-        # from the first body to the second
+        # the contact normal and the common direction u point from the first body to the second
         sign = 1.0 - 2.0 * swap
         if swap == 1.0:
             u = common_direction(a, b, n_own_faces, own_faces, n_faces, faces, -nx, -ny, -nz)
@@ -221,7 +221,7 @@ class SweptVertex(ContactKinematics):
     star : tuple of float
         Unit vectors along the edges that begin at the vertex, in the body frame.
     own_faces : tuple of float
-        All faces of the core of the vertex; empty if it is not convex.
+        All faces of the core to which the vertex belongs; empty if the body is not convex.
     radius : float
         Radius of the sphere about the vertex, the rounding of its body [m]; 0 if it is sharp.
     size : float
@@ -272,9 +272,22 @@ class SweptVertex(ContactKinematics):
         swap: bool,
         own_faces: Numbers = (),
     ) -> tuple[SweptVertex, ...]:
-        """Return the contacts of vertices with the core of ``other``; a vertex is a place, a star and a name.
+        """Return the contacts of vertices with the core of ``other``.
 
-        ``own_faces`` are the faces of the core of the vertices if it is convex.
+        Parameters
+        ----------
+        other : SweptPolytope
+            The shape whose core the vertices touch.
+        vertices : iterable of tuple
+            Place in the body frame [m], unit vectors along the edges, and name of each vertex.
+        radius : float
+            Radius of the sphere about each vertex [m].
+        size : float
+            Size of the larger body [m].
+        swap : bool
+            Whether the vertices belong to the first body.
+        own_faces : tuple of float
+            All faces of the core of the vertices; empty if their body is not convex.
         """
         core = other.core
         tables = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)

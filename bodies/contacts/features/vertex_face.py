@@ -17,11 +17,10 @@ REACH = 1e-9
 So round-off does not open the contact of features that are aligned.
 """
 CLOSED = 1e-7
-"""A small number with two uses, one for vertices over faces, one for edges that cross.
+"""Distance beyond a face's border up to which a vertex touches the face, relative to the size of the bodies.
 
-It is the distance beyond a face's border up to which a vertex touches the face, relative to the size of the bodies.  It
-is also the least sine of the angle between crossing edges.  With one number for both, equal faces that are almost
-aligned never lack a contact: if the angle between their edges is smaller, their vertices are within the distance.
+Equal faces that are almost aligned then have contacts of their vertices.  Edges that cross touch up to the same
+distance past their ends.
 """
 
 
@@ -118,9 +117,9 @@ def nearest_face(
 
     The face belongs to the polyhedron in ``frame``.  It is the face over which the least height of all vertices is the
     largest, so that all vertices get the same face.  If several faces are equal in this, as in contact at an edge, the
-    vertex gets the face on which it projects, or the one over which it is highest if it projects on several.  A vertex
-    below its face does not touch it if a face of its own body separates the bodies better.  Past the border of its
-    face, the gap of a vertex is positive.
+    vertex gets the face on which it projects.  If it projects on several faces, it gets the face over which it is
+    highest.  A vertex below its face does not touch it if a face of its own body separates the bodies better.  Past the
+    border of its face, a gap that is not negative becomes hypot(gap, past); a negative gap is kept.
     """
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])

@@ -67,7 +67,7 @@ def _evaluate(
     if is_flat:
         _, offset, fx, fy, fz = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
         middle, half = common_length(radius, wide, offset)
-        # a part of the rim must be over the cap, and the common area must be no mere point
+        # valid if a part of the rim is over the cap, and if the common area is more than a point
         outside = max(radius - offset - wide, 2.0 * CLOSED * size - half)
         if half > 0.0:
             radius = half

@@ -129,7 +129,7 @@ class FrustumPolyhedron(ContactKinematics):
     Attributes
     ----------
     frustum : tuple of float
-        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+        The first body, with its rims set back by its feet (:func:`bodies.contacts.frustum.frustum.set_back`).
     vertices : tuple of float
         All vertices of the second body [m].
     vertex : int

@@ -33,7 +33,7 @@ def write_frustum_ball(
 ) -> tuple[float, float, float, float, int]:
     """Write the geometry block of a frustum and a ball about a point of the second body.
 
-    Return the point in the world [m], its distance from the frustum's core [m], and the nearest part.
+    Return the point in the world [m], its distance from the frustum's core [m], and the number of the nearest part.
     """
     ax, ay, az = axis_in_world(a, first)
     cx, cy, cz = center_in_world(a, first)

@@ -44,7 +44,7 @@ def _evaluate(
 ) -> None:
     """Write the geometry block of a vertex, with a radius; parameters as the attributes of :class:`FrustumSwept`."""
     x, y, z, distance, part = write_frustum_ball(a, b, out, first, radius, x, y, z)
-    # over a flat cap, both ends of an edge touch however the edge leans
+    # over a cap the contact does not end at the vertex: an edge over the cap touches with both ends, also if it tilts
     is_flat = part in (LOW_CAP, HIGH_CAP)
     past = past_star(b, star, 0.0 if is_flat else n_star, distance, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2], size)
     gap, out[PAST_END] = ended_gap(out[GAP], past, size)

@@ -177,7 +177,7 @@ class RimEdge(ContactKinematics):
     Attributes
     ----------
     frustum : tuple of float
-        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+        The first body, with its rims set back by its feet (:func:`bodies.contacts.frustum.frustum.set_back`).
     rim : int
         1 for the lower rim, 3 for the upper one.
     half : float

@@ -29,9 +29,21 @@ from .frustum_writing import size_of_both
 def _touching(
     a: Floats, b: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
 ) -> tuple[float, float, float, Touching]:
-    """Return the rim's point that touches a plane with ``normal`` [m], lifted to where the gap is measured.
+    """Return the point of a rim at which its gap over a plane is measured [m], and the touching point of the rim.
 
-    Also return the numbers of this point (:func:`bodies.contacts.features.flat_rim.touching_point`).
+    The first three numbers are the coordinates of the point in the world.  The touching point is explained in
+    :data:`bodies.contacts.features.flat_rim.Touching`.
+
+    Parameters
+    ----------
+    a, b : Floats
+        Frame blocks of the body with the rim, and of the body with the plane.
+    radius : float
+        Radius of the rim [m].
+    center : tuple of float
+        Centre of the rim in the frame of its body [m].
+    axis, normal : tuple of float
+        Unit axis of the rim, and unit normal of the plane towards the rim, in world axes.
     """
     (x, y, z), (nx, ny, nz) = center, normal
     at = touching_point(a, b, normal, axis, radius)
@@ -42,10 +54,11 @@ def _touching(
 
 @compiled
 def _past_flat(faces: Floats, n_faces: float, face: int, x: float, y: float, z: float, radius: float) -> float:
-    """Return the distance past a face of a rim that lies flat on it and touches in its middle [m]; negative inside.
+    """Return the distance of a flat rim that touches as a crown past the border of a face [m]; negative if valid.
 
-    The middle (x, y, z), in the body frame, must be over the face.  So must a part of the rim: otherwise vertices and
-    crossings of edges carry the rim's whole disc.
+    The centre of the rim (x, y, z), in the frame of the polyhedron [m], must be over the face.  So must a part of the
+    rim of ``radius`` [m]: it lies within the face, or it crosses the border of the face.  If the whole face lies inside
+    of the rim, the vertices and edges of the face carry the load instead.
     """
     over = past_face(faces, n_faces, face, plane_height(faces, face, x, y, z), x, y, z)
     if over <= -radius:
@@ -54,7 +67,7 @@ def _past_flat(faces: Floats, n_faces: float, face: int, x: float, y: float, z: 
     least = radius
     for i in range(int(n_faces)):
         f = FACE * i
-        # the vector from the middle to the line of another face, in the plane of this one
+        # distance and direction, in the plane of this face, from the centre to the line of another face
         along, sine, ex, ey, ez = across(faces[f], faces[f + 1], faces[f + 2], n[0], n[1], n[2])
         away = along * plane_height(faces, face, x, y, z) - plane_height(faces, f, x, y, z)
         if f == face or abs(away) >= radius * sine:
@@ -143,7 +156,7 @@ class RimFace(ContactKinematics):
     Attributes
     ----------
     frustum : tuple of float
-        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+        The first body, with its rims set back by its feet (:func:`bodies.contacts.frustum.frustum.set_back`).
     radius : float
         Radius of the rim [m].
     center : tuple of float

@@ -141,7 +141,7 @@ def _evaluate(
         angle = after
     total = first[SWEEP] + second[SWEEP]
     are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
-    # discs in one plane touch on the line of centres, where their rims are parallel; others pass each other or cross
+    # discs in one plane touch on the line of centres, where their rims are parallel; other discs cross or pass by
     is_edge_to_edge = are_discs and ax * ax + ay * ay <= CLOSED and abs(cz + radius * gz) <= CLOSED * size
     if is_edge_to_edge:
         angle = 0.0
@@ -156,7 +156,7 @@ def _evaluate(
     nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
     crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
     apart = math.sqrt(wx * wx + wy * wy + wz * wz)
-    # rounded rims that lie on each other all around touch as rims over caps
+    # rounded rims that lie on each other along the whole circle are left to the contacts of rims over caps
     is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(wx * wx + wy * wy) < FLATTEST * apart
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
@@ -178,15 +178,15 @@ def _evaluate(
     nx, ny, nz = flip * nx, flip * ny, flip * nz
     gap = nx * wx + ny * wy + nz * wz
     past = past_border(-size, astray, size)
-    # sines of the angles between the normal and those of the sides
+    # sines of the angles between the contact normal and the normals of the two sides; a disc has no side
     radial, axial = nx * ux + ny * uy + nz * uz, nx * ax + ny * ay + nz * az
-    lean = up_a * (first[COS] * axial - first[SIN] * radial) if first[SIDE] > 0.0 else size
-    other = -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)) if second[SIDE] > 0.0 else size
+    lean = up_a * (first[COS] * axial - first[SIN] * radial) if first[SIDE] > 0.0 else 1.0
+    other = -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)) if second[SIDE] > 0.0 else 1.0
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(lean, other))
     elif crossing * crossing <= REACH and crossing * max(abs(lean), abs(other)) <= PARALLEL:
-        # nearly parallel rims have no exact normal; that of both sides is within their error
+        # the normal of nearly parallel rims has an error; if it may be the normal of both sides, the sides touch
         past = max(past, size)
     # there is no minimum within this half of the rim, or Newton's method did not find it
     none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= PARALLEL
@@ -208,7 +208,8 @@ def _evaluate(
     px, py, pz = kx + px, ky + py, kz + pz
     write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz))
     write_side(out, 0.0, first, LOW_RIM, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
-    # of two edges in one plane, one is the side of a cylinder: the normal would turn at any slip of edge over edge
+    # of two discs edge to edge, the second rim has the curvature of a cylinder's side: so the normal stays radial while
+    # one edge slips over the other
     part = FLANK if is_edge_to_edge else LOW_RIM
     write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
 

@@ -75,9 +75,9 @@ def corners_over(
 ) -> int:
     """Append the corners of the surface in ``a`` that may soon touch a core in ``b``; return the number of candidates.
 
-    A corner touches over a face of the core, or if none of its edges leads towards the nearest point of the core.  A
-    corner is a candidate if this can hold before the next search, until which it moves by at most ``reach`` [m] and the
-    bodies turn by at most ``turn`` [rad].
+    A corner touches if a face of the core is nearest to it, or if none of its edges leads towards the nearest point of
+    the core.  A corner is a candidate if one of these may hold before the next search.  Until then it moves by at most
+    ``reach`` [m], and the bodies turn by at most ``turn`` [rad].
 
     Parameters
     ----------

@@ -27,10 +27,11 @@ def evaluate_rim_over_plane(
     rounding: float,
     crown: float,
 ) -> None:
-    """Write the geometry block of the lowest point of the rim, or of the torus about it.
+    """Write the geometry block of a rim over a plane, at the lowest point of the rim or of the torus about it.
 
-    A rim that lies flat has none, and touches as :mod:`bodies.contacts.features.flat_rim` says.  A face whose feet
-    stand out beyond a ``crown`` is a cap of a sphere with that sine at the rim.
+    The contact point of a flat rim is explained in :mod:`bodies.contacts.features.flat_rim`.  A face with feet is a
+    cap of a sphere that protrudes from the rim, but less than the feet.  ``crown`` is the sine of its tilt at the rim;
+    0 for a face without feet.
     """
     x, y, z = point_in_world(b, x, y, z)
     axis_x, axis_y, axis_z = vector_in_world(b, axis_x, axis_y, axis_z)

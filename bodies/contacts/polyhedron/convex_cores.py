@@ -15,7 +15,10 @@ from ..features.polytope_tables import ALONG, EDGE, INTO_FIRST, INTO_SECOND, LEN
 from ..features.vertex_face import height_over, separation_of_faces
 
 _FLUSH = 1e-5
-"""Sine of the angle between the common normal of two edges and a face next to one, up to which the face is flush."""
+"""Sine of the angle between the common normal of two edges and a face's normal, up to which they count as equal.
+
+The face is adjacent to one of the edges.
+"""
 
 
 @compiled
@@ -91,10 +94,13 @@ def cross_convex_edges(
     ``edge_a`` and ``edge_b`` are the numbers of the edges.
 
     Edges whose gap is below zero do not face each other if the cores overlap less along the normal of a face of one of
-    them.  If both nearest points are outside of the other core, the normals of all pairs of edges count, too.  Edges so
-    nearly parallel that the ends of the shorter one are within ``margin`` [m] of the other one do not face each other
-    if a face separates the cores as well: then the vertices over the face touch.  The numbers of the cores are those of
-    :class:`bodies.contacts.features.polytope_tables.ConvexCore`.
+    them.  If both nearest points are outside of the other core, the normals of all pairs of edges count, too.
+
+    Flush edges do not face each other if a face separates the cores as well as their common normal: then the vertices
+    over the face touch.  Edges are flush if they are so nearly parallel that the ends of the shorter edge are within
+    ``margin`` [m] of the other edge, and if their common normal is the normal of a face within the sine ``_FLUSH``.
+
+    The numbers of the cores are those of :class:`bodies.contacts.features.polytope_tables.ConvexCore`.
     """
     one, two = EDGE * int(edge_a), EDGE * int(edge_b)
     p, e, f, n, gap, over, past = cross_edges(a, b, edges_a, one, edges_b, two, parallel, margin, size)

@@ -63,7 +63,7 @@ def _evaluate(
         edges_a,
         n_edges_b,
         edges_b,
-        # at this sine the ends of the edges are aside by the default gap tolerance
+        # least sine: the ends of an edge as long as the body are then one default gap tolerance from the other edge
         min(GAP_TOLERANCE / size, RELATIVE_GAP),
         CLOSED * size,
         size,

@@ -54,7 +54,7 @@ def _evaluate(
     size: float,
 ) -> None:
     at_a, at_b = EDGE * int(edge_a), EDGE * int(edge_b)
-    # the ends of the edges are tested below
+    # the margin ``size`` skips the test of the ends of the edges, which follows below
     p, e, f, n, gap, over, past = cross_edges(a, b, edges_a, at_a, edges_b, at_b, PARALLEL, size, size)
     if gap < 0.0:
         found = cross_convex_edges(
@@ -81,11 +81,12 @@ def _evaluate(
         past = found[6]
     elif past <= 0.0:
         past, u = over + END * size, common_direction(a, b, n_faces_a, faces_a, n_faces_b, faces_b, *n)
-        # bodies on springs overlap; without an overlap the nearest features touch
+        # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
         part = part_of_overlap(radius_a + radius_b - gap, size)
         if part > 0.0 and u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
             beyond = crossing_past_corner(a, b, u, edges_a, at_a, edges_b, at_b, p, e, f, n, gap, size)
-            # of edges that are almost parallel, a tilt moves the nearest points far past the ends
+            # a tilt moves the nearest points of nearly parallel edges far past the ends: farther than a quarter of the
+            # gap of the cores, the contact ends
             past = (1.0 - part) * past + part * max(beyond, over - ASTRAY * gap)
     gap -= radius_a + radius_b
     if past > 0.0 and gap >= 0.0:

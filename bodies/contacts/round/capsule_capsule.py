@@ -19,9 +19,10 @@ from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.writing import by_side, join_cores, write_principal, write_round
 
 ROUNDING = 1e-12
-"""Part of the lengths by which the middle of the overlap may be farther than the nearest points.
+"""Excess of the distance at the middle of the overlap, relative to the lengths, up to which segments are parallel.
 
-Segments are then parallel within round-off, which moves the point where they cross along both.
+The excess is taken over the least distance of the segments.  At a smaller excess, round-off would move the crossing
+point along both segments.
 """
 _PARTS = "end -", "side", "end +"
 _FEATURES = tuple(f"{one} and {two}" for one in _PARTS for two in _PARTS)
@@ -85,7 +86,7 @@ def _evaluate(
                 continue
             allowed = 0.0
         else:
-            # the middle of the overlap, as near as the ends but for rounding
+            # the middle of the overlap of parallel segments: as near as the nearest points, within round-off
             low = max(ru - half_length_b, -half_length_a)
             high = min(ru + half_length_b, half_length_a)
             if low > high:

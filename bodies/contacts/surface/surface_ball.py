@@ -84,7 +84,7 @@ def write_ball(
     # if there is one patch only, it is the whole surface: the contact point can never be past its end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     nx, ny, nz = out_of_surface(a, surface, found, past, x, y, z)
-    # over a face, both ends of an edge touch however the edge leans
+    # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
     if n_star > 0.0 and kind != ON_FACE:
         beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)

@@ -43,7 +43,7 @@ from nonsmooth.engine.numerics.tolerances import ADJACENT
 from nonsmooth.engine.numerics.vectors import Pair, Vector, are_alike, cross, dot, length, minus, opposite, scaled
 
 NOT_EVALUATED = -1
-"""Version of its bodies that a contact has which was never evaluated. No body has this version."""
+"""Version of the bodies that is stored for a contact that must be evaluated. No body has this version."""
 
 
 @result
@@ -76,10 +76,11 @@ def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
 
 @kernel("b1(ws, ContactRecord, b1, f8)")
 def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: float) -> bool:
-    """True if two convex shapes are apart, up to ``near`` [m], along another direction than the normal of a contact.
+    """True if two convex shapes are apart, and do not approach, along another direction than the contact normal.
 
-    It is that of their pair, as a normal of the second or the first part, and they do not approach along it. Feet touch
-    while the shapes are apart along any direction, so nothing is known of shapes with feet.
+    The direction is the stored direction of their pair. It turns with the second part if ``of_second``, else with the
+    first part. The shapes are apart if they overlap by at most ``near`` [m]. Feet may touch while the shapes are apart,
+    so the result is False for shapes with feet.
     """
     pair = ws.pairs[contact.pair]
     n, has_feet = normal_of_either(ws, pair, of_second), pair.clearance > 0.0
@@ -88,7 +89,7 @@ def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: f
     first, second = farthest_of_first(ws, pair.index, n), farthest_of_second(ws, pair.index, opposite(n))
     if dot(n, n) == 0.0 or dot(n, minus(second, first)) < -near:
         return False
-    # the face is fixed to one part, and the point that is nearest to it moves with the other
+    # the direction is the normal of a face of one part; the nearest point of the other part moves with that part
     point = first if of_second else second
     v = minus(velocity_of_point(ws.floats, pair.frame_b, point), velocity_of_point(ws.floats, pair.frame_a, point))
     return dot(n, v) >= -ws.tolerance.velocity
@@ -98,9 +99,10 @@ def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: f
 def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
     """True if the shapes of a near contact can meet along its normal.
 
-    They cannot if they overlap along it while they are apart along the direction of their pair
-    (:func:`nonsmooth.engine.bodies.support.separates`), nor if they approach along it only, and not along that
-    direction. ``near`` is the largest gap of surfaces that are next to each other [m].
+    Convex shapes do not meet while they are apart along any direction. So they cannot meet along the normal in two
+    cases: if they overlap along it, but are apart along the direction of their pair
+    (:func:`nonsmooth.engine.bodies.support.separates`); and if they approach along it, but are apart and do not
+    approach along the direction of their pair. ``near`` is the largest gap of surfaces next to each other [m].
     """
     if not separates(ws, contact.pair, contact.normal, near):
         return False
@@ -118,11 +120,14 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
 
     If ``past_feature`` > 0, the contact points lie past the end of their features, such as a face or an edge. The
-    bodies may overlap there while another contact of theirs is closed. Then ``overlap`` of an open contact keeps the
-    negative gap, and the gap becomes a positive substitute, the length of gap and ``past_feature``, so that this
-    contact does not act. ``overlap`` is zero otherwise. A closed contact keeps its gap past the end, until the event in
-    which another one takes its place: its force has no jump within a step. A substitute is the gap, too, of an open
-    rigid contact that is near but cannot close.
+    bodies may overlap there while another contact of theirs is closed. The gap then depends on the mode:
+
+    - Open contact with a negative gap: ``overlap`` becomes the gap, and the gap becomes a positive substitute, the
+      hypotenuse of gap and ``past_feature``. So this contact does not act. In all other cases ``overlap`` is zero.
+    - Closed contact: the gap stays as the geometry function wrote it, until the event in which another contact replaces
+      this one. If the function keeps negative gaps past the end, the force does not jump within a step.
+
+    An open rigid contact that is near but cannot close gets a positive substitute, too.
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -139,7 +144,7 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     near = ADJACENT * ws.tolerance.gap
     is_near = not contact.is_compliant and contact.gap <= near and contact.past_feature <= 0.0
     if is_near and contact.pair != NO_PAIR and not _can_close(ws, contact, near):
-        # as small as the gap of neighbours at rest, so that a contact of which round-off decides does not move far
+        # a gap as small as that of surfaces next to each other: if only round-off decides, the gap hardly changes
         contact.gap = contact.past_feature = 0.5 * near
 
 

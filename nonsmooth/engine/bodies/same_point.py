@@ -18,7 +18,7 @@ from nonsmooth.engine.numerics.vectors import ALIKE, are_alike, distance
 
 @kernel("b1(ContactRecord, ContactRecord)")
 def coincide(one: ContactRecord, other: ContactRecord) -> bool:
-    """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
+    """True if two different rigid contacts of the same frames have the same point and normal within ``ALIKE``."""
     if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
         return False
     is_rigid = not one.is_compliant and not other.is_compliant
@@ -40,10 +40,11 @@ def leave_out_coincident(ws: Workspace) -> None:
 
 @kernel("b1(ws, ContactRecord)")
 def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if another contact takes part at the point of an open one, and approaches as fast within the tolerance.
+    """True if another touching contact coincides with an open one, and approaches as fast within the tolerance.
 
-    Their points must move together. If a corner slides past an edge, two crossings of edges begin at its point. In a
-    collision it does not matter where the points move, and several contacts at one point would count several times.
+    The contact points of both must move at the same velocity. Otherwise they become two points: if a corner slides past
+    an edge, two crossings of edges begin at its point. In a collision of two open contacts the velocity of the points
+    is ignored, because several contacts at one point would count the impact several times.
     """
     slow, collides = NEGLIGIBLE * ws.tolerance.velocity, contact.normal_rate < -ws.tolerance.velocity
     for other in ws.contacts:

@@ -149,7 +149,7 @@ def known_direction(ws: Workspace, pair: Pair) -> Vector:
 
 @kernel("void(ws, Pair, v3)")
 def store_direction(ws: Workspace, pair: Pair, n: Vector) -> None:
-    """Store a unit vector ``n`` of the world as the direction of a pair, along the axes of either frame."""
+    """Store a unit vector ``n`` of the world as the direction of a pair, in the axes of both frames."""
     pair.direction = turned_back(frame_at(ws.floats, pair.frame_a).rotation, n)
     pair.facing = turned_back(frame_at(ws.floats, pair.frame_b).rotation, n)
 
@@ -192,22 +192,23 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
 
 @kernel("b1(ws, i8)")
 def is_of_one_part_each(ws: Workspace, number: int) -> bool:
-    """True if pair ``number`` is guarded and the only one of its shapes: two convex shapes."""
+    """True if pair ``number`` is guarded, and if each of its two shapes is convex: a single part."""
     has_others = number + 1 < ws.model.n_pairs and ws.pairs[number + 1].group == number
     return ws.pairs[number].is_guarded and not has_others
 
 
 @kernel("v3(Pair, v3)")
 def along_pair(pair: Pair, n: Vector) -> Vector:
-    """Normal of a contact, from the first to the second body of the contact, as a direction of its pair."""
+    """Direction from the first to the second part of a pair, for a contact normal ``n`` from body to body."""
     return opposite(n) if pair.is_swapped else n
 
 
 @kernel("v3(ws, Pair, b1)")
 def normal_of_either(ws: Workspace, pair: Pair, of_second: bool) -> Vector:
-    """Direction of a pair in the world, that was stored as a normal of its second or its first part; zero if unknown.
+    """Stored direction of a pair in the world, a unit vector; zero if none is known.
 
-    The normal of a face turns with the part that has the face.
+    The direction is often the normal of a face, which turns with its part. So it turns with the second part if
+    ``of_second``, else with the first part.
     """
     if of_second:
         return turned(frame_at(ws.floats, pair.frame_b).rotation, pair.facing)
@@ -216,11 +217,15 @@ def normal_of_either(ws: Workspace, pair: Pair, of_second: bool) -> Vector:
 
 @kernel("b1(ws, i8, v3, f8)")
 def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
-    """True if two convex shapes are as far apart along ``n`` as along the direction of their pair, up to ``near`` [m].
+    """True if the normal ``n`` of a near contact separates two convex shapes as well as the direction of their pair.
 
-    The normal of a contact that touches has this property: along any other direction the shapes overlap. ``n`` points
-    from the first body of the contact to the second. The contacts themselves decide of shapes with several parts, of a
-    pair that is not guarded, and of shapes that overlap, as on springs.
+    The normal of a contact that touches does: along any other direction the shapes overlap. ``n`` points from the first
+    body of the contact to the second. ``near`` is the largest gap of surfaces next to each other [m]. The result is
+    False if the shapes are farther apart than ``near``, and the clearance of their feet, along the direction of the
+    pair.
+
+    The result is True, and the contacts decide, in four cases: shapes with several parts, a pair that is not guarded, a
+    pair without a stored direction, and shapes that overlap by more than ``near`` and the clearance, as on springs.
     """
     pair = ws.pairs[number]
     first, second = normal_of_either(ws, pair, False), normal_of_either(ws, pair, True)
@@ -234,7 +239,8 @@ def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     if largest < -allowed:
         return True
     along = along_pair(pair, n)
-    # round-off of the normal of flush faces lets them overlap by more than the gap tolerance, and feet are no parts
+    # one gap tolerance suffices, except in two cases: the normals of flush faces differ by round-off, which changes the
+    # separation by more than that; and feet protrude from the parts
     is_exact = pair.clearance == 0.0 and not are_alike(along, known)
     least = largest - ws.tolerance.gap if is_exact else -2.0 * allowed
     return largest <= allowed and separation_along(ws, number, along) >= least

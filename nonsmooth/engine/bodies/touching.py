@@ -1,8 +1,9 @@
 """Touching contacts at an instant: which contacts take part in an event.
 
 A closed contact touches. An open contact touches if its gap is within the gap tolerance, or within the distance that
-the gap changes in the time tolerance at its present rate. Of several contacts at one point one touches. Only touching
-contacts have Jacobians.
+the gap changes in the time tolerance at its present rate. Two kinds of open contacts take no part: all but one of
+several contacts at one point, and contacts of shapes that are apart along another direction. Only touching contacts
+have Jacobians.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ def _leave_out_blocked(ws: Workspace) -> None:
     """Let an open contact that approaches take no part if its shapes are apart along the normal of another contact.
 
     Convex shapes that are apart along a direction, and do not approach along it, do not meet. So a body that slides
-    over the seam of two flush faces does not collide with the side of the second one.
+    from one box onto a flush box does not collide with the side of the second box.
     """
     for contact in ws.contacts:
         is_rigid = contact.is_touching and contact.mode == Mode.OPEN and not contact.is_compliant
@@ -59,7 +60,7 @@ def _leave_out_blocked(ws: Workspace) -> None:
         is_of_parts = collides and contact.pair != NO_PAIR and is_of_one_part_each(ws, contact.pair)
         # feet extend beyond the parts, so these do not decide
         if is_of_parts and ws.pairs[contact.pair].clearance == 0.0 and _is_blocked(ws, contact):
-            # it is evaluated anew, as the direction of its pair has changed
+            # the direction of its pair has changed: evaluate the contact again
             contact.version_a = NOT_EVALUATED
             evaluate_kinematics(ws, contact.index)
             contact.is_touching = _does_touch(ws, contact)
@@ -67,9 +68,10 @@ def _leave_out_blocked(ws: Workspace) -> None:
 
 @kernel("b1(ws, ContactRecord)")
 def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if the shapes of a contact are apart along the normal of another one, and do not approach along it.
+    """True if the shapes of a contact are apart along the normal of another contact, and do not approach along it.
 
-    If they are apart by more than the gap tolerance, they may approach. Stores that direction as the one of their pair.
+    Shapes that are apart by more than the gap tolerance may approach: they do not meet now. The normal of the other
+    contact becomes the direction of the pair.
     """
     pair, near = ws.pairs[contact.pair], ADJACENT * ws.tolerance.gap
     for other in ws.contacts:
@@ -85,7 +87,7 @@ def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
 
 @kernel("b1(ws, ContactRecord)")
 def _closes_along(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if a touching contact with the normal of a given one, between the same shapes, approaches."""
+    """True if a touching contact between the same shapes, with the normal of ``contact``, approaches."""
     for other in ws.contacts:
         is_along = other.pair == contact.pair and other.is_touching and are_alike(contact.normal, other.normal)
         if is_along and other.normal_rate < -ws.tolerance.velocity:
@@ -109,7 +111,7 @@ def _approaches(ws: Workspace, contact: ContactRecord) -> bool:
 
 @kernel("f8(ContactRecord)")
 def _depth_or_gap(contact: ContactRecord) -> float:
-    """Gap of a contact along its normal, also right past the end of its features [m]."""
+    """Gap of a contact along its normal [m]: past the end of its features its overlap, not the substitute."""
     return float(contact.overlap if contact.overlap < 0.0 else contact.gap)
 
 

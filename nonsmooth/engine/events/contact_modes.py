@@ -195,7 +195,7 @@ def adopt_modes(ws: Workspace) -> None:
         if contact.mode == Mode.OPEN and contact.mode_agreed != Mode.OPEN:
             start_inner_states(ws, contact.index)
         if contact.mode != contact.mode_agreed:
-            # past the end of its features, the gap depends on the mode
+            # evaluate the contact again: past the end of its features, the gap depends on the mode
             contact.version_a = NOT_EVALUATED
         contact.mode = contact.mode_agreed
         # OPEN also marks that forces are not averaged over time

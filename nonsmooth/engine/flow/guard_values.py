@@ -23,9 +23,10 @@ gap tolerance past the end, and must not end at once."""
 def feature_guard(ws: Workspace, contact: ContactRecord) -> float:
     """End guard of a closed contact [m]: the distance to the end of its features, negative past it.
 
-    Features are the faces, edges or corners in contact. If they are others than at the start of the step, the sign of a
-    positive distance is turned, so that the guard fires. They are others, too, if the gap of a rigid contact changes
-    faster than the tolerances allow: its normal is that of another face.
+    Features are the faces, edges or corners in contact. The guard fires if they change: a positive distance then gets a
+    negative sign. They have changed if their number differs from that at the start of the step. They have changed, too,
+    if the gap of a closed rigid contact changes faster than the tolerances allow: the normal is then that of another
+    face. A contact with averaged forces is excepted.
     """
     # a contact may close a gap tolerance past the end, so the guard ends two of them past it; without an end it is 1
     distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0

@@ -109,7 +109,8 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool)
             if ws.guards[i].is_deflated:
                 ws.step.guard_slope = (ws.step.guard_slope - g) / (theta * h)
         # accept no root while the guard is as large as at the start: across a jump the slope is steep, so that
-        # Newton's estimate would be wrong; behind its jump, the distance to the end of features may be small
+        # Newton's estimate would be wrong. An end guard may be small right behind its jump: test its last positive
+        # value, too
         size = max(abs(g), left) if i >= first_end_guard(ws) else abs(g)
         near = abs(g) <= -fine * ws.step.guard_slope and (size <= _NEARER * g_first or is_gap(ws, i))
         if g == 0.0 or (high - low) * h <= fine or near:
@@ -199,10 +200,10 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
 def locate(ws: Workspace, h: float, high: float) -> float:
     """Make a step that ends at the first event before the fraction ``high`` of the step of ``h`` [s].
 
-    Returns the length of the new step [s]. It is negative if the error of the new step, or the number of guards that
-    fire, shows that the motion is not smooth. ``ws.step.guard`` becomes the guard that fires.  Unless the error of the
-    step is negligible, the root on the interpolant is corrected by further steps, because the step has a higher order
-    than its interpolant.
+    Returns the length of the new step [s]. ``ws.step.guard`` becomes the guard that fires. Unless the error of the step
+    is negligible, the root on the interpolant is corrected by further steps, because the step has a higher order than
+    its interpolant. The result is negative if a shorter step must be tried: if the new step is inaccurate, if many
+    guards fire, so that the motion is not smooth, or if a guard jumps and the error of the step is not negligible.
     """
     closed = asks_forces(ws)
     first = first_fired(ws, forces_are_known=True, located=NO_GUARD)
@@ -246,7 +247,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     if ws.step.error <= NEGLIGIBLE:
         state_within(ws, h, theta, ws.step.y_new.start)
         return step
-    # a step up to a jump cannot be corrected: shorter steps are accurate without
+    # a jump has no root that Newton's method could correct: shorter steps, of negligible error, need no correction
     if ws.step.guard_slope == -math.inf:
         return -1.0
     return _corrected(ws, step, fired)

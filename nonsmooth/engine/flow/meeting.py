@@ -50,11 +50,12 @@ _FINER = 8.0
 
 @entry_point("void(ws, f8)")
 def watch_pairs(ws: Workspace, h: float) -> None:
-    """Find the pairs whose separation is watched within the step of ``h`` [s], and from when on.
+    """Find the pairs whose separation is searched for a root within the step of ``h`` [s], and where the search begins.
 
-    It is watched while no contact of the shapes is closed. Parts that touch at the start are watched once they are
-    apart; if they stay next to each other, the contacts decide. Feet close within the clearance of a pair: there the
-    contacts decide, but the parts themselves are watched, too. Bodies must be evaluated at the end of the step.
+    A pair is searched while no contact of its shapes is closed. If its parts touch at the start of the step, the search
+    begins once they are apart. If they stay next to each other, the contacts decide. Contacts of feet close within the
+    clearance of a pair: there the contacts decide, too, but the separation of the parts without feet is searched.
+    Bodies must be evaluated at the end of the step.
     """
     enough = ADJACENT * ws.tolerance.gap
     for pair in ws.pairs:
@@ -66,7 +67,7 @@ def watch_pairs(ws: Workspace, h: float) -> None:
             pair.begin = _begin_of(ws, h, pair)
             group.is_watched = group.is_watched and pair.begin < 1.0
             if pair.begin == 1.0 and pair.clearance > 0.0:
-                # within the clearance the parts themselves may touch, and are watched once they are apart
+                # within the clearance the parts without feet may touch: the search begins once they are apart
                 pair.level = 0.0
                 pair.begin = 0.0 if budget(ws, pair) + pair.clearance > enough else _begin_of(ws, h, pair)
             _evaluate(ws, h, 1.0, pair)

@@ -352,8 +352,8 @@ def _project_active(ws: Workspace, at_event: bool) -> Projected:
     """Project the rates of the active contacts, and add the velocities that close their gaps to ``y_stage``.
 
     Result: kinetic energy that was removed, and whether velocities were added. Nothing is projected if a contact is
-    past the end of its feature, or has changed its features in the step: its rate is then that of another gap. The next
-    event opens such a contact.
+    past the end of its feature, or if its features have changed in the step: its rate is then the rate of another gap.
+    The next event opens such a contact.
     """
     for active in ws.actives:
         evaluate_kinematics(ws, active.contact)

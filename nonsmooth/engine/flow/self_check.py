@@ -83,8 +83,8 @@ def _has_closed_contact(ws: Workspace, contact: ContactRecord) -> bool:
 def _allowed_overlap(ws: Workspace, number: int) -> float:
     """Overlap of pair ``number`` of convex parts that the tolerances of gaps and of steps allow [m].
 
-    A pair without a closed contact is watched within each step, so that the tolerance of gaps suffices. The tolerance
-    of steps is relative to the distance from the origin of space and the size of the parts.
+    If no contact of a guarded pair is closed, each step is searched for its first meeting, so the tolerance of gaps
+    suffices. The tolerance of steps is relative to the distance from the origin of space plus the size of the parts.
     """
     pair = ws.pairs[number]
     if ws.pairs[pair.group].is_guarded and not ws.pairs[pair.group].is_closed:
@@ -154,7 +154,7 @@ def _deepest_other(ws: Workspace, contact: ContactRecord, after: bool) -> float:
         mode = other.mode_agreed if after else other.mode
         is_same_pair = other.frame_a == contact.frame_a and other.frame_b == contact.frame_b
         if other.index != contact.index and is_same_pair and mode != Mode.OPEN:
-            # past its end, the gap is only a distance
+            # past the end of its features, an open contact has a substitute as gap, and its depth as overlap
             deepest = min(deepest, other.gap, other.overlap)
     return float(deepest)
 

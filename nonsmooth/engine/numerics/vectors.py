@@ -12,9 +12,10 @@ Pair: TypeAlias = tuple[float, float]
 Vector: TypeAlias = tuple[float, float, float]
 """A vector of space, ``v3`` in signatures."""
 ALIKE = 1e-5
-"""Difference of normals, and of points relative to the size of the smaller body, up to which contacts coincide.
+"""Largest difference of two unit vectors that count as equal.
 
-The relative error of the energy of an approach is its square, which is below the energy tolerances.
+Contacts coincide if their normals differ by no more, and their points by no more relative to the size of the smaller
+body. The relative error of the energy of an approach is its square, which is below the energy tolerances.
 """
 
 
@@ -64,8 +65,8 @@ def distance(a: Vector, b: Vector) -> float:
 
 @kernel("b1(v3, v3)")
 def are_alike(a: Vector, b: Vector) -> bool:
-    """True if two unit vectors are the same within the tolerance."""
-    # the length of the difference of two unit vectors is the angle between them if that is small
+    """True if two unit vectors differ by at most ``ALIKE``."""
+    # the length of a small difference of two unit vectors is the angle between them [rad]
     return distance(a, b) <= ALIKE
 
 

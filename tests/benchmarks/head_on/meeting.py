@@ -36,7 +36,7 @@ SPEEDS = (0.1, 1.0, 10.0)
 SPEED, TIME, DEPTH, MOMENTUM = 1e-7, 1e-12, 1e-9, 1e-10
 """Error of a speed relative to that of the first body, of a time [s], deepest overlap [m], error of the momentum."""
 EDGES = 1e-8
-"""Clearance up to which the edges of discs without thickness may collide [m]: 1e-7 of their size."""
+"""Clearance up to which discs without thickness may collide edge to edge [m]: 1e-7 of their size of 0.1 m."""
 LEAST = 1e-9
 """Velocity after a collision, relative to the speed before: the normal of rims that cross may be next to across."""
 MARKS = {".": "right", "X": "passed", "F": "failed", "~": "wrong speed"}

@@ -82,7 +82,7 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     direction: Vector3 = vector(
         Life.STATE, 3, "1", "Direction of largest separation, along the axes of the first frame."
     )
-    facing: Vector3 = vector(Life.STATE, 3, "1", "That direction, when found, along the axes of the second frame.")
+    facing: Vector3 = vector(Life.STATE, 3, "1", "Same direction when stored, along the axes of the second frame.")
     drift: Vector3 = vector(Life.STEP, 3, "1/s", "Rate of that direction, along the same axes.")
     searched: float = real(Life.STEP, "s", "Time within the step at which the direction was searched.")
     clearance: float = real(_PARAMETER, "m", "Separation at which contacts of the shapes may close.")
