@@ -10,6 +10,8 @@ from tests.physics.head_on import FINE, central_of, drawn_of, wrong
 from tests.physics.test_head_on import NAMES as OTHERS
 
 NAMES = [name for name in PAIRS if name not in (*OTHERS, "hollow mesh")]
+WORLDS = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
+"""Orientations of both bodies."""
 EXACT = [name for name in NAMES if PAIRS[name].central]
 """Pairs whose speeds are as exact as the tolerances, in line and turned by any angle."""
 
@@ -25,8 +27,7 @@ def test_pairs_collide_and_never_overlap(name: str) -> None:
 @pytest.mark.parametrize("shift", [(0.0, 0.0), (1e-12, 0.0), (1e-9, 1e-9), (1e-6, 1e-6), (5e-3, 3e-3)])
 def test_discs_in_almost_one_plane_meet_or_pass_each_other(axis: int, shift: tuple[float, float]) -> None:
     """The planes of the discs are 0 to 5 mm apart and turned by 0 to 1e-6 rad, in three orientations of both."""
-    worlds = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
-    rows = [Meeting("disc", axis, shift, turn, world=world) for turn in (0.0, 1e-9, 1e-6) for world in worlds]
+    rows = [Meeting("disc", axis, shift, turn, world=world) for turn in (0.0, 1e-9, 1e-6) for world in WORLDS]
     assert wrong(rows) == []
 
 
@@ -34,8 +35,7 @@ def test_discs_in_almost_one_plane_meet_or_pass_each_other(axis: int, shift: tup
 @pytest.mark.parametrize("turn", [1e-6, 2e-6, 5e-6, 1e-5, 1e-2])
 def test_sides_that_are_nearly_parallel_meet(name: str, turn: float) -> None:
     """The bodies are in line or shifted by 1 mm. Parallel sides touch along their length, other sides at a point."""
-    worlds = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
-    rows = [Meeting(name, 0, (shift, 0.0), turn, world=world) for shift in (0.0, 1e-3) for world in worlds]
+    rows = [Meeting(name, 0, (shift, 0.0), turn, world=world) for shift in (0.0, 1e-3) for world in WORLDS]
     assert wrong(rows) == []
 
 

@@ -46,7 +46,7 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
 
 
 @compiled
-def across_of(e: Vector3, f: Vector3) -> Vector3:
+def _across_of(e: Vector3, f: Vector3) -> Vector3:
     """Return the shorter of the vectors f - e and f + e of two unit vectors."""
     sign = 1.0 if e[0] * f[0] + e[1] * f[1] + e[2] * f[2] > 0.0 else -1.0
     return f[0] - sign * e[0], f[1] - sign * e[1], f[2] - sign * e[2]
@@ -82,7 +82,7 @@ def cross_edges(
     fx, fy, fz = vector_in_world(b, edge_b[along_b], edge_b[along_b + 1], edge_b[along_b + 2])
     wx, wy, wz = bx - ax, by - ay, bz - az
     # e x f = e x (f - e): the short vector f - e keeps its digits, so the normal of nearly parallel edges is accurate
-    dx, dy, dz = across_of((ex, ey, ez), (fx, fy, fz))
+    dx, dy, dz = _across_of((ex, ey, ez), (fx, fy, fz))
     nx, ny, nz = ey * dz - ez * dy, ez * dx - ex * dz, ex * dy - ey * dx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)
     s, t, over, past = 0.0, 0.0, 0.0, size

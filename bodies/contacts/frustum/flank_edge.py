@@ -78,7 +78,7 @@ def evaluate_flank_edge(
     steep, astray = abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz)
     past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, steep, astray, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz), size)
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz))
     ux, uy, uz = forth(axes, ex, ey, 0.0)
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), (ux, uy, uz), cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])

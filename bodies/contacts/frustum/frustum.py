@@ -134,7 +134,7 @@ def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float,
 
 
 @compiled
-def least_over(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
+def least_over(b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
     """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
     (nx, ny, nz), (x, y, z) = normal, place
     base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
@@ -150,9 +150,9 @@ def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: floa
     """Return the largest separation of a frustum in ``a`` and vertices in ``b`` along the normals of its caps [m]."""
     ax, ay, az = axis_in_world(a, frustum)
     place = center_in_world(a, frustum)
-    best = least_over(a, b, n_vertices, vertices, (-ax, -ay, -az), place) + frustum[LOW]
+    best = least_over(b, n_vertices, vertices, (-ax, -ay, -az), place) + frustum[LOW]
     if frustum[1] > 0.0:
-        best = max(best, least_over(a, b, n_vertices, vertices, (ax, ay, az), place) - frustum[HIGH])
+        best = max(best, least_over(b, n_vertices, vertices, (ax, ay, az), place) - frustum[HIGH])
     return float(best)
 
 

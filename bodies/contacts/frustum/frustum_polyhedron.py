@@ -75,7 +75,7 @@ def _evaluate(
             radial, axial, height = cosine, sine, cosine * dr + sine * dz
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        best = max(best, least_over(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
+        best = max(best, least_over(b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
         highest = max(highest, height)
     found, gap, past = LOW_CAP, 0.0, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
@@ -90,7 +90,7 @@ def _evaluate(
             beyond = max(-up, up - frustum[SIDE])
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        if least_over(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)) < best - margin:
+        if least_over(b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)) < best - margin:
             continue
         if height < 0.0:
             # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it

@@ -228,7 +228,6 @@ def write_crossing(
     sine: float,
     normal: Vector3,
     p: Vector3,
-    size: float,
 ) -> None:
     """Write the geometry block of an edge that crosses a rim or a side, except the curvature matrices of the frustum.
 
