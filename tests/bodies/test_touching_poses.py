@@ -23,9 +23,10 @@ POSES = 40
 _RING = [(SIZE * math.cos(k * math.pi / 3.0), SIZE * math.sin(k * math.pi / 3.0)) for k in range(6)]
 
 
-def _cloud() -> np.ndarray:
+def _cloud() -> list[tuple[float, ...]]:
     points = np.random.default_rng(3).normal(size=(12, 3))
-    return np.asarray(SIZE * points / np.linalg.norm(points, axis=1)[:, None])
+    points *= SIZE / np.linalg.norm(points, axis=1)[:, None]
+    return [tuple(point) for point in points.tolist()]
 
 
 POLYHEDRA: dict[str, Callable[[], Body]] = {
