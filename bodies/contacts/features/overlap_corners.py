@@ -25,7 +25,12 @@ from .polytope_tables import FACE, LENGTH
 from .vertex_face import CLOSED, nearest_feature, past_face, plane_height
 
 _COSINE = math.sqrt(1.0 - ASTRAY * ASTRAY)
-"""Cosine of the largest angle between a contact normal and the normal of a face at which the face is flush."""
+"""Cosine of the largest angle between a contact normal and the normal of a face next to it."""
+_FLUSH = math.sqrt(1.0 - 0.02**2)
+"""Cosine of the largest angle between two faces that are next to each other: 0.02 rad.
+
+Springs have depths of a hundredth of the size. At a larger angle faces overlap along an edge only.
+"""
 
 
 @compiled
@@ -72,8 +77,8 @@ def common_direction(
 ) -> Vector3:
     """Return the common direction of projection, a unit vector from the first body to the second.
 
-    It is the outward normal of the face of the first body that is nearest to the contact normal.  If the first body has
-    no faces, it is the inward normal of a face of the second body.  It is zero if no face is flush with the contact.
+    It is the outward normal of the face of the first body that is nearest to the contact normal.  It is zero if the
+    faces of the two bodies that are nearest to the contact normal do not face each other, or if a body has no faces.
 
     Parameters
     ----------
@@ -84,11 +89,11 @@ def common_direction(
     x, y, z : float
         Contact normal from the first body to the second, in world axes.
     """
-    if n_faces_a > 0.0:
-        x, y, z = _normal_near(a, n_faces_a, faces_a, x, y, z)
-        return x, y, z
-    x, y, z = _normal_near(b, n_faces_b, faces_b, -x, -y, -z)
-    return -x, -y, -z
+    ux, uy, uz = _normal_near(a, n_faces_a, faces_a, x, y, z)
+    vx, vy, vz = _normal_near(b, n_faces_b, faces_b, -x, -y, -z)
+    if ux * vx + uy * vy + uz * vz > -_FLUSH:
+        return 0.0, 0.0, 0.0
+    return ux, uy, uz
 
 
 @compiled
