@@ -74,6 +74,13 @@ def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
     return ux + oy * z - oz * y, uy + oz * x - ox * z, uz + ox * y - oy * x
 
 
+@kernel("v3(ws, ContactRecord)")
+def velocity_at(ws: Workspace, contact: ContactRecord) -> Vector:
+    """Velocity of the second body at its witness point less that of the first body at its own [m/s]."""
+    velocity_b = velocity_of_point(ws.floats, contact.frame_b, contact.point_b)
+    return minus(velocity_b, velocity_of_point(ws.floats, contact.frame_a, contact.point_a))
+
+
 @kernel("b1(ws, ContactRecord, b1, f8)")
 def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: float) -> bool:
     """True if two convex shapes are apart, and do not approach, along another direction than the contact normal.
@@ -92,7 +99,9 @@ def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: f
     # the direction is the normal of a face of one part; the nearest point of the other part moves with that part
     point = first if of_second else second
     v = minus(velocity_of_point(ws.floats, pair.frame_b, point), velocity_of_point(ws.floats, pair.frame_a, point))
-    return dot(n, v) >= -ws.tolerance.velocity
+    # several points of a face are nearest; where the contact is, the shapes must not approach either
+    slowest = min(dot(n, v), dot(n, along_pair(pair, velocity_at(ws, contact))))
+    return slowest >= -ws.tolerance.velocity
 
 
 @kernel("b1(ws, ContactRecord, f8)")
@@ -106,11 +115,7 @@ def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
     """
     if not separates(ws, contact.pair, contact.normal, near):
         return False
-    v = minus(
-        velocity_of_point(ws.floats, contact.frame_b, contact.point_b),
-        velocity_of_point(ws.floats, contact.frame_a, contact.point_a),
-    )
-    if dot(contact.normal, v) >= -ws.tolerance.velocity:
+    if dot(contact.normal, velocity_at(ws, contact)) >= -ws.tolerance.velocity:
         return True
     return not (_opens_aside(ws, contact, False, near) or _opens_aside(ws, contact, True, near))
 
@@ -156,8 +161,7 @@ def evaluate_rates(ws: Workspace, c: int) -> None:
     stretches t1 and t2, which may depend on the slip along the unit tangents.
     """
     contact = ws.contacts[c]
-    velocity_b = velocity_of_point(ws.floats, contact.frame_b, contact.point_b)
-    v = minus(velocity_b, velocity_of_point(ws.floats, contact.frame_a, contact.point_a))
+    v = velocity_at(ws, contact)
     if contact.is_anisotropic:
         t1, t2 = contact.tangent, cross(contact.normal, contact.tangent)
         contact.slip_of_tangents = dot(t1, v), dot(t2, v)

@@ -11,14 +11,20 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import copy_inner_states, evaluate_compliant_force
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
-from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED, evaluate_bias, evaluate_jacobian, evaluate_kinematics
+from nonsmooth.engine.bodies.kinematics import (
+    NOT_EVALUATED,
+    evaluate_bias,
+    evaluate_jacobian,
+    evaluate_kinematics,
+    velocity_at,
+)
 from nonsmooth.engine.bodies.same_point import leave_out_coincident
 from nonsmooth.engine.bodies.support import along_pair, is_of_one_part_each, separation_along, store_direction
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.tolerances import ADJACENT
-from nonsmooth.engine.numerics.vectors import are_alike
+from nonsmooth.engine.numerics.vectors import are_alike, dot
 
 
 @entry_point("b1(ws)")
@@ -73,13 +79,14 @@ def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
     Shapes that are apart by more than the gap tolerance may approach: they do not meet now. The normal of the other
     contact becomes the direction of the pair.
     """
-    pair, near = ws.pairs[contact.pair], ADJACENT * ws.tolerance.gap
+    pair, near, v = ws.pairs[contact.pair], ADJACENT * ws.tolerance.gap, velocity_at(ws, contact)
     for other in ws.contacts:
         if other.pair != contact.pair or other.past_feature > 0.0 or are_alike(contact.normal, other.normal):
             continue
+        is_resting = dot(other.normal, v) >= -ws.tolerance.velocity and not _closes_along(ws, other)
         along = along_pair(pair, other.normal)
         apart = separation_along(ws, pair.index, along)
-        if apart > ws.tolerance.gap or (apart >= -near and not _closes_along(ws, other)):
+        if apart > ws.tolerance.gap or (apart >= -near and is_resting):
             store_direction(ws, pair, along)
             return True
     return False
