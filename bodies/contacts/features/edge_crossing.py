@@ -6,6 +6,7 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.numerics.tolerances import GAP, RELATIVE_GAP
 from nonsmooth.types import Floats
 
 from ...blocks import Vector3
@@ -50,6 +51,15 @@ def _across_of(e: Vector3, f: Vector3) -> Vector3:
     """Return the shorter of the vectors f - e and f + e of two unit vectors."""
     sign = 1.0 if e[0] * f[0] + e[1] * f[1] + e[2] * f[2] > 0.0 else -1.0
     return f[0] - sign * e[0], f[1] - sign * e[1], f[2] - sign * e[2]
+
+
+@compiled
+def least_sine(size: float) -> float:
+    """Return the least sine of the angle at which sharp edges of bodies of a ``size`` [m] cross.
+
+    At this sine the ends of the edges are aside by the default gap tolerance.
+    """
+    return min(GAP / size, RELATIVE_GAP)
 
 
 @compiled

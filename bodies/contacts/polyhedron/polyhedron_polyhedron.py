@@ -9,14 +9,13 @@ from types import MappingProxyType
 from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
-from nonsmooth.engine.numerics.tolerances import GAP as GAP_TOLERANCE
-from nonsmooth.engine.numerics.tolerances import RELATIVE_GAP
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import Polyhedron
 from ..features.bounds import edges_bound
+from ..features.edge_crossing import least_sine
 from ..features.polytope_tables import EDGE, ConvexCore
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
@@ -63,8 +62,7 @@ def _evaluate(
         edges_a,
         n_edges_b,
         edges_b,
-        # least sine: the ends of an edge as long as the body are then one default gap tolerance from the other edge
-        min(GAP_TOLERANCE / size, RELATIVE_GAP),
+        least_sine(size),
         CLOSED * size,
         size,
     )

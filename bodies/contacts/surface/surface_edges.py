@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import PARALLEL, cross_edges
+from ..features.edge_crossing import PARALLEL, cross_edges, least_sine
 from ..features.frames import write_tangent
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
@@ -45,7 +45,7 @@ def write_edges(
     (:func:`bodies.contacts.features.edge_crossing.cross_edges`), and if they overlap near their ends.  The rows of the
     edges begin at the indices ``at_a`` and ``at_b``.
     """
-    margin, parallel = CLOSED * size, CLOSED if radius == 0.0 else PARALLEL
+    margin, parallel = CLOSED * size, least_sine(size) if radius == 0.0 else PARALLEL
     p, e, f, n, gap, over, past = cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, margin, size)
     if gap < 0.0:
         past = max(past, over - _NEAR_ENDS * gap - margin)
