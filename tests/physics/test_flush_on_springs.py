@@ -109,7 +109,7 @@ def test_the_upper_body_is_carried(name: str, shift: float, turn: float) -> None
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["rounded boxes", "boxes", "hulls"])
-@pytest.mark.parametrize(("shift", "turn"), [(0.0, 0.0), (1e-9, 0.0), (1e-6, 0.0), (0.0, 1e-9), (0.0, 1e-3)])
+@pytest.mark.parametrize(("shift", "turn"), [(0.0, 0.0), (1e-6, 0.0), (0.0, 1e-9), (0.0, 1e-3)])
 def test_a_body_that_falls_by_millimetres_is_carried(name: str, shift: float, turn: float) -> None:
     assert heights(name, shift, turn, height=3e-3, t_end=1.0) == pytest.approx([HALF, 3.0 * HALF], abs=INDENTED)
 

@@ -12,7 +12,7 @@ ENDED = {
     "slide": (700035, 700091, 700131, 700140),
     "fall": (700049, 700075, 700192, 700217),
     "head_on": (700290, 700291),
-    "stack": (700081, 700179),
+    "stack": (700081,),
 }
 """Systems of discs, cylinders, cones and outlines whose faces, rims or edges meet in line."""
 

@@ -48,7 +48,7 @@ from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MO
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE, NO_PAIR
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Limit, Mode, Status
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
-from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE, SPACING
+from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE, SPACING
 from nonsmooth.engine.numerics.vectors import length
 from nonsmooth.engine.pairs.apart import find_apart
 from nonsmooth.engine.pairs.listing import list_touching, list_with, longest_step
@@ -252,8 +252,11 @@ def _due_at_start(ws: Workspace) -> int:
     for contact in ws.contacts:
         c = contact.index
         # a gap that closes exactly where the last step ended is an event of that step
-        arrived = normal_of(ws, contact).at_end <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
-        if contact.mode == Mode.OPEN and arrived:
+        gap = normal_of(ws, contact).at_end
+        arrived = gap <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
+        # features of bodies on springs may begin to face each other at depth
+        begins_deep = contact.is_compliant and gap < -ALLOWED * ws.tolerance.gap
+        if contact.mode == Mode.OPEN and (arrived or begins_deep):
             return c
         # the projection on the constraints may have moved a contact point past the end of its feature
         if contact.mode != Mode.OPEN and end_of(ws, contact).at_end < 0.0:

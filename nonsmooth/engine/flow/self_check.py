@@ -113,8 +113,8 @@ def check_gaps(ws: Workspace) -> None:
     for contact in ws.contacts:
         gap = contact.gap_at_end
         if contact.mode == Mode.OPEN:
-            # a positive gap is no error
-            gap = min(0.0, gap)
+            # a positive gap is no error, and an open spring at depth has an event at the start of the step
+            gap = 0.0 if contact.is_compliant else min(0.0, gap)
             # past the end of features the gap is a distance, and the overlap is stored apart; pairs are checked above
             if contact.overlap_at_end < 0.0 and contact.pair == NO_PAIR and not _has_closed_contact(ws, contact):
                 gap = contact.overlap_at_end
