@@ -1,17 +1,14 @@
-"""Functions that write vectors and poses into the blocks of numbers (:mod:`nonsmooth.engine.memory.blocks`)."""
+"""Functions that write poses into the blocks of numbers (:mod:`nonsmooth.engine.memory.blocks`)."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FRAME, VELOCITY
 from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
 
-Vector3: TypeAlias = tuple[float, float, float]
-"""A vector of three numbers, as compiled functions take and return it."""
 POSE = VELOCITY
 """Length of a pose: position [m], then rotation matrix by rows.
 
@@ -23,12 +20,6 @@ def places_behind_frame(n_q: int, n_u: int) -> tuple[int, int, int, int]:
     """Indices of coordinate rates, force, inverse mass matrix and energies in the block of a body with one frame."""
     rates = FRAME + 6 * n_u
     return rates, rates + n_q, rates + n_q + n_u, rates + n_q + n_u + n_u * n_u
-
-
-@compiled
-def put(out: Floats, place: int, x: float, y: float, z: float) -> None:
-    """Write a vector, or a row of a matrix, from a place of a block on."""
-    out[place], out[place + 1], out[place + 2] = x, y, z
 
 
 @compiled

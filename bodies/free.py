@@ -18,9 +18,10 @@ from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, 
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from .blocks import places_behind_frame, put, rotation_of
+from .blocks import places_behind_frame, rotation_of
 from .inertia import Triple, check_inertia, tensor_of
 from .values import Word, check_carried, read_start
+from .vectors import put, vector_at
 
 _WORDS: dict[str, Word] = {
     "position": (3, (0.0, 0.0, 0.0), "m"),
@@ -45,35 +46,35 @@ def _evaluate(
     gravity_z: float,
 ) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
-    ox, oy, oz = u[3], u[4], u[5]
+    ox, oy, oz = vector_at(u, 3)
     jx, jy, jz, jyz, jxz, jxy = inertia[0], inertia[1], inertia[2], inertia[3], inertia[4], inertia[5]
-    put(out, POSITION, q[0], q[1], q[2])
-    put(out, VELOCITY, u[0], u[1], u[2])
+    put(out, POSITION, vector_at(q, 0))
+    put(out, VELOCITY, vector_at(u, 0))
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_of(a, b, c, d)
-    put(out, ROTATION, xx, xy, xz)
-    put(out, ROTATION + 3, yx, yy, yz)
-    put(out, ROTATION + 6, zx, zy, zz)
-    put(out, SPIN, xx * ox + xy * oy + xz * oz, yx * ox + yy * oy + yz * oz, zx * ox + zy * oy + zz * oz)
+    put(out, ROTATION, (xx, xy, xz))
+    put(out, ROTATION + 3, (yx, yy, yz))
+    put(out, ROTATION + 6, (zx, zy, zz))
+    put(out, SPIN, (xx * ox + xy * oy + xz * oz, yx * ox + yy * oy + yz * oz, zx * ox + zy * oy + zz * oz))
     # Jacobian of (velocity, angular velocity): identity and rotation
     out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
-    put(out, JACOBIAN + 21, xx, xy, xz)
-    put(out, JACOBIAN + 27, yx, yy, yz)
-    put(out, JACOBIAN + 33, zx, zy, zz)
+    put(out, JACOBIAN + 21, (xx, xy, xz))
+    put(out, JACOBIAN + 27, (yx, yy, yz))
+    put(out, JACOBIAN + 33, (zx, zy, zz))
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    put(out, _RATES, u[0], u[1], u[2])
+    put(out, _RATES, vector_at(u, 0))
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
     out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
     out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
     out[_RATES + 6] = 0.5 * (a * oz + b * oy - c * ox)
     # force and gyroscopic moment
-    put(out, _FORCE, mass * gravity_x, mass * gravity_y, mass * gravity_z)
+    put(out, _FORCE, (mass * gravity_x, mass * gravity_y, mass * gravity_z))
     # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
     out[_FORCE + 3] = (jy - jz) * oy * oz + (jyz * (oz * oz - oy * oy) + ox * (jxy * oz - jxz * oy))
     out[_FORCE + 4] = (jz - jx) * oz * ox + (jxz * (ox * ox - oz * oz) + oy * (jyz * ox - jxy * oz))
     out[_FORCE + 5] = (jx - jy) * ox * oy + (jxy * (oy * oy - ox * ox) + oz * (jxz * oy - jyz * ox))
     out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
     for i in range(3):
-        put(out, _INVERSE + 21 + 6 * i, inverse_inertia[3 * i], inverse_inertia[3 * i + 1], inverse_inertia[3 * i + 2])
+        put(out, _INVERSE + 21 + 6 * i, vector_at(inverse_inertia, 3 * i))
     out[_ENERGY] = 0.5 * (
         mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + jx * ox * ox + jy * oy * oy + jz * oz * oz
     ) + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
@@ -92,14 +93,14 @@ def _turn(out: Floats, a: float, b: float, c: float, d: float, k: float, x: floa
 def _fly(
     t: float, q: Floats, u: Floats, out: Floats, inertia: Floats, gravity_x: float, gravity_y: float, gravity_z: float
 ) -> None:
-    half, (jx, jy, jz) = 0.5 * t, (inertia[0], inertia[1], inertia[2])
+    half, (jx, jy, jz) = 0.5 * t, vector_at(inertia, 0)
     out[0] = q[0] + t * (u[0] + half * gravity_x)
     out[1] = q[1] + t * (u[1] + half * gravity_y)
     out[2] = q[2] + t * (u[2] + half * gravity_z)
     out[7] = u[0] + t * gravity_x
     out[8] = u[1] + t * gravity_y
     out[9] = u[2] + t * gravity_z
-    ox, oy, oz = u[3], u[4], u[5]
+    ox, oy, oz = vector_at(u, 3)
     # the angular momentum over the moment of inertia across the axis of symmetry stays in space; what the spin about
     # that axis has more turns with the body
     ex = ey = ez = 0.0
@@ -126,7 +127,7 @@ def _fly(
             oz, ox = c * oz + s * ox, c * ox - s * oz
         else:
             ox, oy = c * ox + s * oy, c * oy - s * ox
-    out[10], out[11], out[12] = ox, oy, oz
+    put(out, 10, (ox, oy, oz))
 
 
 @functools.lru_cache(maxsize=256)

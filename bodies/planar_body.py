@@ -15,8 +15,9 @@ from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
-from .blocks import places_behind_frame, put
+from .blocks import places_behind_frame
 from .values import Word, check_carried, read_start
+from .vectors import put, vector_at
 
 _WORDS: dict[str, Word] = {
     "position": (2, (0.0, 0.0), "m"),
@@ -41,11 +42,11 @@ def _evaluate(
     gravity_z: float,
 ) -> None:
     c, s = math.cos(q[2]), math.sin(q[2])
-    put(out, POSITION, q[0], y, q[1])
+    put(out, POSITION, (q[0], y, q[1]))
     out[ROTATION], out[ROTATION + 2] = c, s
     out[ROTATION + 4] = 1.0
     out[ROTATION + 6], out[ROTATION + 8] = -s, c
-    out[VELOCITY], out[VELOCITY + 2], out[SPIN + 1] = u[0], u[1], u[2]
+    out[VELOCITY], out[VELOCITY + 2], out[SPIN + 1] = vector_at(u, 0)
     # Jacobian: x, z and the turn about y
     out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
     for i in range(3):

@@ -14,7 +14,8 @@ from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
-from ..blocks import put, rotation_of
+from ..blocks import rotation_of
+from ..vectors import put
 from .function_check import Function, check_linear, check_turn
 
 Evaluator: TypeAlias = Callable[..., None]
@@ -39,9 +40,9 @@ def _turning(translation: Evaluator, orientation: Function, velocity: Function, 
         move(t, q, u, out)
         w, x, y, z = r(t)
         xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_of(w, x, y, z)
-        put(out, ROTATION, xx, xy, xz)
-        put(out, ROTATION + 3, yx, yy, yz)
-        put(out, ROTATION + 6, zx, zy, zz)
+        put(out, ROTATION, (xx, xy, xz))
+        put(out, ROTATION + 3, (yx, yy, yz))
+        put(out, ROTATION + 6, (zx, zy, zz))
         out[SPIN], out[SPIN + 1], out[SPIN + 2] = v(t)
         out[SPIN_ACCELERATION], out[SPIN_ACCELERATION + 1], out[SPIN_ACCELERATION + 2] = a(t)
 

@@ -8,6 +8,8 @@ from typing import TypeAlias
 from nonsmooth.compiled import call_support, compiled
 from nonsmooth.types import Floats
 
+from ..vectors import Vector3
+
 Support: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float]
 """Support function h [m] and its derivatives: ten numbers.
 
@@ -31,11 +33,12 @@ The differences are of fourth order: their error is of the order of step^4, 1e-1
 
 
 @compiled
-def support_of(core: Floats, x: float, y: float, z: float) -> Support:
-    """Return the support function of the core, without the radius, at the unit vector (x, y, z) of its own axes.
+def support_of(core: Floats, n: Vector3) -> Support:
+    """Return the support function of the core, without the radius, at the unit vector n of its own axes.
 
     The second derivative is infinite at the axes of a core that is not round; it is returned as nan for such cores.
     """
+    x, y, z = n
     if core[3] == OF_FUNCTION:
         found: Support = _by_function(core, x, y, z)
     else:

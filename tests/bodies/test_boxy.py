@@ -43,7 +43,7 @@ def test_gauge_and_support_function_belong_together(along: float, across: float,
     point, normal, tangents = s[:3], s[3:6], s[6:12].reshape(2, 3)
     f = boxy_gauge_of(core, *point)
     assert f[0] == pytest.approx(1.0, rel=1e-13)
-    np.testing.assert_allclose(support_of(core, *normal)[1:4], point, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(support_of(core, normal)[1:4], point, rtol=0, atol=1e-12)
     step = 1e-5 * np.min(np.abs(point))
     curve = np.array([[s[12], s[13]], [s[13], s[14]]])
     for i, t in enumerate(tangents):
@@ -85,8 +85,8 @@ def _touching(rng: np.random.Generator, low: float, on_faces: bool, other: Any, 
     turn, n = Rotation.random(random_state=rng).as_matrix(), rng.normal(size=3)
     s = np.array(place_on(one, *n))
     n = s[3:6] if on_faces else n / np.linalg.norm(n)
-    p = s[:3] if on_faces else np.array(support_of(one, *n)[1:4])
-    q = np.array(support_of(two, *(-turn.T @ n))[1:4])
+    p = s[:3] if on_faces else np.array(support_of(one, n)[1:4])
+    q = np.array(support_of(two, (-turn.T @ n))[1:4])
     return one, two, turn, p + gap * n - turn @ q, n
 
 

@@ -37,7 +37,7 @@ def test_point_and_normal_move_as_the_chart_says(along: float, across: float, wa
     norm: Any = tuple(core[:5].tolist())
     point, normal, first, second, slide, turn, w, one, two = chart_of(norm, length, *start_of(norm, *n.tolist()))
     np.testing.assert_allclose(normal, n, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(point, support_of(core, *n)[1:4], rtol=0, atol=1e-14)
+    np.testing.assert_allclose(point, support_of(core, n)[1:4], rtol=0, atol=1e-14)
     assert gauge_of(core, *point) == pytest.approx(1.0, rel=1e-12)
     tangents = np.array([first, second])
     s, u = (np.array([[m[0], m[1]], [m[1], m[2]]]) for m in (slide, turn))
@@ -63,7 +63,7 @@ def test_gaps_of_known_poses(exponents: Any, other: Any) -> None:
             # not where a slight overlap is more than the bodies are round
             n[i % 3] *= 10.0 ** rng.uniform(-8.0, -1.0) if gap > -1e-8 else 1.0
             n /= np.linalg.norm(n)
-            p, q = np.array(support_of(one, *n)[1:4]), np.array(support_of(two, *(-turn.T @ n))[1:4])
+            p, q = np.array(support_of(one, n)[1:4]), np.array(support_of(two, (-turn.T @ n))[1:4])
             x = p + gap * n - turn @ q
             for swapped in (False, True):
                 there = -turn.T @ x if swapped else x

@@ -202,7 +202,7 @@ def test_tangent_is_one_and_next_to_the_pole_stays(x: float, y: float, far: floa
     """Unit and across to round-off everywhere; what round-off leaves of a normal that looks down does not turn it."""
     n = np.array([10.0**far * x, 10.0**far * y, -1.0])
     n /= np.linalg.norm(n)
-    tangent = np.array(tangent_of(*n.tolist()))
+    tangent = np.array(tangent_of(n.tolist()))
     assert abs(tangent @ n) <= 4e-15
     assert np.linalg.norm(tangent) == pytest.approx(1.0, abs=4e-15)
     if np.hypot(n[0], n[1]) < 1e-9:

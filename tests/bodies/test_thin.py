@@ -39,7 +39,7 @@ def test_bodies_apart(ratio: float, low: float, high: float) -> None:
             one, two = (_thin(rng, ratio, low, high) for _ in range(2))
             turn, n = Rotation.random(random_state=rng).as_matrix(), rng.normal(size=3)
             n /= np.linalg.norm(n)
-            p, q = np.array(support_of(one, *n)[1:4]), np.array(support_of(two, *(-turn.T @ n))[1:4])
+            p, q = np.array(support_of(one, n)[1:4]), np.array(support_of(two, (-turn.T @ n))[1:4])
             found = np.array(widest(one, two, tuple(turn.ravel()), *(p + gap * n - turn @ q)))
             assert abs(found[0] - gap) <= 1e-12
             # round-off of the place over a radius of curvature of 1e-9 m
@@ -57,7 +57,7 @@ def test_deep_in_each_other_no_guess_is_made() -> None:
         one, two = (_thin(rng, 100.0, 1.0, 1.0) for _ in range(2))
         turn, x = Rotation.random(random_state=rng).as_matrix(), 0.01 * rng.normal(size=3)
         g = float(widest(one, two, tuple(turn.ravel()), *x)[0])
-        apart = max(n @ x - support_of(one, *n)[0] - support_of(two, *(-turn.T @ n))[0] for n in directions)
+        apart = max(n @ x - support_of(one, n)[0] - support_of(two, (-turn.T @ n))[0] for n in directions)
         if np.isnan(g):
             continue
         told += 1

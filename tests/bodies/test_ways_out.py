@@ -55,7 +55,7 @@ def _pose(rng: np.random.Generator, kinds: Any, gap: float) -> tuple[Array, Arra
     """Return two cores, rotation and centre of the second, and a normal along which their gap is stationary."""
     one, two = _core(rng, kinds[0]), _core(rng, kinds[1])
     turn, n = Rotation.random(random_state=rng).as_matrix(), _directions(rng, 2)[int(rng.integers(2))]
-    p, q = np.array(support_of(one, *n)[1:4]), np.array(support_of(two, *(-turn.T @ n))[1:4])
+    p, q = np.array(support_of(one, n)[1:4]), np.array(support_of(two, (-turn.T @ n))[1:4])
     return one, two, turn, p + gap * n - turn @ q, n
 
 
@@ -75,7 +75,7 @@ def test_no_direction_is_a_shorter_way_out(first: str, second: str) -> None:
             most = np.max(ways @ x - _heights(one, ways) - _heights(two, -ways @ turn))
             assert g >= most - 1e-12
             # the pose's own answer, whether or not it is the shortest
-            stationary = gap, *(x + turn @ np.array(support_of(two, *(-turn.T @ n))[1:4])), *n
+            stationary = gap, *(x + turn @ np.array(support_of(two, (-turn.T @ n))[1:4])), *n
             proved = no_shorter_way(one, two, tuple(turn.ravel()), *x, stationary)
             proofs += proved
             assert not proved or most <= gap + 1e-12
@@ -86,8 +86,8 @@ def test_a_long_way_out_is_not_proved() -> None:
     """Through the middle of an ellipsoid along any of its axes but the shortest; half a micrometre deep it is."""
     large, small = np.array(Superellipsoid(0.03, 0.02, 0.01).core), np.array(Superellipsoid(0.003, 0.002, 0.001).core)
     for n in np.eye(3):
-        reach = float(support_of(large, *n)[0])
-        inside = -reach - float(support_of(small, *n)[0])
+        reach = float(support_of(large, n)[0])
+        inside = -reach - float(support_of(small, n)[0])
         assert not no_shorter_way(large, small, SAME, 0.0, 0.0, 0.0, (inside, *(-(reach + inside) * n), *n))
         deep = -5e-7
         x = -(inside - deep) * n
@@ -118,7 +118,7 @@ def test_tips_against_tips() -> None:
     ):
         one, two = (np.array(Superellipsoid(*s, *e).core) for s, e in ((sizes, exponents), (others, powers)))
         turn, n = Rotation.from_quat(turned).as_matrix(), np.array(way) / np.linalg.norm(way)
-        p, q = np.array(support_of(one, *n)[1:4]), np.array(support_of(two, *(-turn.T @ n))[1:4])
+        p, q = np.array(support_of(one, n)[1:4]), np.array(support_of(two, (-turn.T @ n))[1:4])
         found = np.array(widest(one, two, tuple(turn.ravel()), *(p + gap * n - turn @ q)))
         assert abs(found[0] - gap) <= 1e-12
         np.testing.assert_allclose(found[4:7], n, rtol=0, atol=1e-9)
@@ -155,7 +155,7 @@ def test_under_a_cap_no_direction_is_a_shorter_way_out(frustum: Any, kind: str) 
             core, turn = _core(rng, kind, 0.002), Rotation.random(random_state=rng).as_matrix()
             part, up = (HIGH_CAP, 1.0) if numbers[1] > 0.0 and rng.uniform() < 0.5 else (LOW_CAP, -1.0)
             level, radius = (numbers[3], numbers[1]) if up > 0.0 else (numbers[2], numbers[0])
-            q = turn @ np.array(support_of(core, *(-turn.T @ np.array([0.0, 0.0, up])))[1:4])
+            q = turn @ np.array(support_of(core, (-turn.T @ np.array([0.0, 0.0, up])))[1:4])
             angle, away = rng.uniform(0.0, 2.0 * np.pi), radius * rng.uniform()
             x = np.array([away * np.cos(angle), away * np.sin(angle), level + up * gap]) - q
             found = on_cap(numbers, core, tuple(turn.ravel()), *x, part, 1e-14)

@@ -16,7 +16,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
+from ...vectors import Vector3, vector_at
 from .frames import point_in_world, vector_in_world
 from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
@@ -67,7 +67,7 @@ def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends:
 @compiled
 def _of_row(frame: Floats, edges: Floats, at: int, sign: float) -> Vector3:
     """Return ``sign`` times a vector of a row of edges, in the world."""
-    x, y, z = vector_in_world(frame, sign * edges[at], sign * edges[at + 1], sign * edges[at + 2])
+    x, y, z = vector_in_world(frame, (sign * edges[at], sign * edges[at + 1], sign * edges[at + 2]))
     return x, y, z
 
 
@@ -99,8 +99,8 @@ def edges_bound(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Float
 
     Of an edge without faces, the segment of a capsule, only the distance counts: its vectors into the faces are 0.
     """
-    ax, ay, az = point_in_world(a, edges_a[at_a], edges_a[at_a + 1], edges_a[at_a + 2])
-    bx, by, bz = point_in_world(b, edges_b[at_b], edges_b[at_b + 1], edges_b[at_b + 2])
+    ax, ay, az = point_in_world(a, vector_at(edges_a, at_a))
+    bx, by, bz = point_in_world(b, vector_at(edges_b, at_b))
     e, f = _of_row(a, edges_a, at_a + ALONG, 1.0), _of_row(b, edges_b, at_b + ALONG, 1.0)
     p, q = edges_a[at_a + LENGTH], edges_b[at_b + LENGTH]
     distance = math.sqrt(square_of_lines((bx - ax, by - ay, bz - az), e, p, f, q))

@@ -9,7 +9,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.numerics.tolerances import GAP, RELATIVE_GAP
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
+from ...vectors import Vector3, vector_at
 from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
 from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
@@ -36,7 +36,7 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
     The normals of an edge lie between the normals of its two faces.  The result is not positive within this range.  The
     row of the edge begins at index ``at`` of ``edge``.
     """
-    x, y, z = vector_in_body(frame, sign * x, sign * y, sign * z)
+    x, y, z = vector_in_body(frame, (sign * x, sign * y, sign * z))
     one, two = at + INTO_FIRST, at + INTO_SECOND
     return float(
         max(
@@ -85,11 +85,11 @@ def cross_edges(
     ``parallel``, or if the normal is farther than ``ASTRAY`` from the normals of an edge.  The rows of the edges begin
     at the indices ``at_a`` and ``at_b``.
     """
-    ax, ay, az = point_in_world(a, edge_a[at_a], edge_a[at_a + 1], edge_a[at_a + 2])
-    bx, by, bz = point_in_world(b, edge_b[at_b], edge_b[at_b + 1], edge_b[at_b + 2])
+    ax, ay, az = point_in_world(a, vector_at(edge_a, at_a))
+    bx, by, bz = point_in_world(b, vector_at(edge_b, at_b))
     along_a, along_b = at_a + ALONG, at_b + ALONG
-    ex, ey, ez = vector_in_world(a, edge_a[along_a], edge_a[along_a + 1], edge_a[along_a + 2])
-    fx, fy, fz = vector_in_world(b, edge_b[along_b], edge_b[along_b + 1], edge_b[along_b + 2])
+    ex, ey, ez = vector_in_world(a, vector_at(edge_a, along_a))
+    fx, fy, fz = vector_in_world(b, vector_at(edge_b, along_b))
     wx, wy, wz = bx - ax, by - ay, bz - az
     # e x f = e x (f - e): the short vector f - e keeps its digits, so the normal of nearly parallel edges is accurate
     dx, dy, dz = _across_of((ex, ey, ez), (fx, fy, fz))
@@ -111,7 +111,7 @@ def cross_edges(
         if apart > 0.0:
             nx, ny, nz = nx / apart, ny / apart, nz / apart
         else:
-            nx, ny, nz = tangent_of(ex, ey, ez)
+            nx, ny, nz = tangent_of((ex, ey, ez))
     # measured between the nearest points, so that the length of the edges does not multiply the error of the normal
     wx, wy, wz = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
     gap = wx * nx + wy * ny + wz * nz

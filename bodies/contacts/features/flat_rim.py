@@ -22,7 +22,7 @@ from nonsmooth.engine.memory.blocks import SPIN
 from nonsmooth.interfaces.scales import EARTH
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
+from ...vectors import Vector3
 from .frames import across
 from .writing import write_principal, write_sweep
 
@@ -65,13 +65,13 @@ def touching_point(own: Floats, other: Floats, normal: Vector3, axis: Vector3, r
         Radius of the rim [m].
     """
     (nx, ny, nz), (ax, ay, az) = normal, axis
-    _, sine, x, y, z = across(-nx, -ny, -nz, ax, ay, az)
+    _, sine, (x, y, z) = across((-nx, -ny, -nz), (ax, ay, az))
     if sine >= FLATTEST:
         return radius, (x, y, z), 0.0, sine, 1.0, 0.0
     wx, wy, wz = own[SPIN] - other[SPIN], own[SPIN + 1] - other[SPIN + 1], own[SPIN + 2] - other[SPIN + 2]
     # relative to the centre, a point of the rim rises at the rate offset . (normal x angular velocity)
     rise_x, rise_y, rise_z = ny * wz - nz * wy, nz * wx - nx * wz, nx * wy - ny * wx
-    _, turning, down_x, down_y, down_z = across(-rise_x, -rise_y, -rise_z, ax, ay, az)
+    _, turning, (down_x, down_y, down_z) = across((-rise_x, -rise_y, -rise_z), (ax, ay, az))
     if radius * turning * turning > _SLOWEST:
         # the gap of the rim is the gap of its lowest point
         lift = radius * (sine + down_x * nx + down_y * ny + down_z * nz)

@@ -9,11 +9,13 @@ from nonsmooth.engine.memory.blocks import NORMAL, POSITION, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
 from ...shapes.placement import turned
+from ...vectors import Vector3, minus, vector_at
 
 
 @compiled
-def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the point (x, y, z) of a body frame in world coordinates [m]."""
+def point_in_world(frame: Floats, point: Vector3) -> Vector3:
+    """Return a point of a body frame in world coordinates [m]."""
+    x, y, z = point
     return (
         frame[POSITION] + frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
         frame[POSITION + 1] + frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
@@ -22,8 +24,9 @@ def point_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, 
 
 
 @compiled
-def vector_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the components in world axes of a vector (x, y, z) given in body axes."""
+def vector_in_world(frame: Floats, vector: Vector3) -> Vector3:
+    """Return the components in world axes of a vector given in body axes."""
+    x, y, z = vector
     return (
         frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
         frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
@@ -32,8 +35,9 @@ def vector_in_world(frame: Floats, x: float, y: float, z: float) -> tuple[float,
 
 
 @compiled
-def vector_in_body(frame: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the components in body axes of a vector (x, y, z) given in world axes."""
+def vector_in_body(frame: Floats, vector: Vector3) -> Vector3:
+    """Return the components in body axes of a vector given in world axes."""
+    x, y, z = vector
     return (
         frame[ROTATION] * x + frame[ROTATION + 3] * y + frame[ROTATION + 6] * z,
         frame[ROTATION + 1] * x + frame[ROTATION + 4] * y + frame[ROTATION + 7] * z,
@@ -41,18 +45,24 @@ def vector_in_body(frame: Floats, x: float, y: float, z: float) -> tuple[float, 
     )
 
 
+@compiled
+def point_in_body(frame: Floats, point: Vector3) -> Vector3:
+    """Return a point of the world in the coordinates of a body frame [m]."""
+    inside: Vector3 = vector_in_body(frame, minus(point, vector_at(frame, POSITION)))
+    return inside
+
+
 turned_by = compiled(turned)
 """``turned_by(w, x, y, z, a, b, c)``: the vector (a, b, c) turned by a unit quaternion."""
 
 
 @compiled
-def across(
-    x: float, y: float, z: float, axis_x: float, axis_y: float, axis_z: float
-) -> tuple[float, float, float, float, float]:
-    """Split (x, y, z) by a unit axis: component along the axis, length of the part across it, unit vector of this part.
+def across(vector: Vector3, axis: Vector3) -> tuple[float, float, Vector3]:
+    """Split a vector by a unit axis: component along the axis, length of the part across it, unit vector of this part.
 
     The unit vector is perpendicular to the axis even if the part across the axis is zero.
     """
+    (x, y, z), (axis_x, axis_y, axis_z) = vector, axis
     along = x * axis_x + y * axis_y + z * axis_z
     x, y, z = x - along * axis_x, y - along * axis_y, z - along * axis_z
     size = math.sqrt(x * x + y * y + z * z)
@@ -63,9 +73,8 @@ def across(
         x, y, z = x - rest * axis_x, y - rest * axis_y, z - rest * axis_z
         length = math.sqrt(x * x + y * y + z * z)
         if length > 0.5:
-            return along, size, x / length, y / length, z / length
-    x, y, z = tangent_of(axis_x, axis_y, axis_z)
-    return along, size, x, y, z
+            return along, size, (x / length, y / length, z / length)
+    return along, size, tangent_of(axis)
 
 
 _ROUND_OFF = 1e-16
@@ -73,13 +82,14 @@ _ROUND_OFF = 1e-16
 
 
 @compiled
-def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return a unit tangent for the unit normal (x, y, z), continuous except at the normal (0, 0, -1).
+def tangent_of(normal: Vector3) -> Vector3:
+    """Return a unit tangent for a unit normal, continuous except at the normal (0, 0, -1).
 
     No tangent field is continuous everywhere.  This one applies to (1, 0, 0) the shortest rotation from (0, 0, 1) to
     the normal: J. R. Frisvad, "Building an orthonormal basis from a 3D unit vector without normalization", J. Graphics
     Tools 16 (2012) 151-159.
     """
+    x, y, z = normal
     if z >= 0.0:
         return 1.0 - x * x / (1.0 + z), -x * y / (1.0 + z), -x
     # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits if the normal points down
@@ -98,11 +108,7 @@ def write_tangent(a: Floats, out: Floats) -> None:
 
     The tangent depends only on the direction of the normal in the axes of the first body, whose frame block is ``a``.
     """
-    x, y, z = tangent_of(
-        a[ROTATION] * out[NORMAL] + a[ROTATION + 3] * out[NORMAL + 1] + a[ROTATION + 6] * out[NORMAL + 2],
-        a[ROTATION + 1] * out[NORMAL] + a[ROTATION + 4] * out[NORMAL + 1] + a[ROTATION + 7] * out[NORMAL + 2],
-        a[ROTATION + 2] * out[NORMAL] + a[ROTATION + 5] * out[NORMAL + 1] + a[ROTATION + 8] * out[NORMAL + 2],
-    )
+    x, y, z = tangent_of(vector_in_body(a, vector_at(out, NORMAL)))
     for i in range(3):
         r = ROTATION + 3 * i
         out[TANGENT + i] = a[r] * x + a[r + 1] * y + a[r + 2] * z

@@ -18,7 +18,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
+from ...vectors import Vector3, vector_at
 from .edge_crossing import ASTRAY
 from .frames import point_in_world, vector_in_body, vector_in_world
 from .polytope_tables import FACE, LENGTH
@@ -54,12 +54,12 @@ def _normal_near(frame: Floats, n_faces: float, faces: Floats, x: float, y: floa
 
     Both vectors are in world axes.  The largest angle has the cosine ``_COSINE``.
     """
-    x, y, z = vector_in_body(frame, x, y, z)
+    x, y, z = vector_in_body(frame, (x, y, z))
     face, cosine = _nearest_normal(n_faces, faces, x, y, z)
     if cosine < _COSINE:
         return 0.0, 0.0, 0.0
     f = FACE * face
-    x, y, z = vector_in_world(frame, faces[f], faces[f + 1], faces[f + 2])
+    x, y, z = vector_in_world(frame, vector_at(faces, f))
     return x, y, z
 
 
@@ -149,12 +149,12 @@ def vertex_past_corner(
         Size of the larger body [m].
     """
     margin, past = CLOSED * size, math.inf
-    ux, uy, uz = vector_in_body(other, *direction)
+    ux, uy, uz = vector_in_body(other, direction)
     fx, fy, fz = ux, uy, uz
     face, cosine = _nearest_normal(n_faces, faces, ux, uy, uz)
     if cosine >= _COSINE:
         f = FACE * face
-        fx, fy, fz = faces[f], faces[f + 1], faces[f + 2]
+        fx, fy, fz = vector_at(faces, f)
         height = plane_height(faces, f, x, y, z)
         # move the vertex parallel to the face, so that its foot point becomes its projection along the direction
         x, y, z = x + height * (fx - ux / cosine), y + height * (fy - uy / cosine), z + height * (fz - uz / cosine)
@@ -166,8 +166,8 @@ def vertex_past_corner(
         return past + margin, math.inf
     _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     along = nx * fx + ny * fy + nz * fz
-    nx, ny, nz = vector_in_world(other, nx - along * fx, ny - along * fy, nz - along * fz)
-    nx, ny, nz = vector_in_body(own, nx, ny, nz)
+    nx, ny, nz = vector_in_world(other, (nx - along * fx, ny - along * fy, nz - along * fz))
+    nx, ny, nz = vector_in_body(own, (nx, ny, nz))
     leads = -size
     for i in range(int(n_star)):
         leads = max(leads, -distance * (nx * star[3 * i] + ny * star[3 * i + 1] + nz * star[3 * i + 2]))
@@ -218,8 +218,8 @@ def crossing_past_corner(
     size : float
         Size of the larger body [m].
     """
-    ax, ay, az = point_in_world(a, edges_a[at_a], edges_a[at_a + 1], edges_a[at_a + 2])
-    bx, by, bz = point_in_world(b, edges_b[at_b], edges_b[at_b + 1], edges_b[at_b + 2])
+    ax, ay, az = point_in_world(a, vector_at(edges_a, at_a))
+    bx, by, bz = point_in_world(b, vector_at(edges_b, at_b))
     sine = _triple(direction, e, f)
     margin = CLOSED * size
     if sine == 0.0:

@@ -14,10 +14,10 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Point
-from .frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from ...vectors import put, vector_at
+from .frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
 from .polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
 from .vertex_face import Nearest, nearest_feature
@@ -50,7 +50,7 @@ def past_star(
     the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the other
     core the result is negative.
     """
-    x, y, z = vector_in_body(frame, nx, ny, nz)
+    x, y, z = vector_in_body(frame, (nx, ny, nz))
     past = -size
     for i in range(int(n_star) if distance > 0.0 else 0):
         along = x * star[3 * i] + y * star[3 * i + 1] + z * star[3 * i + 2]
@@ -96,7 +96,7 @@ def write_vertex_over(
     """
     other = b if swap == 1.0 else a
     number, distance, nx, ny, nz, within = found
-    nx, ny, nz = vector_in_world(other, nx, ny, nz)
+    nx, ny, nz = vector_in_world(other, (nx, ny, nz))
     shared = END * size - within if swap == 1.0 else -math.inf
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
@@ -105,9 +105,9 @@ def write_vertex_over(
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
     out[GAP], out[FEATURE], out[PAST_END] = gap, number, past
-    put(out, NORMAL, sign * nx, sign * ny, sign * nz)
-    out[near], out[near + 1], out[near + 2] = center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz
-    out[far], out[far + 1], out[far + 2] = out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz
+    put(out, NORMAL, (sign * nx, sign * ny, sign * nz))
+    put(out, near, (center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz))
+    put(out, far, (out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz))
     write_tangent(a, out)
     write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
@@ -136,10 +136,10 @@ def _evaluate(
 ) -> None:
     """Write the geometry block of a vertex against a core; see the attributes of :class:`SweptVertex`."""
     own, other = (a, b) if swap == 1.0 else (b, a)
-    px, py, pz = point_in_world(own, x_v, y_v, z_v)
-    x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
+    px, py, pz = point_in_world(own, (x_v, y_v, z_v))
+    x, y, z = point_in_body(other, (px, py, pz))
     found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(other, found[2], found[3], found[4])
+    nx, ny, nz = vector_in_world(other, (found[2], found[3], found[4]))
     number, distance, _, _, _, within = found
     # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
     past = past_star(own, star, n_star if number >= int(n_faces) else 0.0, distance, nx, ny, nz, size)
@@ -184,8 +184,8 @@ def _bound(
     size: float,
 ) -> None:
     own, other = (a, b) if swap == 1.0 else (b, a)
-    px, py, pz = point_in_world(own, x_v, y_v, z_v)
-    x, y, z = vector_in_body(other, px - other[0], py - other[1], pz - other[2])
+    px, py, pz = point_in_world(own, (x_v, y_v, z_v))
+    x, y, z = point_in_body(other, (px, py, pz))
     _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
     out[0] = distance - sweep - radius
 
@@ -352,7 +352,7 @@ def write_swept(
         write_flat(out, side)
     elif edge < int(n_edges):
         e = EDGE * edge
-        x, y, z = vector_in_world(frame, edges[e + 3], edges[e + 4], edges[e + 5])
+        x, y, z = vector_in_world(frame, vector_at(edges, e + 3))
         write_principal(out, side, x, y, z, 0.0, 1.0, 1.0, radius)
     else:
         write_round(out, side, radius)

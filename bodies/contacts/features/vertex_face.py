@@ -8,7 +8,8 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
+from ...vectors import vector_at
+from .frames import point_in_body, point_in_world, tangent_of, vector_in_body, vector_in_world
 from .polytope_tables import EDGE, FACE
 
 REACH = 1e-9
@@ -27,8 +28,8 @@ distance past their ends.
 @compiled
 def _normal_in(frame: Floats, other: Floats, faces: Floats, face: int) -> tuple[float, float, float]:
     """Return the normal of a face in the axes of the other body."""
-    x, y, z = vector_in_world(frame, faces[face], faces[face + 1], faces[face + 2])
-    x, y, z = vector_in_body(other, x, y, z)
+    x, y, z = vector_in_world(frame, vector_at(faces, face))
+    x, y, z = vector_in_body(other, (x, y, z))
     return x, y, z
 
 
@@ -44,12 +45,7 @@ def _least(
 ) -> float:
     """Return the least height of the other body's vertices over a face [m]; stop at a height below ``enough``."""
     nx, ny, nz = _normal_in(frame, other, faces, face)
-    x, y, z = vector_in_body(
-        frame,
-        other[POSITION] - frame[POSITION],
-        other[POSITION + 1] - frame[POSITION + 1],
-        other[POSITION + 2] - frame[POSITION + 2],
-    )
+    x, y, z = point_in_body(frame, (other[POSITION], other[POSITION + 1], other[POSITION + 2]))
     base, least = plane_height(faces, face, x, y, z), math.inf
     for i in range(int(n_vertices)):
         height = base + nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2]
@@ -91,7 +87,7 @@ def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float,
 @compiled
 def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
     """Return the largest height of a world point over the planes of the faces [m]: negative inside the polyhedron."""
-    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
+    x, y, z = point_in_body(frame, (x, y, z))
     highest = -math.inf
     for i in range(int(n_faces)):
         highest = max(highest, plane_height(faces, FACE * i, x, y, z))
@@ -122,8 +118,8 @@ def nearest_face(
     border of its face, a gap that is not negative becomes hypot(gap, past); a negative gap is kept.
     """
     v = 3 * int(vertex)
-    px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
-    x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
+    px, py, pz = point_in_world(other, vector_at(vertices, v))
+    x, y, z = point_in_body(frame, (px, py, pz))
     # a point by itself has no edges beside it
     margin = (CLOSED if n_vertices > 1.0 else REACH) * size
     enough = separation_of_faces(frame, other, n_faces, faces, n_vertices, vertices) - margin
@@ -218,7 +214,7 @@ def nearest_feature(
     if distance > 0.0:
         nx, ny, nz = nx / distance, ny / distance, nz / distance
     else:
-        nx, ny, nz = tangent_of(edges[e + 3], edges[e + 4], edges[e + 5])
+        nx, ny, nz = tangent_of(vector_at(edges, e + 3))
     within = min(along, edges[e + 6] - along)
     if within > 0.0:
         return int(n_faces) + edge, distance, nx, ny, nz, within

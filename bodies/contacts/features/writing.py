@@ -21,7 +21,7 @@ from nonsmooth.engine.memory.blocks import (
 from nonsmooth.interfaces import Shape
 from nonsmooth.types import Floats
 
-from ...blocks import put
+from ...vectors import put
 from .frames import write_tangent
 
 
@@ -137,7 +137,7 @@ def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: flo
         square += (out[POINT_B + i] - out[POINT_A + i]) * (out[POINT_B + i] - out[POINT_A + i])
     distance = math.sqrt(square)
     out[GAP] = distance - radius_a - radius_b
-    put(out, NORMAL, nx, ny, nz)
+    put(out, NORMAL, (nx, ny, nz))
     for i in range(3):
         if distance > 0.0:
             out[NORMAL + i] = (out[POINT_B + i] - out[POINT_A + i]) / distance
@@ -153,8 +153,8 @@ def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance:
     ``distance`` is the distance of the centre from the other surface [m], along the normal that ``out`` already holds.
     """
     out[GAP] = distance - radius
-    put(out, POINT_A, x - distance * out[NORMAL], y - distance * out[NORMAL + 1], z - distance * out[NORMAL + 2])
-    put(out, POINT_B, x - radius * out[NORMAL], y - radius * out[NORMAL + 1], z - radius * out[NORMAL + 2])
+    put(out, POINT_A, (x - distance * out[NORMAL], y - distance * out[NORMAL + 1], z - distance * out[NORMAL + 2]))
+    put(out, POINT_B, (x - radius * out[NORMAL], y - radius * out[NORMAL + 1], z - radius * out[NORMAL + 2]))
     write_tangent(a, out)
 
 

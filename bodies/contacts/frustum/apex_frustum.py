@@ -36,7 +36,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, swap: float, first: Floats, sec
     px, py, pz = center_in_world(own, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
     kx, ky, kz = center_in_world(other, second)
-    along, away, ex, ey, ez = across(px - kx, py - ky, pz - kz, bx, by, bz)
+    along, away, (ex, ey, ez) = across((px - kx, py - ky, pz - kz), (bx, by, bz))
     distance, radial, axial, part = nearest_part(second, along, away)
     nx, ny, nz = -radial * ex - axial * bx, -radial * ey - axial * by, -radial * ez - axial * bz
     past = past_apex(first, distance, nx * ax + ny * ay + nz * az, size)

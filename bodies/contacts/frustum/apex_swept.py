@@ -9,14 +9,13 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.frames import vector_in_body, vector_in_world
+from ..features.frames import point_in_body, vector_in_world
 from ..features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
 from ..features.swept_vertex import END, write_vertex_over
 from ..features.vertex_face import nearest_feature
@@ -52,9 +51,9 @@ def _evaluate(
     ax, ay, az = axis_in_world(a, first)
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
-    x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+    x, y, z = point_in_body(b, (px, py, pz))
     found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(b, found[2], found[3], found[4])
+    nx, ny, nz = vector_in_world(b, (found[2], found[3], found[4]))
     past = past_apex(first, found[1], -nx * ax - ny * ay - nz * az, size)
     write_vertex_over(a, b, out, 1.0, (px, py, pz), first[SWEEP], found, past, n_faces, n_edges, edges, sweep, size)
 

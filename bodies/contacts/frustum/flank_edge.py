@@ -74,12 +74,12 @@ def evaluate_flank_edge(
     if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
         # no normal of the side is perpendicular to the edge, or the edge is parallel to the side: no valid crossing
         over = size
-    qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
+    qx, qy, qz = forth(axes, (px - gap * nx, py - gap * ny, pz - gap * nz))
     steep, astray = abs(crossing), astray_of_edge(b, edge, axes, nx, ny, nz)
     past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, steep, astray, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz))
-    ux, uy, uz = forth(axes, ex, ey, 0.0)
+    ux, uy, uz = forth(axes, (ex, ey, 0.0))
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), (ux, uy, uz), cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])
 

@@ -33,7 +33,7 @@ def _cross(
     along = x * ax + y * ay + z * az
     x, y, z = x - along * ax, y - along * ay, z - along * az
     size = math.sqrt(x * x + y * y + z * z)
-    return ((x / size, y / size, z / size), size) if size > 0.0 else (tangent_of(ax, ay, az), 0.0)
+    return ((x / size, y / size, z / size), size) if size > 0.0 else (tangent_of((ax, ay, az)), 0.0)
 
 
 @compiled

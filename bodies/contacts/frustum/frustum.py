@@ -15,11 +15,11 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers, without_feet
 from ...shapes.polytope import Polytope
+from ...vectors import Vector3, vector_at
 from ..features.flat_rim import FLATTEST
-from ..features.frames import across, point_in_world, vector_in_body, vector_in_world
+from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE
 from ..features.vertex_face import plane_height
 from ..features.writing import write_flat, write_principal, write_round
@@ -50,7 +50,7 @@ def part_number(frustum: Floats, part: int) -> float:
 @compiled
 def center_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
     """Return the centre of a frustum in the world [m]."""
-    x, y, z = point_in_world(frame, frustum[CENTER], frustum[CENTER + 1], frustum[CENTER + 2])
+    x, y, z = point_in_world(frame, vector_at(frustum, CENTER))
     return x, y, z
 
 
@@ -66,7 +66,7 @@ def middle_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float
 @compiled
 def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
     """Return the unit axis of a frustum in world axes."""
-    x, y, z = vector_in_world(frame, frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6])
+    x, y, z = vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
     return x, y, z
 
 
@@ -122,9 +122,9 @@ def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float,
     It is negative if none of the planes of the faces separates the bodies.
     """
     x, y, z = axis_in_world(a, frustum)
-    x, y, z = vector_in_body(b, x, y, z)
+    x, y, z = vector_in_body(b, (x, y, z))
     cx, cy, cz = center_in_world(a, frustum)
-    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    cx, cy, cz = point_in_body(b, (cx, cy, cz))
     best = -math.inf
     for i in range(int(n_faces)):
         f = FACE * i
@@ -138,7 +138,7 @@ def least_over(b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, 
     """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
     (nx, ny, nz), (x, y, z) = normal, place
     base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
-    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    nx, ny, nz = vector_in_body(b, (nx, ny, nz))
     least = math.inf
     for i in range(int(n_vertices)):
         least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
@@ -175,7 +175,7 @@ def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
     """
     bx, by, bz = axis_in_world(b, second)
     (cx, cy, cz), (kx, ky, kz) = center_in_world(a, first), center_in_world(b, second)
-    _, _, ex, ey, ez = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
+    _, _, (ex, ey, ez) = across((kx - cx, ky - cy, kz - cz), (bx, by, bz))
     best = separation_along(a, first, b, second, (bx, by, bz))
     best = max(best, separation_along(a, first, b, second, (-bx, -by, -bz)))
     return float(max(best, separation_along(a, first, b, second, (ex, ey, ez))))
@@ -228,7 +228,7 @@ def tip_past_rim(
     (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
     for i in range(int(n_star)):
-        ex, ey, ez = vector_in_world(b, star[3 * i], star[3 * i + 1], star[3 * i + 2])
+        ex, ey, ez = vector_in_world(b, vector_at(star, 3 * i))
         rise = nx * ex + ny * ey + nz * ez
         if rise * lengths[i] <= 2.0 * depth:
             continue

@@ -61,11 +61,11 @@ def _evaluate(
     if part == HIGH_CAP:
         up, height, wide = 1.0, second[HIGH], second[1]
     nx, ny, nz = -up * bx, -up * by, -up * bz
-    cx, cy, cz = point_in_world(own, x, y, z)
-    _, sine, _, _, _ = across(nx, ny, nz, ax, ay, az)
+    cx, cy, cz = point_in_world(own, (x, y, z))
+    _, sine, _ = across((nx, ny, nz), (ax, ay, az))
     is_flat, outside = radius > 0.0 and sine < FLATTEST, -size
     if is_flat:
-        _, offset, fx, fy, fz = across(kx - cx, ky - cy, kz - cz, bx, by, bz)
+        _, offset, (fx, fy, fz) = across((kx - cx, ky - cy, kz - cz), (bx, by, bz))
         middle, half = common_length(radius, wide, offset)
         # valid if a part of the rim is over the cap, and if the common area is more than a point
         outside = max(radius - offset - wide, 2.0 * CLOSED * size - half)
@@ -75,7 +75,7 @@ def _evaluate(
     at = touching_point(own, other, (-nx, -ny, -nz), (ax, ay, az), radius)
     reach, (ex, ey, ez), lift, _, _, _ = at
     px, py, pz = cx + reach * ex + lift * nx, cy + reach * ey + lift * ny, cz + reach * ez + lift * nz
-    along, away, fx, fy, fz = across(px - kx, py - ky, pz - kz, bx, by, bz)
+    along, away, (fx, fy, fz) = across((px - kx, py - ky, pz - kz), (bx, by, bz))
     gap = up * (along - height)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH

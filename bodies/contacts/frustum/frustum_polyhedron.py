@@ -13,9 +13,9 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import Polyhedron
+from ...vectors import put, vector_at
 from ..features.frames import across, point_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
 from ..features.vertex_face import CLOSED, height_over
@@ -58,8 +58,8 @@ def _evaluate(
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
     v = 3 * int(vertex)
-    px, py, pz = point_in_world(b, vertices[v], vertices[v + 1], vertices[v + 2])
-    along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
+    px, py, pz = point_in_world(b, vector_at(vertices, v))
+    along, away, (ex, ey, ez) = across((px - cx, py - cy, pz - cz), (ax, ay, az))
     cosine, sine = frustum[COS], frustum[SIN]
     dr, dz = away - frustum[0], along - frustum[LOW]
     margin = CLOSED * size
@@ -108,8 +108,8 @@ def _evaluate(
     if found == FLANK:
         radial, axial = cosine, sine
     out[GAP], out[FEATURE], out[PAST_END] = gap, part_number(frustum, found), past
-    put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
-    put(out, POINT_B, px, py, pz)
+    put(out, NORMAL, (radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az))
+    put(out, POINT_B, (px, py, pz))
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)

@@ -20,9 +20,9 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
+from ...vectors import put, vector_at
 from ..features.frames import point_in_world, write_tangent
 from ..features.writing import write_sweep
 from ..smooth.boxy_newton import Answer
@@ -91,7 +91,7 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
     px, py, pz = px - g * nx - x, py - g * ny - y, pz - g * nz - z
     if nx * px + ny * py + nz * pz >= 0.0:
         return False
-    px, py, pz = back(turn, px, py, pz)
+    px, py, pz = back(turn, (px, py, pz))
     return bool(gauge(core, px, py, pz) < 1.0)
 
 
@@ -168,7 +168,7 @@ def _share_a_point(
             part = float(i - _SAMPLES)
             px, py, pz = px + part * wx, py + part * wy, pz + part * wz
         px, py, pz = _into(frustum, px, py, pz)
-        bx, by, bz = back(turn, px - x, py - y, pz - z)
+        bx, by, bz = back(turn, (px - x, py - y, pz - z))
         if gauge(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
             return True
     return False
@@ -263,7 +263,7 @@ def _nearest(
 def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> bool:
     """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
     px, py, pz = _into(frustum, x, y, z)
-    px, py, pz = back(turn, px - x, py - y, pz - z)
+    px, py, pz = back(turn, (px - x, py - y, pz - z))
     return bool(gauge(core, px, py, pz) < _DEEP)
 
 
@@ -337,25 +337,25 @@ def _evaluate(
     """
     axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
     ax, ay, az = center_in_world(a, first)
-    bx, by, bz = point_in_world(b, second[6], second[7], second[8])
-    x, y, z = back(axes_a, bx - ax, by - ay, bz - az)
+    bx, by, bz = point_in_world(b, vector_at(second, 6))
+    x, y, z = back(axes_a, (bx - ax, by - ay, bz - az))
     turn = between_axes(axes_a, axes_b)
     (g, px, py, pz, nx, ny, nz), part = _nearest(first, low, high, point, second, turn, x, y, z)
     out[GAP] = g - second[RADIUS] - first[SWEEP]
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes_a, nx, ny, nz)
-    qx, qy, qz = forth(axes_a, px, py, pz)
-    put(out, POINT_B, ax + qx, ay + qy, az + qz)
+    put(out, NORMAL, forth(axes_a, (nx, ny, nz)))
+    qx, qy, qz = forth(axes_a, (px, py, pz))
+    put(out, POINT_B, (ax + qx, ay + qy, az + qz))
     for i in range(3):
         out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
         out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
     out[FEATURE] = part_number(first, part)
     write_tangent(a, out)
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    qx, qy, qz = back(turn, px - x, py - y, pz - z)
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    qx, qy, qz = back(turn, (px - x, py - y, pz - z))
     write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
     radial = math.sqrt(nx * nx + ny * ny)
     ex, ey = (nx / radial, ny / radial) if radial > 0.0 else (1.0, 0.0)
-    ux, uy, uz = forth(axes_a, ex, ey, 0.0)
+    ux, uy, uz = forth(axes_a, (ex, ey, 0.0))
     away = max(ex * px + ey * py - g * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away = first[0] if part == LOW_RIM else first[1]

@@ -12,9 +12,9 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.frustum import SWEEP, Frustum, without_feet
 from ...shapes.sphere import Sphere
+from ...vectors import put
 from ..features.frames import across, point_in_world
 from ..features.writing import place_sphere, write_round, write_sweep
 from .frustum import (
@@ -37,10 +37,10 @@ def write_frustum_ball(
     """
     ax, ay, az = axis_in_world(a, first)
     cx, cy, cz = center_in_world(a, first)
-    x, y, z = point_in_world(b, x, y, z)
-    along, away, ex, ey, ez = across(x - cx, y - cy, z - cz, ax, ay, az)
+    x, y, z = point_in_world(b, (x, y, z))
+    along, away, (ex, ey, ez) = across((x - cx, y - cy, z - cz), (ax, ay, az))
     distance, radial, axial, part = nearest_part(first, along, away)
-    put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
+    put(out, NORMAL, (radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az))
     out[FEATURE] = part_number(first, part)
     place_sphere(a, out, x, y, z, distance - first[SWEEP], radius)
     write_part(out, SIDE_A, part, (ax, ay, az), (ex, ey, ez), radial, away - distance * radial)

@@ -14,9 +14,9 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN
 from ...shapes.support_function import is_round, support_of
+from ...vectors import Vector3
 from ..smooth.boxy_line import across_line
 from ..smooth.boxy_newton import Answer
 from ..smooth.round_search import next_to_axis, round_circle
@@ -50,9 +50,9 @@ def point_against(
     core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float]:
     """Return the smooth body's farthest point in the direction -(nx, ny, nz) [m], in the axes of the frustum."""
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    s = support_of(core, mx, my, mz)
-    px, py, pz = forth(turn, s[1], s[2], s[3])
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    s = support_of(core, (mx, my, mz))
+    px, py, pz = forth(turn, (s[1], s[2], s[3]))
     return x + px, y + py, z + pz
 
 
@@ -168,9 +168,9 @@ def _on_round_flank(
     g, before, halvings = -math.inf, math.inf, 0
     for _ in range(_STEPS):
         nx, ny = cosine * ex, cosine * ey
-        mx, my, mz = back(turn, -nx, -ny, -sine)
-        s = support_of(core, mx, my, mz)
-        px, py, pz = forth(turn, s[1], s[2], s[3])
+        mx, my, mz = back(turn, (-nx, -ny, -sine))
+        s = support_of(core, (mx, my, mz))
+        px, py, pz = forth(turn, (s[1], s[2], s[3]))
         px, py, pz = x + px, y + py, z + pz
         found = nx * px + ny * py + sine * pz - reach
         if found < g - _SEEN * size and halvings < _HALVINGS:
@@ -180,7 +180,7 @@ def _on_round_flank(
             g, halvings = found, 0
             lx, ly = ex, ey
             rate = cosine * (ex * py - ey * px)
-            tx, ty, tz = back(turn, -ey, ex, 0.0)
+            tx, ty, tz = back(turn, (-ey, ex, 0.0))
             second = -cosine * (ex * px + ey * py) - cosine * cosine * bend(s, tx, ty, tz, tx, ty, tz)
             residual = abs(rate)
             if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):

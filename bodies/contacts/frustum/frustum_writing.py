@@ -14,9 +14,9 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3, put
 from ...shapes.frustum import COS, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
+from ...vectors import Vector3, put, vector_at
 from ..features.edge_crossing import ASTRAY, PARALLEL, edge_astray
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG, START
@@ -82,7 +82,7 @@ def past_disc(
         return size
     back = gap / (gap - height)
     x, y, z = p[0] + back * (x - p[0]) - kx, p[1] + back * (y - p[1]) - ky, p[2] + back * (z - p[2]) - kz
-    _, away, _, _, _ = across(x, y, z, ax, ay, az)
+    _, away, _ = across((x, y, z), (ax, ay, az))
     return float(past_border(away - second[0], 0.0, size))
 
 
@@ -126,9 +126,9 @@ def write_two(
     sign = 1.0 - 2.0 * swap
     own, other = 7 + int(3.0 * swap), 10 - int(3.0 * swap)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    put(out, NORMAL, sign * nx, sign * ny, sign * nz)
-    out[own], out[own + 1], out[own + 2] = px, py, pz
-    out[other], out[other + 1], out[other + 2] = px + gap * nx, py + gap * ny, pz + gap * nz
+    put(out, NORMAL, (sign * nx, sign * ny, sign * nz))
+    put(out, own, (px, py, pz))
+    put(out, other, (px + gap * nx, py + gap * ny, pz + gap * nz))
     write_tangent(a, out)
 
 
@@ -165,10 +165,10 @@ def edge_in_frustum(
     b: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float
 ) -> tuple[float, float, float, float, float, float]:
     """Return the start of an edge [m] and its unit vector, from the centre and in the axes of the frustum."""
-    x, y, z = point_in_world(b, edge[START], edge[START + 1], edge[START + 2])
-    x, y, z = back(axes, x - cx, y - cy, z - cz)
-    dx, dy, dz = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
-    dx, dy, dz = back(axes, dx, dy, dz)
+    x, y, z = point_in_world(b, vector_at(edge, START))
+    x, y, z = back(axes, (x - cx, y - cy, z - cz))
+    dx, dy, dz = vector_in_world(b, vector_at(edge, ALONG))
+    dx, dy, dz = back(axes, (dx, dy, dz))
     return x, y, z, dx, dy, dz
 
 
@@ -179,7 +179,7 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz
     The contact normal (nx, ny, nz), in the axes of the frustum, points from the frustum to the edge.  The fan lies
     between the normals of the two faces of the edge.
     """
-    nx, ny, nz = forth(axes, nx, ny, nz)
+    nx, ny, nz = forth(axes, (nx, ny, nz))
     return float(edge_astray(b, edge, 0, -1.0, nx, ny, nz))
 
 
@@ -242,10 +242,10 @@ def write_crossing(
     if past > 0.0:
         gap = math.hypot(gap, max(PARALLEL, sine) * past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)
-    put(out, POINT_A, px + sweep * out[NORMAL], py + sweep * out[NORMAL + 1], pz + sweep * out[NORMAL + 2])
+    put(out, NORMAL, forth(axes, (nx, ny, nz)))
+    put(out, POINT_A, (px + sweep * out[NORMAL], py + sweep * out[NORMAL + 1], pz + sweep * out[NORMAL + 2]))
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)
-    ex, ey, ez = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
+    ex, ey, ez = vector_in_world(b, vector_at(edge, ALONG))
     write_principal(out, SIDE_B, ex, ey, ez, 0.0, 1.0, 1.0, radius)

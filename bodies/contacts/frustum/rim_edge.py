@@ -158,11 +158,11 @@ def evaluate_rim_edge(
     over = max(-s, s - edge[LENGTH])
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
         over = size
-    qx, qy, qz = forth(axes, px, py, pz)
+    qx, qy, qz = forth(axes, (px, py, pz))
     past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, crossing, astray, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, (nx, ny, nz), (qx, qy, qz))
-    ux, uy, uz = forth(axes, ex, ey, 0.0)
+    ux, uy, uz = forth(axes, (ex, ey, 0.0))
     write_part(out, SIDE_A, part, (axes[2], axes[5], axes[8]), (ux, uy, uz), ex * nx + ey * ny, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])
 

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3, put
 from ...shapes.frustum import SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
+from ...vectors import Vector3, put, vector_at
 from ..features.flat_rim import FLATTEST, Touching, touching_point, write_rim
-from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.polytope_tables import FACE, Numbers, face_table
 from ..features.vertex_face import REACH, past_face, plane_height
 from ..features.writing import write_flat, write_round
@@ -48,7 +48,7 @@ def _touching(
     (x, y, z), (nx, ny, nz) = center, normal
     at = touching_point(a, b, normal, axis, radius)
     reach, (ex, ey, ez), lift, _, _, _ = at
-    px, py, pz = point_in_world(a, x, y, z)
+    px, py, pz = point_in_world(a, (x, y, z))
     return px + reach * ex - lift * nx, py + reach * ey - lift * ny, pz + reach * ez - lift * nz, at
 
 
@@ -63,12 +63,12 @@ def _past_flat(faces: Floats, n_faces: float, face: int, x: float, y: float, z: 
     over = past_face(faces, n_faces, face, plane_height(faces, face, x, y, z), x, y, z)
     if over <= -radius:
         return float(over)
-    n = faces[face], faces[face + 1], faces[face + 2]
+    n = vector_at(faces, face)
     least = radius
     for i in range(int(n_faces)):
         f = FACE * i
         # distance and direction, in the plane of this face, from the centre to the line of another face
-        along, sine, ex, ey, ez = across(faces[f], faces[f + 1], faces[f + 2], n[0], n[1], n[2])
+        along, sine, (ex, ey, ez) = across(vector_at(faces, f), (n[0], n[1], n[2]))
         away = along * plane_height(faces, face, x, y, z) - plane_height(faces, f, x, y, z)
         if f == face or abs(away) >= radius * sine:
             continue
@@ -98,10 +98,10 @@ def _evaluate(
 ) -> None:
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
-    ux, uy, uz = vector_in_body(b, ax, ay, az)
-    kx, ky, kz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
-    px, py, pz = point_in_world(a, x, y, z)
-    px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+    ux, uy, uz = vector_in_body(b, (ax, ay, az))
+    kx, ky, kz = point_in_body(b, (cx, cy, cz))
+    px, py, pz = point_in_world(a, (x, y, z))
+    px, py, pz = point_in_body(b, (px, py, pz))
     center, margin = (px, py, pz), REACH * size
     best = separation_over_faces(a, b, frustum, n_faces, faces)
     found, gap, past = 0, 0.0, math.inf
@@ -110,9 +110,9 @@ def _evaluate(
         cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
         if least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine) < best - margin:
             continue
-        nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
+        nx, ny, nz = vector_in_world(b, vector_at(faces, f))
         px, py, pz, at = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
-        px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+        px, py, pz = point_in_body(b, (px, py, pz))
         height = plane_height(faces, f, px, py, pz)
         beyond = past_face(faces, n_faces, f, height, px, py, pz)
         if radius > 0.0 and at[4] == FLATTEST:
@@ -129,11 +129,11 @@ def _evaluate(
     if past > 0.0:
         gap = math.hypot(gap, past)
     f = FACE * found
-    nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
+    nx, ny, nz = vector_in_world(b, vector_at(faces, f))
     px, py, pz, at = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(found), past
-    put(out, NORMAL, -nx, -ny, -nz)
-    put(out, POINT_A, px - own * nx, py - own * ny, pz - own * nz)
+    put(out, NORMAL, (-nx, -ny, -nz))
+    put(out, POINT_A, (px - own * nx, py - own * ny, pz - own * nz))
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     write_tangent(a, out)

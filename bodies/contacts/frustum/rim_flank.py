@@ -16,8 +16,8 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ...vectors import Vector3
 from ..features.frames import across
 from ..features.polytope_tables import Numbers
 from ..smooth.smooth_core import axes_in_world, back, forth
@@ -102,11 +102,11 @@ def _evaluate(
     if part == HIGH_RIM:
         radius, height, up = first[1], first[HIGH], 1.0
     # the centre of the rim and its axis, in the axes of the side
-    mx, my, mz = back(axes, cx - kx, cy - ky, cz - kz)
-    ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
+    mx, my, mz = back(axes, (cx - kx, cy - ky, cz - kz))
+    ax, ay, az = back(axes, (own_axes[2], own_axes[5], own_axes[8]))
     mx, my, mz = mx + height * ax, my + height * ay, mz + height * az
     # h: projection of the side's axis on the plane of the rim; g: perpendicular to h in this plane
-    _, _, hx, hy, hz = across(0.0, 0.0, 1.0, ax, ay, az)
+    _, _, (hx, hy, hz) = across((0.0, 0.0, 1.0), (ax, ay, az))
     # the height can have two minima round the rim only if a straight line of the side is nearly parallel to the plane
     # of the rim; then each half is searched. Each half is also searched if the axes are nearly perpendicular, even if
     # it has no minimum. In other poses, called steep, the whole rim is searched for its single minimum
@@ -148,9 +148,9 @@ def _evaluate(
         over -= _BEYOND * size
     if not found or (steep and half < 0.0):
         over = size
-    wx, wy, wz = forth(axes, nx, ny, nz)
-    px, py, pz = forth(axes, x, y, z)
-    ux, uy, uz = forth(axes, ox, oy, oz)
+    wx, wy, wz = forth(axes, (nx, ny, nz))
+    px, py, pz = forth(axes, (x, y, z))
+    ux, uy, uz = forth(axes, (ox, oy, oz))
     past = max(past_border(over, astray, size), past_depth(own, first, other, second, gap, size))
     write_two(a, out, swap, first, second, gap, past, (wx, wy, wz), (kx + px, ky + py, kz + pz))
     write_side(out, swap, first, part, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)

@@ -17,8 +17,8 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ...vectors import Vector3
 from ..features.edge_crossing import PARALLEL
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across
@@ -106,11 +106,11 @@ def _evaluate(
     radius, height = (first[1], first[HIGH]) if rim_a > 2.0 else (first[0], first[LOW])
     wide, level = (second[1], second[HIGH]) if rim_b > 2.0 else (second[0], second[LOW])
     # centre of the first rim, from the centre of the second, and axis of the first, in the axes of the second body
-    cx, cy, cz = back(axes, ox - kx, oy - ky, oz - kz)
-    ax, ay, az = back(axes, own_axes[2], own_axes[5], own_axes[8])
+    cx, cy, cz = back(axes, (ox - kx, oy - ky, oz - kz))
+    ax, ay, az = back(axes, (own_axes[2], own_axes[5], own_axes[8]))
     cx, cy, cz = cx + height * ax, cy + height * ay, cz + height * az - level
     # g: unit vector in the plane of the first rim, towards the second rim's centre; h: perpendicular to it
-    _, _, gx, gy, gz = across(-cx, -cy, -cz, ax, ay, az)
+    _, _, (gx, gy, gz) = across((-cx, -cy, -cz), (ax, ay, az))
     hx, hy, hz = half * (ay * gz - az * gy), half * (az * gx - ax * gz), half * (ax * gy - ay * gx)
     low, high = -_BOTH, math.pi + _BOTH
     begin, step, angle = low, (high - low) / _SAMPLES, low
@@ -201,10 +201,10 @@ def _evaluate(
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
         linked = _link_depth(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
         past = max(past, crossing * (-0.5 * gap - REACH * size) - linked)
-    wx, wy, wz = forth(axes, nx, ny, nz)
-    px, py, pz = forth(axes, x, y, z + level)
-    ux, uy, uz = forth(axes, ux, uy, uz)
-    vx, vy, vz = forth(axes, ex, ey, 0.0)
+    wx, wy, wz = forth(axes, (nx, ny, nz))
+    px, py, pz = forth(axes, (x, y, z + level))
+    ux, uy, uz = forth(axes, (ux, uy, uz))
+    vx, vy, vz = forth(axes, (ex, ey, 0.0))
     px, py, pz = kx + px, ky + py, kz + pz
     write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz))
     write_side(out, 0.0, first, LOW_RIM, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball
 from ...shapes.frustum import HIGH, SIDE, SWEEP, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
-from ..features.frames import vector_in_body, write_tangent
+from ...vectors import put
+from ..features.frames import point_in_body, write_tangent
 from ..features.swept_vertex import END, NEAR, OPEN
 from ..features.writing import write_round
 from ..frustum.apex_swept import past_apex
@@ -54,7 +54,7 @@ def write_apex(
     ax, ay, az = axis_in_world(a, first)
     px, py, pz = center_in_world(a, first)
     px, py, pz = px + first[HIGH] * ax, py + first[HIGH] * ay, pz + first[HIGH] * az
-    x, y, z = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
+    x, y, z = point_in_body(b, (px, py, pz))
     found = nearest_in_patch(surface, patch, x, y, z, reach)
     # if there is one patch only, it is the whole surface, which has no end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
@@ -69,8 +69,8 @@ def write_apex(
     if past > 0.0:
         # write a large gap for a small distance past the end, so that the contact is not taken for a closed one
         gap = math.hypot(max(gap, 0.0), max(past, OPEN * shared))
-    put(out, NORMAL, -nx, -ny, -nz)
-    put(out, POINT_A, px - radius * nx, py - radius * ny, pz - radius * nz)
+    put(out, NORMAL, (-nx, -ny, -nz))
+    put(out, POINT_A, (px - radius * nx, py - radius * ny, pz - radius * nz))
     out[GAP], out[PAST_END] = gap, past
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]

@@ -13,11 +13,11 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_body
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
+from ...vectors import put
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, point_in_world, vector_in_body, write_tangent
 from ..features.vertex_face import CLOSED, REACH
@@ -60,7 +60,7 @@ def _leaning(b: Floats, n_star: float, star: Floats, nx: float, ny: float, nz: f
 
     It is negative if all edges lead above the plane.
     """
-    nx, ny, nz = vector_in_body(b, nx, ny, nz)
+    nx, ny, nz = vector_in_body(b, (nx, ny, nz))
     down = -1.0
     for i in range(int(n_star)):
         down = max(down, -(nx * star[3 * i] + ny * star[3 * i + 1] + nz * star[3 * i + 2]))
@@ -84,8 +84,8 @@ def _evaluate(
     """Write the geometry block of a corner; parameters as the attributes of :class:`FrustumCorner`."""
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
-    px, py, pz = point_in_world(b, corner_x, corner_y, corner_z)
-    along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
+    px, py, pz = point_in_world(b, (corner_x, corner_y, corner_z))
+    along, away, (ex, ey, ez) = across((px - cx, py - cy, pz - cz), (ax, ay, az))
     flat, margin = frustum[SIDE] == 0.0, REACH * size
     deepest = -math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
@@ -113,7 +113,7 @@ def _evaluate(
                 py - height * ny - b[POSITION + 1],
                 pz - height * nz - b[POSITION + 2],
             )
-            x, y, z = vector_in_body(b, x, y, z)
+            x, y, z = vector_in_body(b, (x, y, z))
             if past_rim > 0.0 and depth_inside(surface, x, y, z) == 0.0:
                 beyond = min(-height, past_rim)
         key = height * height + max(beyond, 0.0) * max(beyond, 0.0)
@@ -123,8 +123,8 @@ def _evaluate(
         gap = math.hypot(gap, past)
     _, _, radial, axial = over_part(frustum, found, along, away)
     out[GAP], out[FEATURE], out[PAST_END] = gap, part_number(frustum, found), past
-    put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
-    put(out, POINT_B, px, py, pz)
+    put(out, NORMAL, (radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az))
+    put(out, POINT_B, (px, py, pz))
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)

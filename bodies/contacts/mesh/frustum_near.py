@@ -6,13 +6,12 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.frustum import LOW, SIDE, SIN, SWEEP
+from ...vectors import Vector3, vector_at
 from ..features.edge_crossing import ASTRAY
-from ..features.frames import across, vector_in_body
+from ..features.frames import across, point_in_body, vector_in_body
 from ..features.vertex_face import CLOSED
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from ..frustum.frustum_writing import astray_of_rim
@@ -36,8 +35,8 @@ def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
     """Return centre [m] and axis of the first body's frustum in the axes of the second body."""
     ax, ay, az = axis_in_world(a, frustum)
     cx, cy, cz = center_in_world(a, frustum)
-    ax, ay, az = vector_in_body(b, ax, ay, az)
-    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    ax, ay, az = vector_in_body(b, (ax, ay, az))
+    cx, cy, cz = point_in_body(b, (cx, cy, cz))
     return cx, cy, cz, ax, ay, az
 
 
@@ -45,7 +44,7 @@ def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
 def from_core(frustum: Floats, pose: FrustumPose, x: float, y: float, z: float) -> float:
     """Return the signed distance of the point (x, y, z) from the frustum [m], without its rounding."""
     cx, cy, cz, ax, ay, az = pose
-    along, away, _, _, _ = across(x - cx, y - cy, z - cz, ax, ay, az)
+    along, away, _ = across((x - cx, y - cy, z - cz), (ax, ay, az))
     return float(nearest_part(frustum, along, away)[0])
 
 
@@ -53,7 +52,7 @@ def from_core(frustum: Floats, pose: FrustumPose, x: float, y: float, z: float) 
 def _from_rim(frustum: Floats, upper: int, pose: FrustumPose, x: float, y: float, z: float) -> float:
     """Return the distance of a point from the lower or the upper rim [m]."""
     cx, cy, cz, ax, ay, az = pose
-    along, away, _, _, _ = across(x - cx, y - cy, z - cz, ax, ay, az)
+    along, away, _ = across((x - cx, y - cy, z - cz), (ax, ay, az))
     return math.hypot(along - frustum[LOW + upper], away - frustum[upper])
 
 
@@ -131,7 +130,7 @@ def _edge_comes_near(
     low, high = 0.0, length
     for _ in range(_HALVINGS):
         s, half = 0.5 * (low + high), 0.5 * (high - low)
-        along, away, ex, ey, ez = across(x + s * dx - cx, y + s * dy - cy, z + s * dz - cz, ax, ay, az)
+        along, away, (ex, ey, ez) = across((x + s * dx - cx, y + s * dy - cy, z + s * dz - cz), (ax, ay, az))
         distance, radial, axial, _ = nearest_part(frustum, along, away)
         if distance <= reach:
             return True
@@ -148,9 +147,9 @@ def _edge_comes_near(
 @compiled
 def edge_normal(surface: Floats, edge: int) -> tuple[float, float, float, float]:
     """Return the unit vector opposite to the mean normal of an edge's two faces, and half of the angle between them."""
-    dx, dy, dz = surface[edge + 3], surface[edge + 4], surface[edge + 5]
-    ux, uy, uz = surface[edge + 7], surface[edge + 8], surface[edge + 9]
-    vx, vy, vz = surface[edge + 10], surface[edge + 11], surface[edge + 12]
+    dx, dy, dz = vector_at(surface, edge + 3)
+    ux, uy, uz = vector_at(surface, edge + 7)
+    vx, vy, vz = vector_at(surface, edge + 10)
     lx, ly, lz = dy * uz - dz * uy, dz * ux - dx * uz, dx * uy - dy * ux
     rx, ry, rz = vy * dz - vz * dy, vz * dx - vx * dz, vx * dy - vy * dx
     nx, ny, nz = lx + rx, ly + ry, lz + rz
@@ -241,7 +240,7 @@ def corner_is_near(
     """
     c = int(surface[CORNERS]) + CORNER * corner
     cx, cy, cz, ax, ay, az = pose
-    along, away, ex, ey, ez = across(surface[c] - cx, surface[c + 1] - cy, surface[c + 2] - cz, ax, ay, az)
+    along, away, (ex, ey, ez) = across((surface[c] - cx, surface[c + 1] - cy, surface[c + 2] - cz), (ax, ay, az))
     distance, radial, axial, _ = nearest_part(frustum, along, away)
     if distance > reach:
         return False

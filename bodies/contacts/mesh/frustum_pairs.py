@@ -16,6 +16,7 @@ from nonsmooth.types import Floats
 from ...meshes.patches import patches_for_ball
 from ...shapes.frustum import HIGH, SIDE, SWEEP, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
+from ...vectors import vector_at
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
 from ..frustum.frustum_swept import write_vertex_ball
@@ -180,7 +181,7 @@ def find_near_frustum(
         node += 1
     for i in range(int(n_points)):
         v = (POINT_ROW + 3 * int(points[3])) * i
-        place, star = (points[v], points[v + 1], points[v + 2]), block_at(points, v + POINT_ROW)
+        place, star = vector_at(points, v), block_at(points, v + POINT_ROW)
         n = patches_under(
             b, a, surface, place, points[v + 3], star, sweep + reach, turn, POINT, float(i), out, n, limit
         )

@@ -6,16 +6,16 @@ import math
 from collections.abc import Iterator
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B
 from nonsmooth.parameters import SharedNumbers
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_body
 from ...shapes.frustum import SWEEP
+from ...vectors import Vector3
 from ..features.edge_crossing import edge_astray
-from ..features.frames import across, vector_in_body
+from ..features.frames import across, point_in_body
 from ..features.vertex_face import CLOSED
 from ..frustum.frustum import center_in_world, nearest_part
 from ..smooth.smooth_core import Axes, axes_in_world
@@ -33,13 +33,11 @@ def _is_aside(b: Floats, out: Floats, frustum: Floats, axes: Axes, place: Vector
 
     ``place`` is the centre of the frustum in the world, ``axes`` are its axes.
     """
-    x, y, z = vector_in_body(
-        b, out[POINT_A] - b[POSITION], out[POINT_A + 1] - b[POSITION + 1], out[POINT_A + 2] - b[POSITION + 2]
-    )
+    x, y, z = point_in_body(b, (out[POINT_A], out[POINT_A + 1], out[POINT_A + 2]))
     if depth_inside(surface, x, y, z) > 0.0:
         return False
     x, y, z = out[POINT_B] - place[0], out[POINT_B + 1] - place[1], out[POINT_B + 2] - place[2]
-    along, away, _, _, _ = across(x, y, z, axes[2], axes[5], axes[8])
+    along, away, _ = across((x, y, z), (axes[2], axes[5], axes[8]))
     outside, _, _, _ = nearest_part(frustum, along, away)
     return bool(outside >= frustum[SWEEP])
 

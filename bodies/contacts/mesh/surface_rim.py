@@ -6,14 +6,14 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.frustum import AXIS, SIDE, SWEEP
+from ...vectors import put
 from ..features.edge_crossing import ASTRAY
 from ..features.flat_rim import FLATTEST
-from ..features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.vertex_face import REACH
 from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
 from ..frustum.frustum import axis_in_world
@@ -47,7 +47,7 @@ def lowest_on_rim(
 
     The vector f is returned as this unit vector if n is along the axis within round-off, without a radial part.
     """
-    axial, radial, ex, ey, ez = across(nx, ny, nz, ax, ay, az)
+    axial, radial, (ex, ey, ez) = across((nx, ny, nz), (ax, ay, az))
     if radial < _FLAT:
         return axial, radial, fx, fy, fz
     return axial, radial, ex, ey, ez
@@ -57,11 +57,11 @@ def lowest_on_rim(
 def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z: float) -> RimPose:
     """Return the pose, in the axes of the second body, of the rim whose centre is (x, y, z) in the first body [m]."""
     ax, ay, az = axis_in_world(a, frustum)
-    fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
-    cx, cy, cz = point_in_world(a, x, y, z)
-    ax, ay, az = vector_in_body(b, ax, ay, az)
-    fx, fy, fz = vector_in_body(b, fx, fy, fz)
-    cx, cy, cz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
+    fx, fy, fz = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
+    cx, cy, cz = point_in_world(a, (x, y, z))
+    ax, ay, az = vector_in_body(b, (ax, ay, az))
+    fx, fy, fz = vector_in_body(b, (fx, fy, fz))
+    cx, cy, cz = point_in_body(b, (cx, cy, cz))
     return cx, cy, cz, ax, ay, az, fx, fy, fz
 
 
@@ -201,16 +201,16 @@ def write_rim(
     :func:`rim_over`.
     """
     ax, ay, az = axis_in_world(a, frustum)
-    fx, fy, fz = vector_in_world(a, frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4])
-    cx, cy, cz = point_in_world(a, x, y, z)
+    fx, fy, fz = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
+    cx, cy, cz = point_in_world(a, (x, y, z))
     sweep = frustum[SWEEP]
     gap = gap_at_distance(gap, past, sweep)
     f = int(surface[FACES]) + FACE * face
-    nx, ny, nz = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
+    nx, ny, nz = vector_in_world(b, (-surface[f], -surface[f + 1], -surface[f + 2]))
     _, sine, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, fx, fy, fz)
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
-    put(out, NORMAL, nx, ny, nz)
-    put(out, POINT_A, cx + radius * ex, cy + radius * ey, cz + radius * ez)
+    put(out, NORMAL, (nx, ny, nz))
+    put(out, POINT_A, (cx + radius * ex, cy + radius * ey, cz + radius * ez))
     for i in range(3):
         out[POINT_A + i] += sweep * out[NORMAL + i]
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]

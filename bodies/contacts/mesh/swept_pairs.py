@@ -112,8 +112,8 @@ def corners_over(
             number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
             if distance > sweep + reach:
                 continue
-            nx, ny, nz = vector_in_world(b, nx, ny, nz)
-            nx, ny, nz = vector_in_body(a, nx, ny, nz)
+            nx, ny, nz = vector_in_world(b, (nx, ny, nz))
+            nx, ny, nz = vector_in_body(a, (nx, ny, nz))
             is_over_face = number < int(n_faces) or distance <= 0.0
             if is_over_face or distance * steepest(surface, c, -nx, -ny, -nz) <= reach + turn * distance:
                 out[NORMAL + 3 * n], out[NORMAL + 1 + 3 * n], out[NORMAL + 2 + 3 * n] = kind, float(corner), 0.0

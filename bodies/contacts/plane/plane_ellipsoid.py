@@ -36,9 +36,9 @@ def _evaluate(
 ) -> None:
     # the outward normal of the ellipsoid at the point sought, in its own axes, and the plane's tangents there
     inverse_x, inverse_y, inverse_z = -orientation_x, -orientation_y, -orientation_z
-    nx, ny, nz = vector_in_body(b, -a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8])
+    nx, ny, nz = vector_in_body(b, (-a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8]))
     nx, ny, nz = turned_by(orientation_w, inverse_x, inverse_y, inverse_z, nx, ny, nz)
-    sx, sy, sz = vector_in_body(b, a[ROTATION], a[ROTATION + 3], a[ROTATION + 6])
+    sx, sy, sz = vector_in_body(b, (a[ROTATION], a[ROTATION + 3], a[ROTATION + 6]))
     sx, sy, sz = turned_by(orientation_w, inverse_x, inverse_y, inverse_z, sx, sy, sz)
     tx, ty, tz = sy * nz - sz * ny, sz * nx - sx * nz, sx * ny - sy * nx
     # support function h and its derivative, the point
@@ -46,7 +46,7 @@ def _evaluate(
     reach = math.sqrt(ax * nx * nx + ay * ny * ny + az * nz * nz)
     px, py, pz = ax * nx / reach, ay * ny / reach, az * nz / reach
     low_x, low_y, low_z = turned_by(orientation_w, orientation_x, orientation_y, orientation_z, px, py, pz)
-    low_x, low_y, low_z = point_in_world(b, x + low_x, y + low_y, z + low_z)
+    low_x, low_y, low_z = point_in_world(b, (x + low_x, y + low_y, z + low_z))
     place_over_plane(a, out, low_x, low_y, low_z, height)
     # slide 1, turn the second derivative of h in the tangent plane: the inverse of the shape operator
     ps, pt = px * sx + py * sy + pz * sz, px * tx + py * ty + pz * tz

@@ -6,7 +6,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, ROTATION, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
-from ...blocks import put
+from ...vectors import put
 from ..features.writing import write_flat, write_round
 
 
@@ -16,7 +16,7 @@ def place_over_plane(a: Floats, out: Floats, x: float, y: float, z: float, heigh
 
     Normal and first tangent are the third and first axis of the plane's frame.
     """
-    put(out, POINT_B, x, y, z)
+    put(out, POINT_B, (x, y, z))
     gap = -height
     for i in range(3):
         out[NORMAL + i] = a[ROTATION + 3 * i + 2]

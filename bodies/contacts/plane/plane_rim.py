@@ -33,11 +33,11 @@ def evaluate_rim_over_plane(
     cap of a sphere that protrudes from the rim, but less than the feet.  ``crown`` is the sine of its tilt at the rim;
     0 for a face without feet.
     """
-    x, y, z = point_in_world(b, x, y, z)
-    axis_x, axis_y, axis_z = vector_in_world(b, axis_x, axis_y, axis_z)
+    x, y, z = point_in_world(b, (x, y, z))
+    axis_x, axis_y, axis_z = vector_in_world(b, (axis_x, axis_y, axis_z))
     n_x, n_y, n_z = a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8]
     at, out_of_rim = touching_point(b, a, (n_x, n_y, n_z), (axis_x, axis_y, axis_z), radius), 0.0
-    along, sine, down_x, down_y, down_z = across(-n_x, -n_y, -n_z, axis_x, axis_y, axis_z)
+    along, sine, (down_x, down_y, down_z) = across((-n_x, -n_y, -n_z), (axis_x, axis_y, axis_z))
     if FLATTEST < crown > sine:
         at = radius * sine / crown, (down_x, down_y, down_z), 0.0, crown, crown, radius
         sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)

@@ -14,6 +14,7 @@ from nonsmooth.types import Floats
 from ...shapes.ground import Ground
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import support_of
+from ...vectors import vector_at
 from ..features.frames import point_in_world
 from ..smooth.smooth_core import RADIUS, axes_in_world, back, forth
 from ..smooth.smooth_newton import write_surface
@@ -22,10 +23,10 @@ from .plane_point import place_over_plane
 
 def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) -> None:
     axes = axes_in_world(b, second)
-    x, y, z = point_in_world(b, second[6], second[7], second[8])
-    mx, my, mz = back(axes, -a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8])
-    s = support_of(second, mx, my, mz)
-    px, py, pz = forth(axes, s[1], s[2], s[3])
+    x, y, z = point_in_world(b, vector_at(second, 6))
+    mx, my, mz = back(axes, (-a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8]))
+    s = support_of(second, (mx, my, mz))
+    px, py, pz = forth(axes, (s[1], s[2], s[3]))
     r = second[RADIUS]
     place_over_plane(
         a, out, x + px - r * a[ROTATION + 2], y + py - r * a[ROTATION + 5], z + pz - r * a[ROTATION + 8], height

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
+from ...vectors import Vector3, vector_at
 from ..features.edge_crossing import Crossing, cross_edges, edge_astray
-from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import ALONG, EDGE, INTO_FIRST, INTO_SECOND, LENGTH, START
 from ..features.vertex_face import height_over, separation_of_faces
 
@@ -24,8 +23,8 @@ The face is adjacent to one of the edges.
 @compiled
 def _in_first(a: Floats, b: Floats, edges: Floats, at: int) -> Vector3:
     """Return the components, along the axes of the first body, of a vector of a row of edges of the second body."""
-    x, y, z = vector_in_world(b, edges[at], edges[at + 1], edges[at + 2])
-    x, y, z = vector_in_body(a, x, y, z)
+    x, y, z = vector_in_world(b, vector_at(edges, at))
+    x, y, z = vector_in_body(a, (x, y, z))
     return x, y, z
 
 
@@ -47,8 +46,8 @@ def _separation_of_edges(
         fx, fy, fz = _in_first(a, b, edges_b, at + ALONG)
         ux, uy, uz = _in_first(a, b, edges_b, at + INTO_FIRST)
         vx, vy, vz = _in_first(a, b, edges_b, at + INTO_SECOND)
-        qx, qy, qz = point_in_world(b, edges_b[at], edges_b[at + 1], edges_b[at + 2])
-        qx, qy, qz = vector_in_body(a, qx - a[POSITION], qy - a[POSITION + 1], qz - a[POSITION + 2])
+        qx, qy, qz = point_in_world(b, vector_at(edges_b, at))
+        qx, qy, qz = point_in_body(a, (qx, qy, qz))
         for i in range(int(n_edges_a)):
             e, one, two = EDGE * i + ALONG, EDGE * i + INTO_FIRST, EDGE * i + INTO_SECOND
             x = edges_a[e + 1] * fz - edges_a[e + 2] * fy

@@ -12,9 +12,9 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.point import Point
 from ...shapes.polyhedron import Polyhedron
+from ...vectors import put, vector_at
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.polytope_tables import FACE, ConvexCore
 from ..features.vertex_face import height_over, nearest_face
@@ -25,8 +25,8 @@ from .polyhedron_sphere import PolyhedronSphere
 @compiled
 def _write_face_tangent(frame: Floats, out: Floats, faces: Floats, f: int) -> None:
     """Write the first tangent of a face, fixed to its body."""
-    x, y, z = tangent_of(faces[f], faces[f + 1], faces[f + 2])
-    out[TANGENT], out[TANGENT + 1], out[TANGENT + 2] = vector_in_world(frame, x, y, z)
+    x, y, z = tangent_of(vector_at(faces, f))
+    put(out, TANGENT, vector_in_world(frame, (x, y, z)))
 
 
 def _evaluate(
@@ -49,8 +49,8 @@ def _evaluate(
     )
     f, v = FACE * int(face), 3 * int(vertex)
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    put(out, NORMAL, *vector_in_world(a, faces_a[f], faces_a[f + 1], faces_a[f + 2]))
-    put(out, POINT_B, *point_in_world(b, vertices_b[v], vertices_b[v + 1], vertices_b[v + 2]))
+    put(out, NORMAL, vector_in_world(a, vector_at(faces_a, f)))
+    put(out, POINT_B, point_in_world(b, vector_at(vertices_b, v)))
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     _write_face_tangent(a, out, faces_a, f)
@@ -78,8 +78,8 @@ def _evaluate_reversed(
     )
     f, v = FACE * int(face), 3 * int(vertex)
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    put(out, NORMAL, *vector_in_world(b, -faces_b[f], -faces_b[f + 1], -faces_b[f + 2]))
-    put(out, POINT_A, *point_in_world(a, vertices_a[v], vertices_a[v + 1], vertices_a[v + 2]))
+    put(out, NORMAL, vector_in_world(b, (-faces_b[f], -faces_b[f + 1], -faces_b[f + 2])))
+    put(out, POINT_A, point_in_world(a, vector_at(vertices_a, v)))
     for i in range(3):
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
     _write_face_tangent(b, out, faces_b, f)
@@ -103,7 +103,7 @@ def _bound(
     size: float,
 ) -> None:
     v = 3 * int(vertex)
-    out[0] = height_over(a, n_faces_a, faces_a, *point_in_world(b, vertices_b[v], vertices_b[v + 1], vertices_b[v + 2]))
+    out[0] = height_over(a, n_faces_a, faces_a, *point_in_world(b, vector_at(vertices_b, v)))
 
 
 def _bound_reversed(
@@ -122,7 +122,7 @@ def _bound_reversed(
     size: float,
 ) -> None:
     v = 3 * int(vertex)
-    out[0] = height_over(b, n_faces_b, faces_b, *point_in_world(a, vertices_a[v], vertices_a[v + 1], vertices_a[v + 2]))
+    out[0] = height_over(b, n_faces_b, faces_b, *point_in_world(a, vector_at(vertices_a, v)))
 
 
 @dataclass(frozen=True)

@@ -7,15 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.polyhedron import Polyhedron
 from ...shapes.sphere import Sphere
-from ..features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from ...vectors import put
+from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
 from ..features.swept_vertex import write_swept
 from ..features.vertex_face import nearest_feature
@@ -37,15 +37,15 @@ def _evaluate(
     y_b: float,
     z_b: float,
 ) -> None:
-    center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
+    center_x, center_y, center_z = point_in_world(b, (x_b, y_b, z_b))
+    x, y, z = point_in_body(a, (center_x, center_y, center_z))
     number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(a, nx, ny, nz)
+    nx, ny, nz = vector_in_world(a, (nx, ny, nz))
     off = distance - rounding
     out[GAP], out[FEATURE] = off - radius, number
-    put(out, NORMAL, nx, ny, nz)
-    put(out, POINT_A, center_x - off * nx, center_y - off * ny, center_z - off * nz)
-    put(out, POINT_B, center_x - radius * nx, center_y - radius * ny, center_z - radius * nz)
+    put(out, NORMAL, (nx, ny, nz))
+    put(out, POINT_A, (center_x - off * nx, center_y - off * ny, center_z - off * nz))
+    put(out, POINT_B, (center_x - radius * nx, center_y - radius * ny, center_z - radius * nz))
     write_tangent(a, out)
     write_swept(a, out, SIDE_A, number, n_faces, n_edges, edges, rounding)
     write_round(out, SIDE_B, radius)

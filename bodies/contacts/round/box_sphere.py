@@ -9,14 +9,15 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
 from ...shapes.box import Box
 from ...shapes.sphere import Sphere
-from ..features.frames import point_in_world, turned_by, vector_in_body, vector_in_world
+from ...vectors import put
+from ..features.frames import point_in_body, point_in_world, turned_by, vector_in_world
 from ..features.writing import by_side, place_sphere, write_flat, write_principal, write_round
 
 _KINDS = "inside", "face", "edge", "vertex"
@@ -57,8 +58,8 @@ def _evaluate(
     z_b: float,
 ) -> None:
     # the sphere's centre in the axes of the box
-    center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
+    center_x, center_y, center_z = point_in_world(b, (x_b, y_b, z_b))
+    x, y, z = point_in_body(a, (center_x, center_y, center_z))
     inverse_x, inverse_y, inverse_z = -orientation_x_a, -orientation_y_a, -orientation_z_a
     x, y, z = turned_by(orientation_w_a, inverse_x, inverse_y, inverse_z, x - x_a, y - y_a, z - z_a)
     side_x, side_y, side_z = _side(x, half_x_a), _side(y, half_y_a), _side(z, half_z_a)
@@ -84,7 +85,7 @@ def _evaluate(
         distance = math.sqrt(nx * nx + ny * ny + nz * nz)
         nx, ny, nz = nx / distance, ny / distance, nz / distance
     nx, ny, nz = turned_by(orientation_w_a, orientation_x_a, orientation_y_a, orientation_z_a, nx, ny, nz)
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
+    put(out, NORMAL, vector_in_world(a, (nx, ny, nz)))
     place_sphere(a, out, center_x, center_y, center_z, distance - rounding_a, radius_b)
     sides = abs(side_x) + abs(side_y) + abs(side_z)
     if sides == 1:
@@ -95,7 +96,7 @@ def _evaluate(
         # an edge lies along the axis that it does not bound
         ex, ey, ez = 1.0 - abs(side_x), 1.0 - abs(side_y), 1.0 - abs(side_z)
         ex, ey, ez = turned_by(orientation_w_a, orientation_x_a, orientation_y_a, orientation_z_a, ex, ey, ez)
-        ex, ey, ez = vector_in_world(a, ex, ey, ez)
+        ex, ey, ez = vector_in_world(a, (ex, ey, ez))
         write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, rounding_a)
     write_round(out, SIDE_B, radius_b)
     number = 9 * (side_x + 1) + 3 * (side_y + 1) + side_z + 1

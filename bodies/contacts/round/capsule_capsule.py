@@ -13,8 +13,8 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.capsule import Capsule
+from ...vectors import put
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.writing import by_side, join_cores, write_principal, write_round
 
@@ -54,10 +54,10 @@ def _evaluate(
     axis_y_b: float,
     axis_z_b: float,
 ) -> None:
-    first_x, first_y, first_z = point_in_world(a, x_a, y_a, z_a)
-    ux, uy, uz = vector_in_world(a, axis_x_a, axis_y_a, axis_z_a)
-    second_x, second_y, second_z = point_in_world(b, x_b, y_b, z_b)
-    vx, vy, vz = vector_in_world(b, axis_x_b, axis_y_b, axis_z_b)
+    first_x, first_y, first_z = point_in_world(a, (x_a, y_a, z_a))
+    ux, uy, uz = vector_in_world(a, (axis_x_a, axis_y_a, axis_z_a))
+    second_x, second_y, second_z = point_in_world(b, (x_b, y_b, z_b))
+    vx, vy, vz = vector_in_world(b, (axis_x_b, axis_y_b, axis_z_b))
     x, y, z = second_x - first_x, second_y - first_y, second_z - first_z
     # points s along the first segment and t along the second; nearest to a given t is s = ru + cosine t
     ru, rv = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz
@@ -98,13 +98,13 @@ def _evaluate(
         distance = math.sqrt(dx * dx + dy * dy + dz * dz)
         if distance <= shortest + allowed:
             s, t, shortest, is_parallel = s_tried, t_tried, distance, end == 5
-    put(out, POINT_A, first_x + s * ux, first_y + s * uy, first_z + s * uz)
-    put(out, POINT_B, second_x + t * vx, second_y + t * vy, second_z + t * vz)
+    put(out, POINT_A, (first_x + s * ux, first_y + s * uy, first_z + s * uz))
+    put(out, POINT_B, (second_x + t * vx, second_y + t * vy, second_z + t * vz))
     if square > 0.0:
         sine = math.sqrt(square)
         cx, cy, cz = cx / sine, cy / sine, cz / sine
     else:
-        cx, cy, cz = tangent_of(ux, uy, uz)
+        cx, cy, cz = tangent_of((ux, uy, uz))
     join_cores(a, out, radius_a, radius_b, cx, cy, cz)
     side_a, side_b = abs(s) < half_length_a, abs(t) < half_length_b
     write_round(out, SIDE_A, radius_a)

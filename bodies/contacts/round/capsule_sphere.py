@@ -11,9 +11,9 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
-from ...blocks import put
 from ...shapes.capsule import Capsule
 from ...shapes.sphere import Sphere
+from ...vectors import put
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.writing import by_side, join_cores, write_principal, write_round
 
@@ -35,13 +35,13 @@ def _evaluate(
     y_b: float,
     z_b: float,
 ) -> None:
-    x, y, z = point_in_world(a, x_a, y_a, z_a)
-    axis_x, axis_y, axis_z = vector_in_world(a, axis_x_a, axis_y_a, axis_z_a)
-    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(b, x_b, y_b, z_b)
+    x, y, z = point_in_world(a, (x_a, y_a, z_a))
+    axis_x, axis_y, axis_z = vector_in_world(a, (axis_x_a, axis_y_a, axis_z_a))
+    put(out, POINT_B, point_in_world(b, (x_b, y_b, z_b)))
     along = (out[POINT_B] - x) * axis_x + (out[POINT_B + 1] - y) * axis_y + (out[POINT_B + 2] - z) * axis_z
     near = min(max(along, -half_length_a), half_length_a)
-    put(out, POINT_A, x + near * axis_x, y + near * axis_y, z + near * axis_z)
-    nx, ny, nz = tangent_of(axis_x, axis_y, axis_z)
+    put(out, POINT_A, (x + near * axis_x, y + near * axis_y, z + near * axis_z))
+    nx, ny, nz = tangent_of((axis_x, axis_y, axis_z))
     join_cores(a, out, radius_a, radius_b, nx, ny, nz)
     if near == along:
         write_principal(out, SIDE_A, axis_x, axis_y, axis_z, 0.0, 1.0, 1.0, radius_a)

@@ -13,8 +13,8 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.support_function import support_of
+from ...vectors import Vector3
 from .boxy_newton import Answer
 from .smooth_core import Axes, back, forth
 
@@ -145,9 +145,9 @@ def _look(
     ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
     c, s = cosine * math.cos(angle), cosine * math.sin(angle)
     ax, ay, az = c * nx + s * ux + sine * ex, c * ny + s * uy + sine * ey, c * nz + s * uz + sine * ez
-    mx, my, mz = back(turn, -ax, -ay, -az)
-    f = support_of(core, mx, my, mz)
-    px, py, pz = forth(turn, f[1], f[2], f[3])
+    mx, my, mz = back(turn, (-ax, -ay, -az))
+    f = support_of(core, (mx, my, mz))
+    px, py, pz = forth(turn, (f[1], f[2], f[3]))
     px, py, pz = x + px, y + py, z + pz
     slope = (c * ux - s * nx) * px + (c * uy - s * ny) * py + (c * uz - s * nz) * pz
     return ax * px + ay * py + az * pz, px, py, pz, ax, ay, az, slope

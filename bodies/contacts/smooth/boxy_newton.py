@@ -16,6 +16,7 @@ from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import boxy_gauge_of, support_of
+from ...vectors import vector_at
 from ..features.frames import tangent_of
 from .smooth_core import RADIUS, Axes, back, bend, forth
 
@@ -58,7 +59,7 @@ def place_on(core: Floats, x: float, y: float, z: float) -> Place:
     f = boxy_gauge_of(core, x, y, z)
     length = math.sqrt(f[1] * f[1] + f[2] * f[2] + f[3] * f[3])
     nx, ny, nz = f[1] / length, f[2] / length, f[3] / length
-    tx, ty, tz = tangent_of(nx, ny, nz)
+    tx, ty, tz = tangent_of((nx, ny, nz))
     ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
     # the second derivative goes with 1 / f
     scale = f[0] / length
@@ -106,9 +107,9 @@ def climb_boxy(
         s = place_on(core, px, py, pz)
         px, py, pz, nx, ny, nz = s[0], s[1], s[2], s[3], s[4], s[5]
         tx, ty, tz, ux, uy, uz = s[6], s[7], s[8], s[9], s[10], s[11]
-        mx, my, mz = back(turn, -nx, -ny, -nz)
-        b = support_of(other, mx, my, mz)
-        dx, dy, dz = forth(turn, b[1], b[2], b[3])
+        mx, my, mz = back(turn, (-nx, -ny, -nz))
+        b = support_of(other, (mx, my, mz))
+        dx, dy, dz = forth(turn, (b[1], b[2], b[3]))
         dx, dy, dz = x + dx - px, y + dy - py, z + dz - pz
         found = 0.5 * (dx * dx + dy * dy + dz * dz)
         seen = _SEEN * size * (_SEEN * size + math.sqrt(found))
@@ -121,8 +122,8 @@ def climb_boxy(
             g = nx * dx + ny * dy + nz * dz
             r, t = tx * dx + ty * dy + tz * dz, ux * dx + uy * dy + uz * dz
             residual = math.sqrt(r * r + t * t)
-            vx, vy, vz = back(turn, tx, ty, tz)
-            wx, wy, wz = back(turn, ux, uy, uz)
+            vx, vy, vz = back(turn, (tx, ty, tz))
+            wx, wy, wz = back(turn, (ux, uy, uz))
             h11, h12, h22 = bend(b, vx, vy, vz, vx, vy, vz), bend(b, vx, vy, vz, wx, wy, wz), 0.0
             h22 = bend(b, wx, wy, wz, wx, wy, wz)
             k11, k12, k22 = s[12], s[13], s[14]
@@ -167,12 +168,14 @@ def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: fl
     The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     s = place_on(core, x, y, z)
-    tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])
+    tx, ty, tz = back(axes, vector_at(out, TANGENT))
     ux, uy, uz = back(
         axes,
-        out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
-        out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
-        out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
+        (
+            out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
+            out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
+            out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
+        ),
     )
     c11, c12 = tx * s[6] + ty * s[7] + tz * s[8], tx * s[9] + ty * s[10] + tz * s[11]
     c21, c22 = ux * s[6] + uy * s[7] + uz * s[8], ux * s[9] + uy * s[10] + uz * s[11]

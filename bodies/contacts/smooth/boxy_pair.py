@@ -38,10 +38,10 @@ Newton's method linearises the surfaces, which is wrong for longer steps.
 
 @compiled
 def _turned(turn: Axes, s: Place) -> Place:
-    x, y, z = forth(turn, s[0], s[1], s[2])
-    nx, ny, nz = forth(turn, s[3], s[4], s[5])
-    tx, ty, tz = forth(turn, s[6], s[7], s[8])
-    ux, uy, uz = forth(turn, s[9], s[10], s[11])
+    x, y, z = forth(turn, (s[0], s[1], s[2]))
+    nx, ny, nz = forth(turn, (s[3], s[4], s[5]))
+    tx, ty, tz = forth(turn, (s[6], s[7], s[8]))
+    ux, uy, uz = forth(turn, (s[9], s[10], s[11]))
     return x, y, z, nx, ny, nz, tx, ty, tz, ux, uy, uz, s[12], s[13], s[14]
 
 
@@ -81,7 +81,7 @@ def meet(
     halvings = 0
     for _ in range(_STEPS):
         s = place_on(first, px, py, pz)
-        bx, by, bz = back(turn, qx, qy, qz)
+        bx, by, bz = back(turn, (qx, qy, qz))
         o = _turned(turn, place_on(second, bx, by, bz))
         nx, ny, nz, tx, ty, tz, ux, uy, uz = s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11]
         dx, dy, dz = x + o[0] - s[0], y + o[1] - s[1], z + o[2] - s[2]

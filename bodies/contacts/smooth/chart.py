@@ -18,6 +18,7 @@ from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import support_by
+from ...vectors import vector_at
 from ..features.frames import tangent_of
 from .boxy_newton import Norm, Point
 from .smooth_core import RADIUS, Axes, back, bend
@@ -96,7 +97,7 @@ def chart_of(core: Norm, length: float, x: float, y: float, z: float) -> Chart:
     mx, my, mz = lean * nx / a, lean * ny / b, rise / c
     size = math.sqrt(mx * mx + my * my + mz * mz)
     mx, my, mz = mx / size, my / size, mz / size
-    first, second = tangent_of(mx, my, mz), (0.0, 0.0, 0.0)
+    first, second = tangent_of((mx, my, mz)), (0.0, 0.0, 0.0)
     second = (my * first[2] - mz * first[1], mz * first[0] - mx * first[2], mx * first[1] - my * first[0])
     # the point's and the normal's derivatives along both tangents: round the section, then along
     ex, ey = a * round_s * tx, b * round_s * ty
@@ -131,7 +132,7 @@ def _of_ellipsoid(a: float, b: float, c: float, length: float, x: float, y: floa
     size = math.sqrt(x * x + y * y + z * z)
     n = x / size, y / size, z / size
     h = support_by(a, b, c, 2.0, 2.0, n[0], n[1], n[2])
-    t = tangent_of(n[0], n[1], n[2])
+    t = tangent_of((n[0], n[1], n[2]))
     u = n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]
     # S is 1 / (H + L)
     h11, h12 = bend(h, t[0], t[1], t[2], t[0], t[1], t[2]) + length, bend(h, t[0], t[1], t[2], u[0], u[1], u[2])
@@ -155,12 +156,14 @@ def write_chart(out: Floats, side: int, core: Floats, axes: Axes, nx: float, ny:
     norm, size = (core[0], core[1], core[2], core[3], core[4]), max(core[0], core[1], core[2])
     w = start_of(norm, nx, ny, nz)
     _, _, first, second, slide, turn, _, _, _ = chart_of(norm, size, w[0], w[1], w[2])
-    tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])
+    tx, ty, tz = back(axes, vector_at(out, TANGENT))
     ux, uy, uz = back(
         axes,
-        out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
-        out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
-        out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
+        (
+            out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
+            out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
+            out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
+        ),
     )
     c11 = tx * first[0] + ty * first[1] + tz * first[2]
     c12 = tx * second[0] + ty * second[1] + tz * second[2]

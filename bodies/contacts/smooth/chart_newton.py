@@ -90,7 +90,7 @@ def _climb(
     weight = max(extent_a, extent_b)
     if min(extent_a, extent_b) > 0.0:
         weight = min(extent_a, extent_b)
-    mx, my, mz = back(turn, -nx, -ny, -nz)
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
     w, o = start_of(first, nx, ny, nz), start_of(second, mx, my, mz)
     kept_w, kept_o = w, o
     step_w: Point = (0.0, 0.0, 0.0)
@@ -100,8 +100,8 @@ def _climb(
     for _ in range(_STEPS):
         p, n, t, u, sa, ua, w, along_w, beside_w = chart_of(first, weight, w[0], w[1], w[2])
         q, m, tb, ub_, sb, ub, o, along_o, beside_o = chart_of(second, weight, o[0], o[1], o[2])
-        qx, qy, qz = forth(turn, q[0], q[1], q[2])
-        mx, my, mz = forth(turn, m[0], m[1], m[2])
+        qx, qy, qz = forth(turn, (q[0], q[1], q[2]))
+        mx, my, mz = forth(turn, (m[0], m[1], m[2]))
         dx, dy, dz = x + qx - p[0], y + qy - p[1], z + qz - p[2]
         r1, r2 = t[0] * dx + t[1] * dy + t[2] * dz, u[0] * dx + u[1] * dy + u[2] * dz
         v1, v2 = t[0] * mx + t[1] * my + t[2] * mz, u[0] * mx + u[1] * my + u[2] * mz
@@ -123,9 +123,9 @@ def _climb(
             ended = residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before)
             before = residual
             # the second body's matrices along the first's tangents
-            bx, by, bz = forth(turn, tb[0], tb[1], tb[2])
+            bx, by, bz = forth(turn, (tb[0], tb[1], tb[2]))
             c11, c21 = t[0] * bx + t[1] * by + t[2] * bz, u[0] * bx + u[1] * by + u[2] * bz
-            bx, by, bz = forth(turn, ub_[0], ub_[1], ub_[2])
+            bx, by, bz = forth(turn, (ub_[0], ub_[1], ub_[2]))
             c12, c22 = t[0] * bx + t[1] * by + t[2] * bz, u[0] * bx + u[1] * by + u[2] * bz
             s11, s12, s22 = turned_matrix(c11, c12, c21, c22, sb)
             t11, t12, t22 = turned_matrix(c11, c12, c21, c22, ub)

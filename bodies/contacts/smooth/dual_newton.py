@@ -15,8 +15,8 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.support_function import support_of
+from ...vectors import Vector3
 from ..features.frames import tangent_of
 from .smooth_core import Axes, back, bend, forth
 
@@ -63,7 +63,7 @@ def climb(
     nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
     if length <= _CLOSE * (abs(start_x) + abs(start_y) + abs(start_z)):
-        nx, ny, nz = tangent_of(along_x, along_y, along_z)
+        nx, ny, nz = tangent_of((along_x, along_y, along_z))
         length = math.sqrt(nx * nx + ny * ny + nz * nz)
     nx, ny, nz = nx / length, ny / length, nz / length
     size = abs(x) + abs(y) + abs(z) + max(first[0], first[1], first[2]) + max(second[0], second[1], second[2])
@@ -72,10 +72,10 @@ def climb(
     lx, ly, lz, sx, sy, sz = nx, ny, nz, 0.0, 0.0, 0.0
     halvings = 0
     for _ in range(_STEPS):
-        a = support_of(first, nx, ny, nz)
-        mx, my, mz = back(turn, -nx, -ny, -nz)
-        b = support_of(second, mx, my, mz)
-        dx, dy, dz = forth(turn, b[1], b[2], b[3])
+        a = support_of(first, (nx, ny, nz))
+        mx, my, mz = back(turn, (-nx, -ny, -nz))
+        b = support_of(second, (mx, my, mz))
+        dx, dy, dz = forth(turn, (b[1], b[2], b[3]))
         dx, dy, dz = x + dx - a[1], y + dy - a[2], z + dz - a[3]
         found = nx * dx + ny * dy + nz * dz
         if found < g - _SEEN * size and halvings < _HALVINGS:
@@ -85,17 +85,17 @@ def climb(
             g, halvings = found, 0
             lx, ly, lz = nx, ny, nz
             if free:
-                tx, ty, tz = tangent_of(nx, ny, nz)
+                tx, ty, tz = tangent_of((nx, ny, nz))
                 ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
             else:
                 ux, uy, uz = along_x, along_y, along_z
                 tx, ty, tz = uy * nz - uz * ny, uz * nx - ux * nz, ux * ny - uy * nx
             r, s = tx * dx + ty * dy + tz * dz, ux * dx + uy * dy + uz * dz
-            px, py, pz = back(turn, tx, ty, tz)
+            px, py, pz = back(turn, (tx, ty, tz))
             tt = bend(a, tx, ty, tz, tx, ty, tz) + bend(b, px, py, pz, px, py, pz) + g
             tu, uu = 0.0, size
             if free:
-                qx, qy, qz = back(turn, ux, uy, uz)
+                qx, qy, qz = back(turn, (ux, uy, uz))
                 tu = bend(a, tx, ty, tz, ux, uy, uz) + bend(b, px, py, pz, qx, qy, qz)
                 uu = bend(a, ux, uy, uz, ux, uy, uz) + bend(b, qx, qy, qz, qx, qy, qz) + g
             else:

@@ -15,6 +15,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import OF_FUNCTION, gauge_of
+from ...vectors import vector_at
 from .dual_newton import climb
 from .smooth_core import Axes, back
 
@@ -42,8 +43,8 @@ def no_shorter_way(
     radius = _ball_in(first, depth, qx - g * nx, qy - g * ny, qz - g * nz, nx, ny, nz)
     if radius >= depth:
         return True
-    bx, by, bz = back(turn, qx - x, qy - y, qz - z)
-    mx, my, mz = back(turn, -nx, -ny, -nz)
+    bx, by, bz = back(turn, (qx - x, qy - y, qz - z))
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
     return bool(radius + _ball_in(second, depth, bx, by, bz, mx, my, mz) >= depth)
 
 
@@ -54,7 +55,7 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
     The point is in the axes of the core, from its centre [m].  (nx, ny, nz) is the outward unit normal there.  The
     radius is a lower bound of the largest possible radius, and at most ``most`` [m].  It is 0 if no ball was found.
     """
-    a, b, c = core[0], core[1], core[2]
+    a, b, c = vector_at(core, 0)
     height = nx * x + ny * y + nz * z
     if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
         return 0.0

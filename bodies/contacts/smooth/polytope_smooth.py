@@ -19,12 +19,13 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.polytope import Polytope
 from ...shapes.support_function import is_round, support_of
-from ..features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
+from ...vectors import put, vector_at
+from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world, write_tangent
 from ..features.writing import write_flat, write_principal, write_round
 from .boxy_newton import Answer
 from .inscribed import gauge
@@ -114,7 +115,8 @@ Nearest: TypeAlias = tuple[float, float, float, float, int, Point]
 @compiled
 def _vertex(hull: Floats, i: int) -> tuple[float, float, float]:
     at = int(hull[VERTICES]) + 3 * i
-    return hull[at], hull[at + 1], hull[at + 2]
+    found: Point = vector_at(hull, at)
+    return found
 
 
 @compiled
@@ -133,9 +135,9 @@ def _point_along(
     core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> tuple[float, float, float]:
     """Return the smooth body's farthest point in the direction -(nx, ny, nz) [m], in the axes of the polytope."""
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    s = support_of(core, mx, my, mz)
-    px, py, pz = forth(turn, s[1], s[2], s[3])
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    s = support_of(core, (mx, my, mz))
+    px, py, pz = forth(turn, (s[1], s[2], s[3]))
     return x + px, y + py, z + pz
 
 
@@ -148,7 +150,7 @@ def _exit(
     Both points are in the plane of the face, f on the face.  A point up to ``near`` past an edge [m] is on the face.
     """
     at = int(hull[FACES]) + FACE * face
-    nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
+    nx, ny, nz = vector_at(hull, at)
     loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
     found, least = -1, 2.0
     for i in range(count):
@@ -172,7 +174,7 @@ def _best_face(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
     best, widest = -1, -math.inf
     for i in range(int(hull[COUNTS + 2])):
         at = int(hull[FACES]) + FACE * i
-        nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
+        nx, ny, nz = vector_at(hull, at)
         px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
         wide = nx * px + ny * py + nz * pz - hull[at + 3]
         if wide > widest:
@@ -185,7 +187,7 @@ def _look_at_face(
     hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float, number: int, way: Point
 ) -> Stop:
     at = int(hull[FACES]) + FACE * number
-    nx, ny, nz = hull[at], hull[at + 1], hull[at + 2]
+    nx, ny, nz = vector_at(hull, at)
     px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
     g = nx * px + ny * py + nz * pz - hull[at + 3]
     edge = _exit(hull, number, near, way[0], way[1], way[2], px - g * nx, py - g * ny, pz - g * nz)
@@ -212,7 +214,7 @@ def _look_at_edge(
         if face >= 0:
             # into the face, whose loop runs along the edge on its left, against it on its right
             f = int(hull[FACES]) + FACE * face
-            fx, fy, fz = hull[f], hull[f + 1], hull[f + 2]
+            fx, fy, fz = vector_at(hull, f)
             into = nx * (fy * ez - fz * ey) + ny * (fz * ex - fx * ez) + nz * (fx * ey - fy * ex)
             into = into if i == 0 else -into
             if into > most:
@@ -287,7 +289,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
         if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
             # if the polytope's point lies in the smooth body (gauge below 1), the overlap is proved
             px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
-            px, py, pz = back(turn, px - g * nx - x, py - g * ny - y, pz - g * nz - z)
+            px, py, pz = back(turn, (px - g * nx - x, py - g * ny - y, pz - g * nz - z))
             if gauge(core, px, py, pz) < 1.0:
                 return g, nx, ny, nz, _feature(hull, kind, number), way
             best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
@@ -333,7 +335,7 @@ def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z:
         if (ahead <= 0.0 if end == 0 else ahead >= 0.0) and g == g and not g <= best:
             best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, _VERTEX, end), (vx, vy, vz)
     ex, ey, ez, _ = _edge(hull, 0)
-    tx, ty, tz = tangent_of(ex, ey, ez)
+    tx, ty, tz = tangent_of((ex, ey, ez))
     for i in range(_ROUND):
         c, s = math.cos(2.0 * math.pi * i / _ROUND), math.sin(2.0 * math.pi * i / _ROUND)
         begin = (
@@ -417,8 +419,8 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     (:func:`bodies.shapes.smooth.core_numbers`).  The gap is nan if no nearest feature was found.
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
-    bx, by, bz = point_in_world(b, second[6], second[7], second[8])
-    x, y, z = vector_in_body(a, bx - a[POSITION], by - a[POSITION + 1], bz - a[POSITION + 2])
+    bx, by, bz = point_in_world(b, vector_at(second, 6))
+    x, y, z = point_in_body(a, (bx, by, bz))
     turn = between_axes(axes_a, axes_b)
     g, nx, ny, nz, feature, base = _nearest(first, second, turn, x, y, z)
     px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
@@ -427,21 +429,21 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
         # on a flat place of the smooth body the normal does not determine the point: use the polytope's point
         px, py, pz = base[0] + g * nx, base[1] + g * ny, base[2] + g * nz
     out[GAP] = g - first[RADIUS] - second[RADIUS]
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
-    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(a, px, py, pz)
+    put(out, NORMAL, vector_in_world(a, (nx, ny, nz)))
+    put(out, POINT_B, point_in_world(a, (px, py, pz)))
     for i in range(3):
         out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
         out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
     out[FEATURE] = feature
     write_tangent(a, out)
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    px, py, pz = back(turn, px - x, py - y, pz - z)
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    px, py, pz = back(turn, (px - x, py - y, pz - z))
     write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (px, py, pz))
     if feature < n_faces:
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:
         ex, ey, ez, _ = _edge(first, feature - n_faces)
-        ex, ey, ez = vector_in_world(a, ex, ey, ez)
+        ex, ey, ez = vector_in_world(a, (ex, ey, ez))
         write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, first[RADIUS])
     else:
         write_round(out, SIDE_A, first[RADIUS])

@@ -19,8 +19,8 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.support_function import support_of
+from ...vectors import Vector3
 from .boxy_newton import Answer, Point
 from .inscribed import gauge
 from .smooth_core import Axes, back, bend, forth
@@ -196,14 +196,14 @@ def next_to_axis(
         sine, cosine = math.sin(tilt), math.cos(tilt)
         nx, ny, nz = sine * c, sine * s, up * cosine
         ox, oy, oz = cosine * c, cosine * s, -up * sine
-        mx, my, mz = back(turn, -nx, -ny, -nz)
-        b = support_of(core, mx, my, mz)
-        px, py, pz = forth(turn, b[1], b[2], b[3])
+        mx, my, mz = back(turn, (-nx, -ny, -nz))
+        b = support_of(core, (mx, my, mz))
+        px, py, pz = forth(turn, (b[1], b[2], b[3]))
         px, py, pz = x + px, y + py, z + pz
         g = nx * px + ny * py + nz * pz - radius * sine
         over, beside = ox * px + oy * py + oz * pz - radius * cosine, c * py - s * px
-        tx, ty, tz = back(turn, ox, oy, oz)
-        ux, uy, uz = back(turn, -s, c, 0.0)
+        tx, ty, tz = back(turn, (ox, oy, oz))
+        ux, uy, uz = back(turn, (-s, c, 0.0))
         h11, h12 = bend(b, tx, ty, tz, tx, ty, tz), bend(b, tx, ty, tz, ux, uy, uz)
         h22 = bend(b, ux, uy, uz, ux, uy, uz)
         a11, a12, a21 = -g - h11, cosine * beside - sine * h12, -h12
@@ -317,7 +317,7 @@ def _along(circle: Floats, top: Start) -> Answer:
     The body's point is the circle's farthest point along n, moved by the gap along n.
     """
     g, nx, ny, nz = top
-    a = support_of(circle, nx, ny, nz)
+    a = support_of(circle, (nx, ny, nz))
     return g, a[1] + g * nx, a[2] + g * ny, a[3] + g * nz, nx, ny, nz
 
 
@@ -337,9 +337,9 @@ def _facing(
     least = _over(core, turn, px - x, py - y, pz - z)
     if radius == 0.0 or not least > _SAME:
         return best, least * extent
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    b = support_of(core, mx, my, mz)
-    qx, qy, _ = forth(turn, b[1], b[2], b[3])
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    b = support_of(core, (mx, my, mz))
+    qx, qy, _ = forth(turn, (b[1], b[2], b[3]))
     qx, qy = x + qx - g * nx, y + qy - g * ny
     cx, cy = px - g * nx, py - g * ny
     # search an arc about the circle's point nearest to the body's support point; it includes the present point
@@ -368,5 +368,5 @@ def _facing(
 @compiled
 def _over(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
     """Return abs(gauge - 1) of a point: 0 on the surface of the core, where :func:`gauge` is 1, larger off it."""
-    bx, by, bz = back(turn, x, y, z)
+    bx, by, bz = back(turn, (x, y, z))
     return float(abs(gauge(core, bx, by, bz) - 1.0))

@@ -14,6 +14,7 @@ from nonsmooth.engine.memory.blocks import NORMAL, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Support, support_of
+from ...vectors import Vector3, vector_at
 
 Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
 """A rotation, row by row."""
@@ -106,8 +107,9 @@ def between_axes(a: Axes, b: Axes) -> Axes:
 
 
 @compiled
-def forth(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the vector (x, y, z) turned by a rotation."""
+def forth(axes: Axes, v: Vector3) -> Vector3:
+    """Return a vector turned by a rotation."""
+    x, y, z = v
     return (
         axes[0] * x + axes[1] * y + axes[2] * z,
         axes[3] * x + axes[4] * y + axes[5] * z,
@@ -116,8 +118,9 @@ def forth(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float
 
 
 @compiled
-def back(axes: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the vector (x, y, z) turned by the inverse of a rotation."""
+def back(axes: Axes, v: Vector3) -> Vector3:
+    """Return a vector turned by the inverse of a rotation."""
+    x, y, z = v
     return (
         axes[0] * x + axes[3] * y + axes[6] * z,
         axes[1] * x + axes[4] * y + axes[7] * z,
@@ -134,13 +137,15 @@ def write_core(out: Floats, side: int, core: Floats, axes: Axes, x: float, y: fl
     [m]: the second derivative of the support function at the normal, plus the core's radius.  The geometry block
     ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
-    s = support_of(core, x, y, z)
-    tx, ty, tz = back(axes, out[TANGENT], out[TANGENT + 1], out[TANGENT + 2])
+    s = support_of(core, (x, y, z))
+    tx, ty, tz = back(axes, vector_at(out, TANGENT))
     ux, uy, uz = back(
         axes,
-        out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
-        out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
-        out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
+        (
+            out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1],
+            out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2],
+            out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT],
+        ),
     )
     out[side] = out[side + 3] = 1.0
     out[side + 1] = out[side + 2] = 0.0

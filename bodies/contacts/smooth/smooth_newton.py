@@ -13,8 +13,8 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...blocks import Vector3
 from ...shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
+from ...vectors import Vector3
 from .boxy_line import across_line
 from .boxy_newton import Answer, Point, climb_boxy, write_boxy
 from .boxy_pair import meet
@@ -139,7 +139,7 @@ def _axis(turn: Axes, number: int) -> Point:
     i, sign = number % 3, 1.0 if number < 6 else -1.0
     ex, ey, ez = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
     if number % 6 >= 3:
-        ex, ey, ez = forth(turn, ex, ey, ez)
+        ex, ey, ez = forth(turn, (ex, ey, ez))
     return ex, ey, ez
 
 
@@ -162,12 +162,12 @@ def _share_a_point(first: Floats, second: Floats, turn: Axes, x: float, y: float
         # from the first body's point to the second's
         part = g * (1.0 - i / _SAMPLES)
         px, py, pz = qx - part * nx, qy - part * ny, qz - part * nz
-        bx, by, bz = back(turn, px - x, py - y, pz - z)
+        bx, by, bz = back(turn, (px - x, py - y, pz - z))
         if gauge(second, bx, by, bz) <= 1.0 + _ON_SURFACE and gauge(first, px, py, pz) <= 1.0 + _ON_SURFACE:
             return True
     # on the line of centres, each body covers the part 1 / gauge of its length, from the body's own centre: the bodies
     # overlap if these parts together are longer than the line
-    ax, ay, az = back(turn, -x, -y, -z)
+    ax, ay, az = back(turn, (-x, -y, -z))
     one, two = max(gauge_of(first, x, y, z), _NOWHERE), max(gauge_of(second, ax, ay, az), _NOWHERE)
     return bool(1.0 / one + 1.0 / two >= 1.0)
 
@@ -283,9 +283,9 @@ def widest_of_round(
             found = _by_cuts(first, second, turn, x, y, z, sx, sy, sz)
         return found
     g, nx, ny, nz = climb(first, second, turn, (x, y, z), (0.0, 0.0, 0.0), (sx, sy, sz))
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    s = support_of(second, mx, my, mz)
-    px, py, pz = forth(turn, s[1], s[2], s[3])
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    s = support_of(second, (mx, my, mz))
+    px, py, pz = forth(turn, (s[1], s[2], s[3]))
     return g, x + px, y + py, z + pz, nx, ny, nz
 
 
@@ -297,11 +297,11 @@ def _from_boxy(
 
     The second core is boxy: the unknown of Newton's method is the point of its surface.
     """
-    ax, ay, az = back(turn, -x, -y, -z)
-    sx, sy, sz = back(turn, -sx, -sy, -sz)
+    ax, ay, az = back(turn, (-x, -y, -z))
+    sx, sy, sz = back(turn, (-sx, -sy, -sz))
     g, px, py, pz, nx, ny, nz = climb_boxy(second, first, opposite(turn), ax, ay, az, sx, sy, sz)
-    nx, ny, nz = forth(turn, -nx, -ny, -nz)
-    px, py, pz = forth(turn, px, py, pz)
+    nx, ny, nz = forth(turn, (-nx, -ny, -nz))
+    px, py, pz = forth(turn, (px, py, pz))
     return g, x + px, y + py, z + pz, nx, ny, nz
 
 
@@ -314,7 +314,7 @@ def _by_cuts(
     Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
     small distance.  The ellipsoid method needs no curvatures.
     """
-    bx, by, bz = back(turn, -x, -y, -z)
+    bx, by, bz = back(turn, (-x, -y, -z))
     length = math.sqrt(sx * sx + sy * sy + sz * sz)
     nx, ny, nz = sx / length, sy / length, sz / length
     if gauge(core, bx, by, bz) <= 1.0:
@@ -322,7 +322,7 @@ def _by_cuts(
     start = gap_along(point, core, turn, x, y, z, nx, ny, nz), nx, ny, nz
     start = uphill(point, core, turn, x, y, z, start, _NEARBY)
     g, nx, ny, nz = settle(point, core, turn, x, y, z, start)
-    bx, by, bz = back(turn, g * nx - x, g * ny - y, g * nz - z)
+    bx, by, bz = back(turn, (g * nx - x, g * ny - y, g * nz - z))
     if not (g > 0.0 and abs(gauge(core, bx, by, bz) - 1.0) <= _ON_SURFACE):
         g = math.nan
     return g, g * nx, g * ny, g * nz, nx, ny, nz
@@ -349,10 +349,10 @@ def _both(
     if g == g and found[0] == found[0]:
         return found
     other = first[0], first[1], first[2], 2.0, 2.0
-    ax, ay, az = back(turn, -x, -y, -z)
-    bx, by, bz = back(turn, -sx, -sy, -sz)
+    ax, ay, az = back(turn, (-x, -y, -z))
+    bx, by, bz = back(turn, (-sx, -sy, -sz))
     g, _, _, _, nx, ny, nz = climb_boxy(second, other, opposite(turn), ax, ay, az, bx, by, bz)
-    nx, ny, nz = forth(turn, -nx, -ny, -nz)
+    nx, ny, nz = forth(turn, (-nx, -ny, -nz))
     found = _from(first, second, turn, x, y, z, nx, ny, nz)
     if g == g and found[0] == found[0]:
         return found
@@ -372,9 +372,9 @@ def _from(
     """
     length = math.sqrt(nx * nx + ny * ny + nz * nz)
     nx, ny, nz = nx / length, ny / length, nz / length
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    a, b = support_of(first, nx, ny, nz), support_of(second, mx, my, mz)
-    qx, qy, qz = forth(turn, b[1], b[2], b[3])
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    a, b = support_of(first, (nx, ny, nz)), support_of(second, (mx, my, mz))
+    qx, qy, qz = forth(turn, (b[1], b[2], b[3]))
     found: Answer = meet(first, second, turn, x, y, z, (a[1], a[2], a[3]), (qx, qy, qz))
     return found
 
@@ -390,9 +390,9 @@ def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Ve
     (x, y, z), (along_x, along_y, along_z), (start_x, start_y, start_z) = place, axis, start
     if is_round(core):
         g, nx, ny, nz = climb(hull, core, turn, place, axis, start)
-        mx, my, mz = back(turn, -nx, -ny, -nz)
-        s = support_of(core, mx, my, mz)
-        px, py, pz = forth(turn, s[1], s[2], s[3])
+        mx, my, mz = back(turn, (-nx, -ny, -nz))
+        s = support_of(core, (mx, my, mz))
+        px, py, pz = forth(turn, (s[1], s[2], s[3]))
         return g, x + px, y + py, z + pz, nx, ny, nz
     if along_x == 0.0 and along_y == 0.0 and along_z == 0.0:
         point = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)

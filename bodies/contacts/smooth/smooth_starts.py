@@ -34,9 +34,9 @@ def gap_along(
     first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
 ) -> float:
     """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
-    mx, my, mz = back(turn, -nx, -ny, -nz)
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
     return float(
-        nx * x + ny * y + nz * z - support_of(first, nx, ny, nz)[0] - support_of(second, mx, my, mz)[0],
+        nx * x + ny * y + nz * z - support_of(first, (nx, ny, nz))[0] - support_of(second, (mx, my, mz))[0],
     )
 
 
@@ -50,7 +50,7 @@ def uphill(
     for _ in range(_MOVES):
         if step <= least:
             break
-        tx, ty, tz = tangent_of(nx, ny, nz)
+        tx, ty, tz = tangent_of((nx, ny, nz))
         ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
         best: Start = (g, nx, ny, nz)
         for i in range(8):
@@ -90,7 +90,7 @@ def starts_of(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: 
         length = math.sqrt(nx * nx + ny * ny + nz * nz)
         nx, ny, nz = nx / length, ny / length, nz / length
         if i >= 27:
-            nx, ny, nz = forth(turn, nx, ny, nz)
+            nx, ny, nz = forth(turn, (nx, ny, nz))
         g = gap_along(first, second, turn, x, y, z, nx, ny, nz)
         kept = _with(kept, (g, nx, ny, nz))
     return kept
@@ -146,7 +146,7 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
     """
     best: Start = start
     _, nx, ny, nz = start
-    tx, ty, tz = tangent_of(nx, ny, nz)
+    tx, ty, tz = tangent_of((nx, ny, nz))
     ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
     size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + circle[0]
     i, j, e11, e12, e22 = 0.0, 0.0, _WIDE * _WIDE, 0.0, _WIDE * _WIDE
@@ -154,10 +154,10 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
         mx, my, mz = nx + i * tx + j * ux, ny + i * ty + j * uy, nz + i * tz + j * uz
         length = math.sqrt(mx * mx + my * my + mz * mz)
         mx, my, mz = mx / length, my / length, mz / length
-        a = support_of(circle, mx, my, mz)
-        bx, by, bz = back(turn, -mx, -my, -mz)
-        b = support_of(core, bx, by, bz)
-        dx, dy, dz = forth(turn, b[1], b[2], b[3])
+        a = support_of(circle, (mx, my, mz))
+        bx, by, bz = back(turn, (-mx, -my, -mz))
+        b = support_of(core, (bx, by, bz))
+        dx, dy, dz = forth(turn, (b[1], b[2], b[3]))
         dx, dy, dz = x + dx - a[1], y + dy - a[2], z + dz - a[3]
         g = mx * dx + my * dy + mz * dz
         if g > best[0]:

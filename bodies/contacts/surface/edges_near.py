@@ -7,6 +7,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+from ...vectors import vector_at
 from ..features.bounds import square_of_lines
 from ..features.edge_crossing import ASTRAY, edge_astray
 from ..features.frames import vector_in_body, vector_in_world
@@ -40,8 +41,8 @@ def _passes_box(
 @compiled
 def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, turn: float) -> bool:
     """Return whether the normals of two edges face each other, or may do so after a rotation by ``turn`` [rad]."""
-    ex, ey, ez = vector_in_world(a, surface_a[one + 3], surface_a[one + 4], surface_a[one + 5])
-    fx, fy, fz = vector_in_world(b, surface_b[two + 3], surface_b[two + 4], surface_b[two + 5])
+    ex, ey, ez = vector_in_world(a, vector_at(surface_a, one + 3))
+    fx, fy, fz = vector_in_world(b, vector_at(surface_b, two + 3))
     x, y, z = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
     sine = math.sqrt(x * x + y * y + z * z)
     if sine <= _ALONG:
@@ -76,8 +77,8 @@ def edges_across(
     """
     first, members = int(surface[N_TRIANGLES]), int(surface[MEMBERS])
     px, py, pz = seen_from(a, b, edges[two], edges[two + 1], edges[two + 2])
-    fx, fy, fz = vector_in_world(b, edges[two + 3], edges[two + 4], edges[two + 5])
-    fx, fy, fz = vector_in_body(a, fx, fy, fz)
+    fx, fy, fz = vector_in_world(b, vector_at(edges, two + 3))
+    fx, fy, fz = vector_in_body(a, (fx, fy, fz))
     q = edges[two + 6]
     node = 0
     while node < int(surface[N_NODES]) and n <= most:

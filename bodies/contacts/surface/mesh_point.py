@@ -16,6 +16,7 @@ from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball
 from ...shapes.point import Point
 from ...shapes.triangle_mesh import TriangleMesh
+from ...vectors import put, vector_at
 from ..features.frames import point_in_world, vector_in_world, write_tangent
 from ..features.writing import gap_at_distance, write_flat, write_round
 from .surface_search import FAR
@@ -63,8 +64,8 @@ def write_over_first(
     face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
     f = int(surface[FACES]) + FACE * face
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, surface[f], surface[f + 1], surface[f + 2])
-    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(b, vertex_x, vertex_y, vertex_z)
+    put(out, NORMAL, vector_in_world(a, vector_at(surface, f)))
+    put(out, POINT_B, point_in_world(b, (vertex_x, vertex_y, vertex_z)))
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
@@ -109,8 +110,8 @@ def write_over_second(
     f = int(surface[FACES]) + FACE * face
     gap = gap_at_distance(gap, past, radius)
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(b, -surface[f], -surface[f + 1], -surface[f + 2])
-    out[POINT_A], out[POINT_A + 1], out[POINT_A + 2] = point_in_world(a, vertex_x, vertex_y, vertex_z)
+    put(out, NORMAL, vector_in_world(b, (-surface[f], -surface[f + 1], -surface[f + 2])))
+    put(out, POINT_A, point_in_world(a, (vertex_x, vertex_y, vertex_z)))
     for i in range(3):
         out[POINT_A + i] += radius * out[NORMAL + i]
         out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]

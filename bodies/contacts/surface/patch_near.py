@@ -10,14 +10,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self
 
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
 from ...meshes.patches import Patches
-from ..features.frames import point_in_world, vector_in_body
+from ..features.frames import point_in_body, point_in_world
 from ..features.writing import NO_CANDIDATE
 from .surface_near import patches_near
 from .surface_tables import N_PATCHES, surface_numbers
@@ -35,8 +34,8 @@ def _find(
     a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, x_b: float, y_b: float, z_b: float
 ) -> None:
     """Find the patches with a feature near the ball that encloses the second body."""
-    x, y, z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, x - a[POSITION], y - a[POSITION + 1], z - a[POSITION + 2])
+    x, y, z = point_in_world(b, (x_b, y_b, z_b))
+    x, y, z = point_in_body(a, (x, y, z))
     most = int(surface[N_PATCHES])
     out[0] = float(patches_near(surface, x, y, z, extent + out[0], NEAR, 0.0, out, 0, most))
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, PAST_END, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...blocks import put
-from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ...vectors import put, vector_at
+from ..features.frames import point_in_body, point_in_world, vector_in_world
 from ..features.swept_vertex import END, NEAR, past_star
 from ..features.writing import place_sphere, write_flat, write_principal, write_round
 from .surface_search import ON_EDGE, ON_FACE, Found, nearest_in_patch
@@ -31,10 +31,10 @@ def out_of_surface(
     distance, _, kind, number, px, py, pz = found
     if kind == ON_FACE and (past <= 0.0 or distance == 0.0):
         f = int(surface[FACES]) + FACE * number
-        nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
+        nx, ny, nz = vector_at(surface, f)
     else:
         nx, ny, nz = (x - px) / distance, (y - py) / distance, (z - pz) / distance
-    nx, ny, nz = vector_in_world(frame, nx, ny, nz)
+    nx, ny, nz = vector_in_world(frame, (nx, ny, nz))
     return nx, ny, nz
 
 
@@ -49,7 +49,7 @@ def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: 
         write_flat(out, side)
     elif kind == ON_EDGE:
         e = int(surface[EDGES]) + EDGE * number
-        x, y, z = vector_in_world(frame, surface[e + 3], surface[e + 4], surface[e + 5])
+        x, y, z = vector_in_world(frame, vector_at(surface, e + 3))
         write_principal(out, side, x, y, z, 0.0, 1.0, 1.0, 0.0)
         out[FEATURE] += surface[N_FACES]
     else:
@@ -77,8 +77,8 @@ def write_ball(
 
     Features of the patch are searched up to the distance ``reach`` from the ball's centre [m].
     """
-    center_x, center_y, center_z = point_in_world(b, x_b, y_b, z_b)
-    x, y, z = vector_in_body(a, center_x - a[POSITION], center_y - a[POSITION + 1], center_z - a[POSITION + 2])
+    center_x, center_y, center_z = point_in_world(b, (x_b, y_b, z_b))
+    x, y, z = point_in_body(a, (center_x, center_y, center_z))
     found = nearest_in_patch(surface, patch, x, y, z, reach)
     distance, kind, number = found[0], found[2], found[3]
     # if there is one patch only, it is the whole surface: the contact point can never be past its end
@@ -88,7 +88,7 @@ def write_ball(
     if n_star > 0.0 and kind != ON_FACE:
         beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
-    put(out, NORMAL, nx, ny, nz)
+    put(out, NORMAL, (nx, ny, nz))
     if past > 0.0:
         apart = max(distance - radius, 0.0)
         distance = math.sqrt(apart * apart + past * past) + radius

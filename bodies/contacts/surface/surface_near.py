@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import block_at, compiled
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
+from ...vectors import vector_at
 from ..features.edge_crossing import ASTRAY
-from ..features.frames import point_in_world, vector_in_body
+from ..features.frames import point_in_body, point_in_world
 from .surface_search import Point, box_square, in_triangle
 from .surface_tables import (
     CORNER,
@@ -57,8 +57,8 @@ def room_ahead(reach: float, narrow: float, most: int) -> int:
 @compiled
 def seen_from(frame: Floats, other: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return a point (x, y, z) of the body ``other`` in the axes of the body ``frame`` [m]."""
-    x, y, z = point_in_world(other, x, y, z)
-    x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
+    x, y, z = point_in_world(other, (x, y, z))
+    x, y, z = point_in_body(frame, (x, y, z))
     return x, y, z
 
 
@@ -245,7 +245,7 @@ def corners_near(
             if corner < 0:
                 continue
             c = int(corners[CORNERS]) + CORNER * corner
-            place = corners[c], corners[c + 1], corners[c + 2]
+            place = vector_at(corners, c)
             star = block_at(corners, int(corners[STARS]) + int(corners[c + 4]))
             n = patches_under(
                 frame, other, surface, place, corners[c + 5], star, reach, turn, kind, float(corner), out, n, most

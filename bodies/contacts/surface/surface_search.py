@@ -8,6 +8,7 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+from ...vectors import vector_at
 from ..features.vertex_face import REACH
 from .surface_tables import (
     BITS,
@@ -79,7 +80,7 @@ def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) ->
     By the regions of C. Ericson, "Real-Time Collision Detection" (Morgan Kaufmann, 2005), section 5.1.5.
     """
     t = triangle
-    ax, ay, az = surface[t], surface[t + 1], surface[t + 2]
+    ax, ay, az = vector_at(surface, t)
     bx, by, bz = surface[t + 3] - ax, surface[t + 4] - ay, surface[t + 5] - az
     cx, cy, cz = surface[t + 6] - ax, surface[t + 7] - ay, surface[t + 8] - az
     px, py, pz = x - ax, y - ay, z - az
@@ -245,7 +246,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
                 if surface[c + 3] != patch:
                     continue
                 beyond = past_corner(surface, c, x, y, z)
-                px, py, pz = surface[c], surface[c + 1], surface[c + 2]
+                px, py, pz = vector_at(surface, c)
             beyond -= margin
             square = (x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz)
             key = square + max(beyond, 0.0) * max(beyond, 0.0)

@@ -12,11 +12,12 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import OF_FUNCTION, is_round, support_of
-from ..features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
+from ...vectors import put, vector_at
+from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
 from ..features.vertex_face import REACH
 from ..smooth.boxy_line import across_line
 from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
@@ -76,9 +77,9 @@ def _extent(core: Floats) -> float:
 @compiled
 def _point_against(core: Floats, turn: Axes, center: Point, normal: Point) -> Point:
     """Return the core's farthest point in the direction opposite to a normal [m], in the axes of the surface."""
-    mx, my, mz = back(turn, -normal[0], -normal[1], -normal[2])
-    s = support_of(core, mx, my, mz)
-    px, py, pz = forth(turn, s[1], s[2], s[3])
+    mx, my, mz = back(turn, (-normal[0], -normal[1], -normal[2]))
+    s = support_of(core, (mx, my, mz))
+    px, py, pz = forth(turn, (s[1], s[2], s[3]))
     return center[0] + px, center[1] + py, center[2] + pz
 
 
@@ -91,8 +92,8 @@ def _least(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
     apart = math.sqrt(x * x + y * y + z * z)
     if apart == 0.0:
         return -math.inf
-    mx, my, mz = back(turn, -x / apart, -y / apart, -z / apart)
-    return float(apart - support_of(core, mx, my, mz)[0] - core[RADIUS])
+    mx, my, mz = back(turn, (-x / apart, -y / apart, -z / apart))
+    return float(apart - support_of(core, (mx, my, mz))[0] - core[RADIUS])
 
 
 @compiled
@@ -106,7 +107,7 @@ def _on_face(
     """
     t = int(surface[TRIANGLES]) + TRIANGLE * member
     f = int(surface[FACES]) + FACE * int(surface[t + 9])
-    nx, ny, nz = surface[f], surface[f + 1], surface[f + 2]
+    nx, ny, nz = vector_at(surface, f)
     px, py, pz = _point_against(core, turn, center, (nx, ny, nz))
     height = nx * px + ny * py + nz * pz - surface[f + 3]
     over, past = over_ends(surface, t, px, py, pz)
@@ -129,7 +130,7 @@ def _on_edge(
     edge to the core, is not a normal of the edge.  The distance of the core is nan if the search failed.
     """
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
-    ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
+    ex, ey, ez = vector_at(surface, e + 3)
     g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (ex, ey, ez), (wx, wy, wz))
     px, py, pz = _point_against(core, turn, (wx, wy, wz), (nx, ny, nz))
     s = px * ex + py * ey + pz * ez
@@ -318,8 +319,8 @@ def write_surface_smooth(
     ``reach`` is the largest distance of features that are searched [m].
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
-    bx, by, bz = point_in_world(b, second[6], second[7], second[8])
-    x, y, z = vector_in_body(a, bx - a[POSITION], by - a[POSITION + 1], bz - a[POSITION + 2])
+    bx, by, bz = point_in_world(b, vector_at(second, 6))
+    x, y, z = point_in_body(a, (bx, by, bz))
     turn = between_axes(axes_a, axes_b)
     g, past, kind, number, nx, ny, nz = _nearest(surface, patch, second, point, turn, (x, y, z), reach)
     gap = g - second[RADIUS]
@@ -328,19 +329,19 @@ def write_surface_smooth(
     px, py, pz = _point_against(second, turn, (x, y, z), (nx, ny, nz))
     if kind == ON_EDGE and not is_round(second):
         e = int(surface[EDGES]) + EDGE * number
-        ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
+        ex, ey, ez = vector_at(surface, e + 3)
         wx, wy, wz = x - surface[e], y - surface[e + 1], z - surface[e + 2]
         _, px, py, pz, _, _, _ = across_line(second, turn, (wx, wy, wz), (ex, ey, ez), (nx, ny, nz), 1.0, 0.0, 0.0)
         px, py, pz = px + surface[e], py + surface[e + 1], pz + surface[e + 2]
     # if there is one patch only, it is the whole surface, which has no end
     out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 else 0.0
-    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = vector_in_world(a, nx, ny, nz)
-    out[POINT_B], out[POINT_B + 1], out[POINT_B + 2] = point_in_world(a, px, py, pz)
+    put(out, NORMAL, vector_in_world(a, (nx, ny, nz)))
+    put(out, POINT_B, point_in_world(a, (px, py, pz)))
     for i in range(3):
         out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
-    mx, my, mz = back(turn, -nx, -ny, -nz)
-    bx, by, bz = back(turn, px - x, py - y, pz - z)
+    mx, my, mz = back(turn, (-nx, -ny, -nz))
+    bx, by, bz = back(turn, (px - x, py - y, pz - z))
     write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (bx, by, bz))
     write_feature(a, out, SIDE_A, surface, kind, number)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
+from ...vectors import vector_at
 from ..features.edge_crossing import ASTRAY
-from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex_face import CLOSED, REACH
 from .surface_search import (
     box_square,
@@ -41,8 +41,8 @@ def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: fl
     It is negative if all edges ascend from the face.  The vertex has ``n_star`` edges; unit vectors along them begin at
     index ``begin`` of ``star``.
     """
-    nx, ny, nz = vector_in_world(frame, surface[face], surface[face + 1], surface[face + 2])
-    nx, ny, nz = vector_in_body(other, nx, ny, nz)
+    nx, ny, nz = vector_in_world(frame, vector_at(surface, face))
+    nx, ny, nz = vector_in_body(other, (nx, ny, nz))
     down = -1.0
     for i in range(int(n_star)):
         s = begin + 3 * i
@@ -145,8 +145,8 @@ def face_under(
     ``star`` holds unit vectors along the vertex's edges, from index ``begin`` on.  If no face is within ``reach`` [m],
     gap and distance past the end are ``reach``.
     """
-    px, py, pz = point_in_world(other, vertex_x, vertex_y, vertex_z)
-    x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
+    px, py, pz = point_in_world(other, (vertex_x, vertex_y, vertex_z))
+    x, y, z = point_in_body(frame, (px, py, pz))
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     # a point by itself has no edges beside it
