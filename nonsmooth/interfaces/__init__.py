@@ -1,12 +1,13 @@
 """The interfaces: one abstract class a file."""
 
 from nonsmooth.interfaces.body import Body
-from nonsmooth.interfaces.contact_kinematics import CandidateSearch, ContactKinematics
+from nonsmooth.interfaces.contact_kinematics import ContactKinematics
 from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.convex_shape import ConvexShape
 from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.interfaces.distance_backend import DistanceBackend
 from nonsmooth.interfaces.engine import EndCause, Engine, Measure
+from nonsmooth.interfaces.feature_pair import CandidateSearch, FeaturePair
 from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.interfaces.guard import Guard
 from nonsmooth.interfaces.impact_law import ImpactLaw, ImpactMap, ImpactProcess
@@ -33,6 +34,7 @@ __all__ = [
     "DistanceBackend",
     "EndCause",
     "Engine",
+    "FeaturePair",
     "FrictionLaw",
     "Guard",
     "ImpactLaw",

@@ -3,41 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import ClassVar, final
+from collections.abc import Callable
+from typing import Any, ClassVar
 
+from nonsmooth.interfaces.feature_pair import CandidateSearch
 from nonsmooth.interfaces.shape import Shape
-from nonsmooth.parameters import Component, Value
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class CandidateSearch:
-    """Search for pairs of near features of two shapes, if the pairs are too many for a contact each.
-
-    The search serves all contacts that one call of ``between`` returns.  Each contact gets one pair as the argument
-    ``candidate`` of its evaluator.  This vector has four numbers.  Three describe the pair; the first of them is 0
-    without a pair.  The fourth is the largest distance [m] that the features may move relative to each other before the
-    next search.
-
-    Attributes
-    ----------
-    function : callable
-        A plain function ``find(a, b, out, ...)`` of the frame blocks of the bodies.  On entry, ``out[0]`` is a distance
-        [m].  The function writes to ``out[0]`` the number of pairs of features that may be within this distance.  From
-        ``out[1]`` on it writes three numbers for each pair.  It writes at most one pair more than there are contacts:
-        this pair shows that the contacts are too few.  The first number of a pair is not 0.
-    values : mapping
-        Parameters of the function by name.
-    counts : mapping
-        First number of a pair -> (m, n): the second number of the pair is an integer from 0 to m - 1, the third one an
-        integer from 0 to n - 1.  Pairs that are read from a file are checked by these limits.
-    """
-
-    function: Callable[..., None]
-    values: Mapping[str, Value]
-    counts: Mapping[float, tuple[int, int]]
+from nonsmooth.parameters import Component
 
 
 class ContactKinematics(Component, ABC):
@@ -56,7 +27,7 @@ class ContactKinematics(Component, ABC):
 
     @classmethod
     @abstractmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+    def between(cls, first: Shape, second: Shape) -> tuple[Any, ...]:
         """Return the potential contacts of two shapes of the classes in ``pair``."""
 
     @property
