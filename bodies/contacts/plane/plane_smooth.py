@@ -25,13 +25,13 @@ def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) 
     axes = axes_in_world(b, second)
     x, y, z = point_in_world(b, vector_at(second, 6))
     mx, my, mz = back(axes, (-a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8]))
-    s = support_of(second, (mx, my, mz))
-    px, py, pz = forth(axes, (s[1], s[2], s[3]))
+    _, point, _ = support_of(second, (mx, my, mz))
+    px, py, pz = forth(axes, point)
     r = second[RADIUS]
     place_over_plane(
         a, out, x + px - r * a[ROTATION + 2], y + py - r * a[ROTATION + 5], z + pz - r * a[ROTATION + 8], height
     )
-    write_surface(out, SIDE_B, second, axes, (mx, my, mz), (s[1], s[2], s[3]))
+    write_surface(out, SIDE_B, second, axes, (mx, my, mz), point)
 
 
 @final

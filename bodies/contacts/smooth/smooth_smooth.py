@@ -14,9 +14,9 @@ from nonsmooth.types import Floats
 
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import OF_FUNCTION
-from ...vectors import put, vector_at
+from ...vectors import ahead, minus, opposite, plus, put, vector_at
 from ..features.frames import point_in_world, write_tangent
-from .smooth_core import RADIUS, back, between_axes, forth, unit_axes_in_world
+from .smooth_core import CENTER, RADIUS, back, between_axes, forth, unit_axes_in_world
 from .smooth_newton import widest, write_surface
 
 
@@ -26,26 +26,18 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) 
     The gap is nan if Newton's method fails.
     """
     axes_a, axes_b = unit_axes_in_world(a, first), unit_axes_in_world(b, second)
-    ax, ay, az = point_in_world(a, vector_at(first, 6))
-    bx, by, bz = point_in_world(b, vector_at(second, 6))
-    x, y, z = back(axes_a, (bx - ax, by - ay, bz - az))
+    center = point_in_world(a, vector_at(first, CENTER))
+    place = back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
     turn = between_axes(axes_a, axes_b)
-    g, qx, qy, qz, nx, ny, nz = widest(first, second, turn, x, y, z)
-    px, py, pz = qx - g * nx, qy - g * ny, qz - g * nz
+    g, q, n = widest(first, second, turn, place)
+    p, normal = ahead(q, -g, n), forth(axes_a, n)
     out[GAP] = g - first[RADIUS] - second[RADIUS]
-    put(out, NORMAL, forth(axes_a, (nx, ny, nz)))
-    wx, wy, wz = forth(axes_a, (px, py, pz))
-    put(out, POINT_A, (ax + wx, ay + wy, az + wz))
-    wx, wy, wz = forth(axes_a, (qx, qy, qz))
-    put(out, POINT_B, (ax + wx, ay + wy, az + wz))
-    for i in range(3):
-        out[POINT_A + i] += first[RADIUS] * out[NORMAL + i]
-        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+    put(out, NORMAL, normal)
+    put(out, POINT_A, ahead(plus(center, forth(axes_a, p)), first[RADIUS], normal))
+    put(out, POINT_B, ahead(plus(center, forth(axes_a, q)), -second[RADIUS], normal))
     write_tangent(a, out)
-    write_surface(out, SIDE_A, first, axes_a, (nx, ny, nz), (px, py, pz))
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    qx, qy, qz = back(turn, (qx - x, qy - y, qz - z))
-    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
+    write_surface(out, SIDE_A, first, axes_a, n, p)
+    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(q, place)))
 
 
 @final

@@ -78,8 +78,7 @@ def _extent(core: Floats) -> float:
 def _point_against(core: Floats, turn: Axes, center: Point, normal: Point) -> Point:
     """Return the core's farthest point in the direction opposite to a normal [m], in the axes of the surface."""
     mx, my, mz = back(turn, (-normal[0], -normal[1], -normal[2]))
-    s = support_of(core, (mx, my, mz))
-    px, py, pz = forth(turn, (s[1], s[2], s[3]))
+    px, py, pz = forth(turn, support_of(core, (mx, my, mz))[1])
     return center[0] + px, center[1] + py, center[2] + pz
 
 
@@ -131,7 +130,7 @@ def _on_edge(
     """
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = vector_at(surface, e + 3)
-    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (ex, ey, ez), (wx, wy, wz))
+    g, _, (nx, ny, nz) = widest_from(point, core, turn, (wx, wy, wz), (ex, ey, ez), (wx, wy, wz))
     px, py, pz = _point_against(core, turn, (wx, wy, wz), (nx, ny, nz))
     s = px * ex + py * ey + pz * ez
     past = max(-s, s - surface[e + 6])
@@ -149,7 +148,7 @@ def _on_corner(
     The distance past the end is positive if an edge of the corner is nearer to the core than the corner itself.
     """
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
-    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (0.0, 0.0, 0.0), (wx, wy, wz))
+    g, _, (nx, ny, nz) = widest_from(point, core, turn, (wx, wy, wz), (0.0, 0.0, 0.0), (wx, wy, wz))
     past, star = -(nx * wx + ny * wy + nz * wz), int(surface[STARS]) + int(surface[c + 4])
     for _ in range(int(surface[c + 5])):
         past = max(past, size * (nx * surface[star] + ny * surface[star + 1] + nz * surface[star + 2]))
@@ -331,7 +330,7 @@ def write_surface_smooth(
         e = int(surface[EDGES]) + EDGE * number
         ex, ey, ez = vector_at(surface, e + 3)
         wx, wy, wz = x - surface[e], y - surface[e + 1], z - surface[e + 2]
-        _, px, py, pz, _, _, _ = across_line(second, turn, (wx, wy, wz), (ex, ey, ez), (nx, ny, nz), 1.0, 0.0, 0.0)
+        _, (px, py, pz), _ = across_line(second, turn, (wx, wy, wz), (ex, ey, ez), (nx, ny, nz), 1.0, 0.0, 0.0)
         px, py, pz = px + surface[e], py + surface[e + 1], pz + surface[e + 2]
     # if there is one patch only, it is the whole surface, which has no end
     out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 else 0.0
