@@ -16,13 +16,17 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias, final
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
+from ...shapes.capsule import Capsule
+from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Polytope
+from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import is_round
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, put, size_of, times, vector_at
 from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world, write_tangent
@@ -426,3 +430,37 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
         write_principal(out, SIDE_A, x, y, z, 0.0, 1.0, 1.0, first[RADIUS])
     else:
         write_round(out, SIDE_A, first[RADIUS])
+
+
+@final
+class PolyhedronSmooth(ContactKinematics):
+    """A polyhedron and a smooth body: one contact, of the nearest face, edge or vertex."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, SmoothShape)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact; its features are the faces, edges and vertices of the polyhedron."""
+        assert isinstance(first, Polyhedron)
+        assert isinstance(second, SmoothShape)
+        polytope = first.core
+        parts = (("face", polytope.faces), ("edge", polytope.edges), ("vertex", polytope.vertices))
+        names = tuple(f"{kind} {i} and smooth" for kind, part in parts for i in range(len(part)))
+        values = {"first": polyhedron_numbers(polytope, first.rounding), "second": second.core}
+        return (FeaturePair(evaluate_polytope_smooth, values, names),)
+
+
+@final
+class CapsuleSmooth(ContactKinematics):
+    """A capsule and a smooth body: one contact, of the side or an end of the capsule."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Capsule, SmoothShape)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact; its features are the side and the ends of the capsule."""
+        assert isinstance(first, Capsule)
+        assert isinstance(second, SmoothShape)
+        names = tuple(f"{part} and smooth" for part in ("side", "low end", "high end"))
+        values = {"first": segment_numbers(first.ends, first.radius), "second": second.core}
+        return (FeaturePair(evaluate_polytope_smooth, values, names),)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
 from ...shapes.smooth import SmoothShape
@@ -20,7 +17,7 @@ from .smooth_core import CENTER, RADIUS, back, between_axes, forth, unit_axes_in
 from .smooth_newton import widest, write_surface
 
 
-def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
+def evaluate_smooth_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
     """Write the geometry block of two smooth bodies, given as cores; at most one of them is a point.
 
     The gap is nan if Newton's method fails.
@@ -41,25 +38,13 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) 
 
 
 @final
-@dataclass(frozen=True)
 class SmoothSmooth(ContactKinematics):
-    """One contact of two smooth bodies; its normal is the one that separates them most.
-
-    Attributes
-    ----------
-    first : SmoothShape
-        The smooth shape of the first body.
-    second : SmoothShape
-        The smooth shape of the second body.
-    """
+    """Two smooth bodies: one contact; its normal is the one that separates them most."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SmoothShape, SmoothShape)
 
-    first: SmoothShape
-    second: SmoothShape
-
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[SmoothSmooth, ...]:
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
         """Return the single contact of two smooth shapes.
 
         Raises
@@ -77,18 +62,5 @@ class SmoothSmooth(ContactKinematics):
                     [2.0 - 2.0 / power for power in one.core[3:5]],
                     "Next to flat and sharp places at once the search needs the powers of both bodies.",
                 )
-        return (cls(first, second),)
-
-    def parameters(self) -> Mapping[str, Value]:
-        """Return the numbers of both support functions."""
-        return {"first": self.first.core, "second": self.second.core}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Newton's method on the support functions."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Name of the only pair of features."""
-        return ("smooth-smooth",)
+        values = {"first": first.core, "second": second.core}
+        return (FeaturePair(evaluate_smooth_smooth, values, ("smooth-smooth",)),)
