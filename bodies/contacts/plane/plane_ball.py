@@ -7,7 +7,7 @@ from typing import ClassVar, final
 
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.notices import warn
-from nonsmooth.parameters import UnusualValue
+from nonsmooth.parameters import UnusualValue, Value
 
 from ...shapes.capsule import Capsule
 from ...shapes.ground import Ground
@@ -24,7 +24,7 @@ MANY = 200
 def ball_over_plane(plane: Shape, radius: float, center: Sequence[float], name: str) -> FeaturePair:
     """Return the contact of a plane and a ball, whose centre is in its body frame [m]; a point has radius 0."""
     assert isinstance(plane, Ground)
-    values = {"radius": radius, "center": tuple(center), "height": plane.height}
+    values: dict[str, Value] = {"radius": radius, "center": tuple(center), "height": plane.height}
     return FeaturePair(evaluate_ball_over_plane, values, (f"plane-{name}",))
 
 

@@ -7,6 +7,7 @@ from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, FEET, Frustum, Point
@@ -86,10 +87,9 @@ class PlaneFrustum(ContactKinematics):
         def rim(radius: float, center: Point) -> FeaturePair:
             if radius == 0.0:
                 return ball(center)
-            own = {"radius": radius, "center": center, "axis": axis, "crown": numbers[FEET] / radius}
-            return FeaturePair(
-                evaluate_rim_over_plane, {**own, "height": first.height, "rounding": sweep}, ("plane-rim",)
-            )
+            values: dict[str, Value] = {"radius": radius, "center": center, "axis": axis, "height": first.height}
+            values |= {"rounding": sweep, "crown": numbers[FEET] / radius}
+            return FeaturePair(evaluate_rim_over_plane, values, ("plane-rim",))
 
         def ball(center: Point) -> FeaturePair:
             return ball_over_plane(first, sweep, center, "sphere" if sweep > 0.0 else "vertex")

@@ -8,6 +8,7 @@ from typing import ClassVar, final
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.ellipsoid import Ellipsoid
@@ -76,7 +77,7 @@ class PlaneSmooth(ContactKinematics):
         """Return the single contact of a plane and a smooth shape."""
         assert isinstance(first, Ground)
         assert isinstance(second, SmoothShape)
-        values = {"second": second.core, "height": first.height}
+        values: dict[str, Value] = {"second": second.core, "height": first.height}
         return (FeaturePair(evaluate_smooth_over_plane, values, ("plane-smooth",)),)
 
 
@@ -92,5 +93,6 @@ class PlaneEllipsoid(ContactKinematics):
         assert isinstance(first, Ground)
         assert isinstance(second, Ellipsoid)
         numbers = tuple(second.numbers().values())
-        values = {"semi": numbers[:3], "center": numbers[3:6], "orientation": numbers[6:10], "height": first.height}
+        values: dict[str, Value] = {"semi": numbers[:3], "center": numbers[3:6], "orientation": numbers[6:10]}
+        values["height"] = first.height
         return (FeaturePair(evaluate_ellipsoid_over_plane, values, ("plane-ellipsoid",)),)

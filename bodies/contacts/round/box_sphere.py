@@ -8,6 +8,7 @@ from typing import ClassVar, final
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.box import Box
@@ -123,7 +124,7 @@ class BoxSphere(ContactKinematics):
         assert isinstance(first, Box)
         assert isinstance(second, Sphere)
         numbers = tuple(first.numbers().values())
-        values = {
+        values: dict[str, Value] = {
             "half": first.core_sizes,
             "center_a": numbers[3:6],
             "orientation": numbers[6:10],

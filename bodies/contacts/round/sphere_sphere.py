@@ -6,6 +6,7 @@ from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import POINT_A, POINT_B, ROTATION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.sphere import Sphere
@@ -36,7 +37,7 @@ class SphereSphere(ContactKinematics):
         """Return the single contact of two spheres."""
         assert isinstance(first, Sphere)
         assert isinstance(second, Sphere)
-        values = {
+        values: dict[str, Value] = {
             "radius_a": first.radius,
             "center_a": (first.x, first.y, first.z),
             "radius_b": second.radius,
