@@ -17,23 +17,16 @@ from nonsmooth.types import Floats
 from ...shapes.support_function import boxy_gauge_of
 from ...vectors import Vector3, cross, dot, minus, over, plus, size_of, times
 from ..features.frames import tangent_of
-from .smooth_core import (
-    RADIUS,
-    RIGHT,
-    Answer,
-    Axes,
+from .newton import RIGHT, has_ended
+from .smooth_core import RADIUS, Answer, Axes, back, facing_point, longest, spread
+from .tangent_plane import (
     Symmetric,
     along,
-    back,
     bends_in_plane,
     determinant,
-    facing_point,
     from_tangents,
-    has_ended,
     in_plane,
-    longest,
     solved,
-    spread,
     tangents_in,
     write_matrices,
 )

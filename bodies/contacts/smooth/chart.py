@@ -19,20 +19,16 @@ from nonsmooth.types import Floats
 from ...shapes.support_function import support_by
 from ...vectors import Vector3, cross, over, plus, size_of, times
 from ..features.frames import tangent_of
-from .smooth_core import (
-    RADIUS,
-    Axes,
-    Norm,
+from .smooth_core import RADIUS, Axes, Norm, longest, unit
+from .tangent_plane import (
     Symmetric,
     along,
     bends_in_plane,
     determinant,
     from_tangents,
     in_plane,
-    longest,
     tangents_in,
     turned_matrix,
-    unit,
     write_matrices,
 )
 

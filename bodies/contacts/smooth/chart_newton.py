@@ -12,29 +12,10 @@ import math
 from nonsmooth.compiled import compiled
 
 from ...vectors import Vector3, dot, minus, opposite, plus, times
-from .boxy_pair import away_from_zero, misfit
 from .chart import chart_of, start_of
-from .smooth_core import (
-    CLOSE,
-    RIGHT,
-    Answer,
-    Axes,
-    Norm,
-    Symmetric,
-    along,
-    back,
-    by_symmetric,
-    determinant,
-    forth,
-    from_tangents,
-    has_ended,
-    in_plane,
-    longest,
-    solved,
-    spread,
-    turned_matrix,
-    unit,
-)
+from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
+from .smooth_core import Answer, Axes, Norm, back, forth, longest, spread, unit
+from .tangent_plane import Symmetric, along, by_symmetric, determinant, from_tangents, in_plane, solved, turned_matrix
 
 _STEPS = 40
 _HALVINGS = 10

@@ -18,21 +18,9 @@ from nonsmooth.types import Floats
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, ahead, cross, dot, minus, plus, size_of, times
 from ..features.frames import tangent_of
-from .smooth_core import (
-    CLOSE,
-    RIGHT,
-    ROUND_OFF,
-    Axes,
-    along,
-    back,
-    bend,
-    facing_point,
-    has_ended,
-    in_plane,
-    longest,
-    spread,
-    unit,
-)
+from .newton import CLOSE, RIGHT, ROUND_OFF, has_ended
+from .smooth_core import Axes, back, bend, facing_point, longest, spread, unit
+from .tangent_plane import along, in_plane
 
 _STEPS = 100
 _HALVINGS = 40

@@ -261,6 +261,20 @@ def _middle(hull: Floats, face: int) -> Vector3:
 
 
 @compiled
+def _look(
+    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, kind: int, number: int, begin: Vector3
+) -> Stop:
+    """Return the stop of a feature; ``begin`` is a point of a face [m], or the first normal at an edge or vertex."""
+    if kind == _FACE:
+        found: Stop = _look_at_face(hull, core, turn, place, near, number, begin)
+    elif kind == _EDGE:
+        found = _look_at_edge(hull, core, turn, place, near, number, begin)
+    else:
+        found = _look_at_vertex(hull, core, turn, place, number, begin)
+    return found
+
+
+@compiled
 def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
     """Return gap, normal, nearest feature and point of a polytope and a smooth body.
 
@@ -277,14 +291,9 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
     best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, way)
     # on edges and vertices Newton's method starts with the direction to the smooth body's centre
     for _ in range(n_edges + 4):
-        if kind == _FACE:
-            g, n, after, where, way = _look_at_face(hull, core, turn, place, near, number, way)
-        elif kind == _EDGE:
-            begin = minus(place, _begin_of_edge(hull, number))
-            g, n, after, where, way = _look_at_edge(hull, core, turn, place, near, number, begin)
-        else:
-            begin = minus(place, _vertex(hull, number))
-            g, n, after, where, way = _look_at_vertex(hull, core, turn, place, number, begin)
+        if kind != _FACE:
+            way = minus(place, _begin_of_edge(hull, number) if kind == _EDGE else _vertex(hull, number))
+        g, n, after, where, way = _look(hull, core, turn, place, near, kind, number, way)
         stop = g, n, _feature(hull, kind, number), way
         if after == _HERE and g >= -_SHALLOW * size:
             return stop
@@ -354,43 +363,33 @@ def _best_of_all(hull: Floats, core: Floats, turn: Axes, place: Vector3, near: f
     best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, (0.0, 0.0, 0.0))
     for kind in (_FACE, _EDGE, _VERTEX):
         for number in range(int(hull[COUNTS + kind])):
-            if kind == _FACE:
-                g, n, after, _, way = _look_at_face(hull, core, turn, place, near, number, _middle(hull, number))
-            elif kind == _EDGE:
-                begin = _outward_of_edge(hull, number, place)
-                g, n, after, _, way = _look_at_edge(hull, core, turn, place, near, number, begin)
-            else:
-                begin = _outward_of_vertex(hull, number)
-                g, n, after, _, way = _look_at_vertex(hull, core, turn, place, number, begin)
+            begin = _begin(hull, kind, number, place)
+            g, n, after, _, way = _look(hull, core, turn, place, near, kind, number, begin)
             if after == _HERE and g == g and not g <= best[0]:
                 best = g, n, _feature(hull, kind, number), way
     return best
 
 
 @compiled
-def _outward_of_edge(hull: Floats, number: int, place: Vector3) -> Vector3:
-    """Return a direction out of the polytope at an edge, of any length: the sum of the normals of its two faces.
+def _begin(hull: Floats, kind: int, number: int, place: Vector3) -> Vector3:
+    """Return the middle of a face [m], or a direction out of the polytope at an edge or a vertex, of any length.
 
-    A segment has no faces: there it is the vector from its start to the smooth body's centre [m].
+    At an edge it is the sum of the normals of its two faces.  A segment has no faces: there it is the vector from its
+    start to the smooth body's centre [m].
     """
-    at = int(hull[EDGES]) + EDGE * number
-    if hull[at + 2] < 0.0:
-        start: Vector3 = minus(place, _begin_of_edge(hull, number))
-        return start
-    outward = 0.0, 0.0, 0.0
-    for i in range(2):
-        face = int(hull[at + 2 + i])
-        if face >= 0:
-            outward = plus(outward, vector_at(hull, int(hull[FACES]) + FACE * face))
-    return outward
-
-
-@compiled
-def _outward_of_vertex(hull: Floats, number: int) -> Vector3:
-    outward = 0.0, 0.0, 0.0
-    for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
-        _, sign, e = _edge_from(hull, number, i)
-        outward = ahead(outward, -sign, e)
+    at, outward = int(hull[EDGES]) + EDGE * number, (0.0, 0.0, 0.0)
+    if kind == _FACE:
+        outward = _middle(hull, number)
+    elif kind == _EDGE and hull[at + 2] < 0.0:
+        outward = minus(place, _begin_of_edge(hull, number))
+    elif kind == _EDGE:
+        for i in range(2):
+            if hull[at + 2 + i] >= 0.0:
+                outward = plus(outward, vector_at(hull, int(hull[FACES]) + FACE * int(hull[at + 2 + i])))
+    else:
+        for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
+            _, sign, e = _edge_from(hull, number, i)
+            outward = ahead(outward, -sign, e)
     return outward
 
 

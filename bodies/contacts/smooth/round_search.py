@@ -22,20 +22,10 @@ from nonsmooth.types import Floats
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, ahead, dot, minus, plus
 from .inscribed import gauge
-from .smooth_core import (
-    POINT,
-    Answer,
-    Axes,
-    back,
-    bends_in_plane,
-    determinant,
-    facing_point,
-    longest,
-    solved,
-    spread,
-)
+from .smooth_core import POINT, Answer, Axes, back, facing_point, longest, spread
 from .smooth_newton import widest_of_round
 from .smooth_starts import Start, gap_along, settle, starts_of, uphill
+from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""

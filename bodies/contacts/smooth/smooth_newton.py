@@ -22,8 +22,9 @@ from .chart import write_chart
 from .chart_newton import meet_in_charts
 from .dual_newton import climb
 from .inscribed import gauge, no_shorter_way
-from .smooth_core import POINT, Answer, Axes, Norm, back, facing_point, forth, inverse, spread, unit, write_core
+from .smooth_core import POINT, RADIUS, Answer, Axes, Norm, back, facing_point, forth, inverse, spread, unit
 from .smooth_starts import gap_along, settle, starts_of, uphill
+from .tangent_plane import bends_in_plane, tangents_in, write_matrices
 
 _DEEP = 1e-2
 """Overlap, relative to the least semi-axis, up to which a solution is accepted without a proof.
@@ -352,6 +353,20 @@ def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Ve
         return math.nan, place, start
     across: Answer = across_line(core, turn, place, axis, over(n, length), 1.0, 0.0, 0.0)
     return across
+
+
+@compiled
+def write_core(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3) -> None:
+    """Write the curvature matrices slide and turn of a smooth body at its outward normal, in the axes of the core.
+
+    Slide is the identity.  Turn is the matrix of the radii of curvature [m]: the second derivative of the support
+    function at the normal, plus the core's radius.  The geometry block ``out`` must already hold normal and first
+    tangent; ``axes`` are the core's axes in the world.
+    """
+    _, _, h = support_of(core, normal)
+    t, u = tangents_in(axes, out)
+    h11, h12, h22 = bends_in_plane(h, t, u)
+    write_matrices(out, side, (1.0, 0.0, 1.0), (h11 + core[RADIUS], h12, h22 + core[RADIUS]))
 
 
 @compiled

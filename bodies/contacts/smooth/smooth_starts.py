@@ -15,7 +15,8 @@ from nonsmooth.types import Floats
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of
 from ..features.frames import tangent_of
-from .smooth_core import Axes, back, facing_point, forth, in_plane, longest, spread, unit
+from .smooth_core import Axes, back, facing_point, forth, longest, spread, unit
+from .tangent_plane import in_plane
 
 _LONGEST, _MOVES = 0.2, 100
 """Limits of the search uphill (:func:`uphill`), which increases the gap by turning the direction.
