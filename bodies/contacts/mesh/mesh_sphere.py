@@ -37,7 +37,7 @@ def _evaluate_near(
         write_apart(a, out, size)
     else:
         reach = radius + candidate[3]
-        write_ball(a, b, out, surface, candidate[1], radius, x_b, y_b, z_b, 0.0, surface, size, reach)
+        write_ball(a, b, out, surface, candidate[1], radius, (x_b, y_b, z_b), 0.0, surface, size, reach)
 
 
 @final
@@ -76,7 +76,7 @@ def _evaluate(
     star: Floats,
     size: float,
 ) -> None:
-    write_ball(a, b, out, surface, patch, radius, x_b, y_b, z_b, n_star, star, size, FAR)
+    write_ball(a, b, out, surface, patch, radius, (x_b, y_b, z_b), n_star, star, size, FAR)
 
 
 @final

@@ -29,6 +29,7 @@ from ..surface.surface_ball import write_ball
 from ..surface.surface_edges import write_edges
 from ..surface.surface_near import NARROW, patches_near, room_ahead, seen_from
 from ..surface.surface_pairs import MOST_NEAR
+from ..surface.surface_search import steepest as steepest
 from ..surface.surface_tables import (
     CORNER,
     CORNERS,
@@ -43,16 +44,6 @@ from ..surface.surface_tables import (
     STARS,
     surface_numbers,
 )
-
-
-@compiled
-def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
-    """Return the largest component of the vector (x, y, z) along an edge of a corner, in the axes of the surface."""
-    most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
-    for _ in range(int(surface[corner + 5])):
-        most = max(most, x * surface[star] + y * surface[star + 1] + z * surface[star + 2])
-        star += 3
-    return most
 
 
 @compiled
@@ -98,7 +89,7 @@ def corners_over(
             0.5 * (surface[at + 4] - surface[at + 1]),
             0.5 * (surface[at + 5] - surface[at + 2]),
         )
-        x, y, z = seen_from(b, a, surface[at] + dx, surface[at + 1] + dy, surface[at + 2] + dz)
+        x, y, z = seen_from(b, a, (surface[at] + dx, surface[at + 1] + dy, surface[at + 2] + dz))
         found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
         if found[1] > sweep + reach + math.sqrt(dx * dx + dy * dy + dz * dz):
             node = int(surface[at + 6])
@@ -108,7 +99,7 @@ def corners_over(
             if corner < 0 or n > most:
                 continue
             c = int(surface[CORNERS]) + CORNER * corner
-            x, y, z = seen_from(b, a, surface[c], surface[c + 1], surface[c + 2])
+            x, y, z = seen_from(b, a, (surface[c], surface[c + 1], surface[c + 2]))
             number, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
             if distance > sweep + reach:
                 continue
@@ -160,7 +151,7 @@ def _find(
     turn = turning * reach
     for i in range(int(n_vertices)):
         v = _ROW * i
-        x, y, z = seen_from(a, b, vertices[v], vertices[v + 1], vertices[v + 2])
+        x, y, z = seen_from(a, b, (vertices[v], vertices[v + 1], vertices[v + 2]))
         n = patches_near(surface, x, y, z, sweep + reach, BALL, float(i), out, n, limit)
     n = corners_over(a, b, surface, n_faces, faces, n_edges, edges, ends, sweep, reach, turn, UNDER, out, n, limit)
     for j in range(int(n_edges)):
@@ -188,7 +179,7 @@ def _evaluate(
         v = _ROW * j
         x, y, z, length = vertices[v], vertices[v + 1], vertices[v + 2], vertices[v + 3]
         star = block_at(vertices, int(vertices[v + 4]))
-        write_ball(a, b, out, surface, float(i), sweep, x, y, z, length, star, size, sweep + candidate[3])
+        write_ball(a, b, out, surface, float(i), sweep, (x, y, z), length, star, size, sweep + candidate[3])
     elif kind == UNDER:
         c = int(surface[CORNERS]) + CORNER * i
         x, y, z, length = surface[c], surface[c + 1], surface[c + 2], surface[c + 5]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import SharedNumbers, Value
@@ -61,7 +61,9 @@ def write_over_first(
 
     The arguments are those of :func:`bodies.contacts.surface.surface_vertex.face_under`.
     """
-    face, gap, past = face_under(a, b, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
+    face, gap, past = face_under(
+        a, b, surface, patch, (vertex_x, vertex_y, vertex_z), n_star, block_at(star, begin), reach
+    )
     f = int(surface[FACES]) + FACE * face
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
     put(out, NORMAL, vector_in_world(a, vector_at(surface, f)))
@@ -106,7 +108,9 @@ def write_over_second(
     radius: float,
 ) -> None:
     """Write the geometry block of a vertex of the first body, rounded by ``radius`` [m], over a patch of the second."""
-    face, gap, past = face_under(b, a, surface, patch, vertex_x, vertex_y, vertex_z, n_star, star, begin, reach)
+    face, gap, past = face_under(
+        b, a, surface, patch, (vertex_x, vertex_y, vertex_z), n_star, block_at(star, begin), reach
+    )
     f = int(surface[FACES]) + FACE * face
     gap = gap_at_distance(gap, past, radius)
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past

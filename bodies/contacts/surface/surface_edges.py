@@ -8,6 +8,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
+from ...vectors import ahead, put
 from ..features.bounds import edges_bound
 from ..features.edge_crossing import PARALLEL, cross_edges, least_sine
 from ..features.frames import write_tangent
@@ -53,9 +54,9 @@ def write_edges(
     if past > 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    for i in range(3):
-        out[NORMAL + i], out[POINT_A + i] = n[i], p[i]
-        out[POINT_B + i] = p[i] + gap * n[i]
+    put(out, NORMAL, n)
+    put(out, POINT_A, p)
+    put(out, POINT_B, ahead(p, gap, n))
     write_tangent(a, out)
     write_principal(out, SIDE_A, *e, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, *f, 0.0, 1.0, 1.0, radius)
