@@ -25,6 +25,11 @@ class ContactKinematics(Component, ABC):
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]]
 
+    @property
+    def values(self) -> Any:
+        """Transitional."""
+        return self.parameters()
+
     @classmethod
     @abstractmethod
     def between(cls, first: Shape, second: Shape) -> tuple[Any, ...]:
