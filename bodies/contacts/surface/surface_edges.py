@@ -9,7 +9,6 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ...vectors import ahead, put
-from ..features.bounds import edges_bound
 from ..features.edge_crossing import PARALLEL, cross_edges, least_sine
 from ..features.frames import write_tangent
 from ..features.vertex_face import CLOSED
@@ -20,20 +19,6 @@ _NEAR_ENDS = 4.0
 
 Closer to an end, the edges may pass each other without an overlap of the bodies.
 """
-
-
-def evaluate_edges(
-    a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats, radius: float, size: float
-) -> None:
-    """Write the geometry block of two edges, with their rows at index 0; other arguments as in :func:`write_edges`."""
-    write_edges(a, b, out, edge_a, 0, edge_b, 0, radius, size)
-
-
-def bound_of_edges(
-    a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats, radius: float, size: float
-) -> None:
-    """Write by how much the bodies must move before two edges touch [m]; arguments as in :func:`evaluate_edges`."""
-    out[0] = edges_bound(a, b, edge_a, 0, edge_b, 0) - radius
 
 
 @compiled

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from nonsmooth.compiled import block_at, compiled
+from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, ahead, dot, minus, put, size_of, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world
-from .surface_search import box_square, in_triangle
+from .surface_search import box_square, corner_at, in_triangle
 from .surface_tables import (
     CORNER,
     CORNERS,
@@ -22,7 +22,6 @@ from .surface_tables import (
     N_TRIANGLES,
     NODE,
     NODES,
-    STARS,
     TRIANGLE,
     TRIANGLES,
 )
@@ -241,11 +240,8 @@ def corners_near(
             corner = int(corners[members + int(corners[at + 7]) + i]) - first
             if corner < 0:
                 continue
-            c = int(corners[CORNERS]) + CORNER * corner
-            place = vector_at(corners, c)
-            star = block_at(corners, int(corners[STARS]) + int(corners[c + 4]))
             n = patches_under(
-                frame, other, surface, place, corners[c + 5], star, reach, turn, kind, float(corner), out, n, most
+                frame, other, surface, *corner_at(corners, corner), reach, turn, kind, float(corner), out, n, most
             )
         node += 1
     return n

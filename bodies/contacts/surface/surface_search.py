@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, ahead, dot, minus, plus, times, vector_at
@@ -185,6 +185,19 @@ def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> floa
     for i in range(int(surface[corner + 5])):
         most = max(most, dot((x, y, z), vector_at(surface, star + 3 * i)))
     return most
+
+
+@compiled
+def edge_at(surface: Floats, edge: int) -> int:
+    """Return the index at which the row of a convex edge begins."""
+    return int(surface[EDGES]) + EDGE * edge
+
+
+@compiled
+def corner_at(surface: Floats, corner: int) -> tuple[Vector3, float, Floats]:
+    """Return the place of a corner [m], the number of its edges, and the unit vectors along them."""
+    c = int(surface[CORNERS]) + CORNER * corner
+    return vector_at(surface, c), surface[c + 5], block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
 
 
 @compiled

@@ -127,6 +127,12 @@ def star_lengths(features: Features, number: int) -> list[float]:
     return [float(x) for x in np.linalg.norm(ways, axis=1)]
 
 
+def part_names(features: Features) -> list[str]:
+    """Return the names of all faces, convex edges and corners by number."""
+    counts = ("face", len(features.planes)), ("edge", len(features.edges)), ("corner", len(features.corners))
+    return [f"{kind} {i}" for kind, n in counts for i in range(n)]
+
+
 def _triangles(features: Features) -> Vector:
     corners = features.vertices[features.triangles]
     normals = features.planes[features.face_of, :3]
