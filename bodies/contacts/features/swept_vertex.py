@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.interfaces import FeaturePair
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
@@ -225,12 +226,12 @@ def vertices_over_swept(first: SweptPolytope, second: SweptPolytope) -> Iterator
     size = size_of_both(first, second)
     cores = core_numbers(first.core), core_numbers(second.core)
     for swap, own, other in ((0, second, first), (1, first, second)):
-        values = {"swap": float(swap), "core": cores[swap], "own": cores[1 - swap]}
-        radii = {"sweep": other.sweep, "radius": own.sweep, "size": size}
+        values: dict[str, Value] = {"swap": float(swap), "core": cores[swap], "own": cores[1 - swap]}
+        values |= {"sweep": other.sweep, "radius": own.sweep, "size": size}
         for i in range(len(own.core.vertices)):
             pairs = ((f"vertex {i}", part) if swap else (part, f"vertex {i}") for part in part_names(other.core))
             names = tuple(f"{one} and {two}" for one, two in pairs)
-            numbers = {**values, "vertex": float(i), **radii}
+            numbers = {**values, "vertex": float(i)}
             yield FeaturePair(evaluate_vertex_over_swept, numbers, names, bound=bound_of_vertex)
 
 

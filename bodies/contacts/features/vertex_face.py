@@ -28,7 +28,7 @@ distance past their ends.
 @compiled
 def plane_height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
     """Return the height of a point (x, y, z) over the plane of a face [m], in the frame of the face's body."""
-    return dot(vector_at(faces, face), (x, y, z)) - faces[face + 3]
+    return float(dot(vector_at(faces, face), (x, y, z)) - faces[face + 3])
 
 
 @compiled

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import final
 
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.patches import patches_for_ball
@@ -44,6 +45,5 @@ class MeshSphere(ContactKinematics):
         assert isinstance(first, TriangleMesh)
         assert isinstance(second, Sphere)
         own, radius, place = first.features, second.radius, (second.x, second.y, second.z)
-        values = {"radius": radius, "place": place}
-        patches = patches_for_ball(own, radius)
+        patches, values = patches_for_ball(own, radius), dict[str, Value](radius=radius, place=place)
         return patch_contacts(evaluate_sphere_over_surface, own, patches, (*place, radius), values, "sphere")

@@ -189,8 +189,8 @@ def contacts_each(first: TriangleMesh, second: SweptPolytope) -> Iterator[Featur
 
     side = [f"edge {j}" for j in range(len(core.edges))] if core.planes else ["side"]
     for i, j in itertools.product(range(len(own.edges)), range(len(core.edges))):
-        names = (f"edge {i} and {side[j]}",)
-        yield FeaturePair(evaluate_swept_features, numbers(ACROSS, i, j), names, None, bound, DEPARTURES)
+        edges = (f"edge {i} and {side[j]}",)
+        yield FeaturePair(evaluate_swept_features, numbers(ACROSS, i, j), edges, None, bound, DEPARTURES)
     for j, i in itertools.product(range(len(core.vertices)), range(patches.count)):
         names = tuple(f"{part} and vertex {j}" for part in part_names(own))
         yield FeaturePair(evaluate_swept_features, numbers(BALL, i, j), names)

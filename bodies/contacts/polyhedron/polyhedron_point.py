@@ -6,7 +6,7 @@ from typing import final
 
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
-from nonsmooth.parameters import SharedNumbers
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 from ...shapes.point import Point
@@ -55,7 +55,8 @@ def vertex_over_faces(
     swap: int, core: SharedNumbers, n_faces: int, own: SharedNumbers, vertex: int, size: float
 ) -> FeaturePair:
     """Return the contact of a vertex with faces; arguments as in :func:`evaluate_vertex_over_faces`."""
-    values = {"swap": float(swap), "core": core, "own": own, "vertex": float(vertex), "size": size}
+    values: dict[str, Value] = {"swap": float(swap), "core": core, "own": own}
+    values |= {"vertex": float(vertex), "size": size}
     names = tuple(f"face {i} and vertex {vertex}" for i in range(n_faces))
     return FeaturePair(evaluate_vertex_over_faces, values, names, bound=bound_of_vertex_over_faces)
 

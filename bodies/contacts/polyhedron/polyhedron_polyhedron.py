@@ -9,6 +9,7 @@ from typing import final
 
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import Polyhedron
@@ -83,7 +84,7 @@ class PolyhedronPolyhedron(ContactKinematics):
 def _each_pair(first: Polyhedron, second: Polyhedron) -> Iterator[FeaturePair]:
     one, two = first.core, second.core
     cores, size = (core_numbers(one), core_numbers(two)), max(one.size, two.size)
-    values = {"core_a": cores[0], "core_b": cores[1], "size": size}
+    values: dict[str, Value] = {"core_a": cores[0], "core_b": cores[1], "size": size}
     for i, j in itertools.product(range(len(one.edges)), range(len(two.edges))):
         numbers = {**values, "edge_a": float(i), "edge_b": float(j)}
         names = (f"edge {i} and edge {j}",)

@@ -6,6 +6,7 @@ from typing import final
 
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import Polyhedron
@@ -38,7 +39,8 @@ def evaluate_ball_over_polyhedron(
 
 def ball_over_polyhedron(first: Polyhedron, center: Point, radius: float) -> FeaturePair:
     """Return the contact of a polyhedron with a ball, or a point, of another body [m]."""
-    values = {"core": core_numbers(first.core), "rounding": first.rounding, "radius": radius, "place": center}
+    values: dict[str, Value] = {"core": core_numbers(first.core), "rounding": first.rounding}
+    values |= {"radius": radius, "place": center}
     names = tuple(f"{part} and sphere" for part in part_names(first.core))
     return FeaturePair(evaluate_ball_over_polyhedron, values, names)
 

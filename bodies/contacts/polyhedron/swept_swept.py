@@ -9,6 +9,7 @@ from typing import final
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
@@ -118,8 +119,8 @@ class SweptSwept(ContactKinematics):
                 f"{len(one.edges)} edges against {len(two.edges)} make {len(one.edges) * len(two.edges)}",
                 "Take polyhedra with fewer edges, or a smooth shape.",
             )
-        values = {"core_a": core_numbers(one), "core_b": core_numbers(two), "size": size_of_both(first, second)}
-        values |= {"radius_a": first.sweep, "radius_b": second.sweep}
+        values: dict[str, Value] = {"core_a": core_numbers(one), "core_b": core_numbers(two)}
+        values |= {"radius_a": first.sweep, "radius_b": second.sweep, "size": size_of_both(first, second)}
         crossings = (
             FeaturePair(
                 evaluate_swept_edges,

@@ -8,6 +8,7 @@ from typing import Any, final
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
@@ -98,7 +99,7 @@ def vertices_over_surface(
     The vertices belong to the first body if ``swap`` is 1, else to the second.
     """
     patches = patches_for_ball(surface, radius)
-    values = {"swap": swap, "surface": surface_numbers(surface, patches), "radius": radius}
+    values: dict[str, Value] = {"swap": swap, "surface": surface_numbers(surface, patches), "radius": radius}
     for place, star, name in vertices:
         names = tuple(f"face {i} and {name}" for i in range(len(surface.planes)))
         vertex = *place, float(len(star) // 3), *star

@@ -63,6 +63,6 @@ def patch_contacts(
     if patches.count <= MOST_EACH:
         given = [(NEAR, float(patch), 0.0, FAR) for patch in range(patches.count)]
         return tuple(FeaturePair(evaluator, {**offered, "candidate": one}, names) for one in given)
-    sought = {"surface": surface, "extent": ball[3], "place": ball[:3]}
+    sought: dict[str, Value] = {"surface": surface, "extent": ball[3], "place": ball[:3]}
     search = CandidateSearch(find_near_patches, sought, {NEAR: (patches.count, 1)})
     return (FeaturePair(evaluator, {**offered, "candidate": NO_CANDIDATE}, names, search),) * patches.count

@@ -97,8 +97,8 @@ def contacts_each(one: Features, two: Features) -> Iterator[FeaturePair]:
     values, *counts = _values(one, two)
     for i, j in itertools.product(range(len(one.edges)), range(len(two.edges))):
         numbers = {**values, "candidate": (EDGE_ACROSS, float(i), float(j), FAR)}
-        names = (f"edge {i} and edge {j}",)
-        yield FeaturePair(evaluate_surface_features, numbers, names, None, bound_of_surface_edges, DEPARTURES)
+        edges = (f"edge {i} and edge {j}",)
+        yield FeaturePair(evaluate_surface_features, numbers, edges, None, bound_of_surface_edges, DEPARTURES)
     for kind, own, other, count in ((OVER_FIRST, one, two, counts[0]), (OVER_SECOND, two, one, counts[1])):
         for j, i in itertools.product(range(len(other.corners)), range(count)):
             names = tuple(f"face {face} and vertex {j}" for face in range(len(own.planes)))
