@@ -21,6 +21,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, ahead, dot, minus, plus
+from .bracket import bracket, narrowed, next_place
 from .inscribed import gauge
 from .smooth_core import POINT, Answer, Axes, back, facing_point, longest, spread
 from .smooth_newton import widest_of_round
@@ -29,11 +30,10 @@ from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""
-_LOOKS, _STEPS, _PATIENCE = 16, 120, 3
+_LOOKS, _STEPS = 16, 120
 """Numbers of angles and steps of a search.
 
-``_LOOKS``: angles round the circle that are sampled.  ``_STEPS``: largest number of steps.  ``_PATIENCE``: after this
-many successive secant steps that did not halve the interval, the interval is bisected.
+``_LOOKS``: angles round the circle that are sampled.  ``_STEPS``: largest number of steps.
 """
 _SAME = 4e-16
 """Round-off: two angles closer than this [rad] are equal, and a smaller derivative of the distance is zero."""
@@ -149,27 +149,15 @@ def _between(
     ``rising`` are the derivatives of the distance at these angles.  ``place`` is the centre of the core [m]; the other
     arguments are those of :func:`round_circle`.
     """
-    side, slow = 0, 0
     look: Look = _look(point, core, turn, place, radius, high)
+    sides = bracket(low, high, falling, rising)
     for _ in range(_STEPS):
-        width = abs(high - low)
-        # a secant step; after _PATIENCE secant steps in succession that did not halve the interval, a bisection
-        middle = (low * rising - high * falling) / (rising - falling)
-        if slow >= _PATIENCE or not (min(low, high) < middle < max(low, high)):
-            middle, slow = 0.5 * (low + high), 0
+        middle, sides = next_place(sides)
+        low, high, _, _, _, _ = sides
         look = _look(point, core, turn, place, radius, middle)
-        slope = look[0]
-        if abs(slope) <= _SAME or width <= _SAME or middle == low or middle == high:
+        if abs(look[0]) <= _SAME or abs(high - low) <= _SAME or middle == low or middle == high:
             break
-        if (slope < 0.0) == (falling < 0.0):
-            low, falling = middle, slope
-            rising = 0.5 * rising if side == 1 else rising
-            side = 1
-        else:
-            high, rising = middle, slope
-            falling = 0.5 * falling if side == -1 else falling
-            side = -1
-        slow = slow + 1 if abs(high - low) > 0.5 * width else 0
+        sides = narrowed(sides, middle, look[0])
     found = look[1]
     if not abs(look[0]) <= _ACROSS:
         # deep in the body the nearest surface point is discontinuous along the circle: no stationary point

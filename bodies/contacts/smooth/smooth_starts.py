@@ -85,31 +85,21 @@ def starts_of(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Star
 @compiled
 def _with(kept: Starts, new: Start) -> Starts:
     """Return the kept starts; a new one with a larger gap replaces a kept one close to it, or else the worst one."""
-    one, two, three, four = kept
-    if _is_near(one, new):
-        place = 0
-    elif _is_near(two, new):
-        place = 1
-    elif _is_near(three, new):
-        place = 2
-    elif _is_near(four, new):
-        place = 3
-    else:
-        least = min(min(one[0], two[0]), min(three[0], four[0]))
-        place = 0 if one[0] == least else 1 if two[0] == least else 2 if three[0] == least else 3
+    place, least = -1, min(min(kept[0][0], kept[1][0]), min(kept[2][0], kept[3][0]))
+    for i in range(4):
+        if place < 0 and dot(kept[i][1], new[1]) > _NEAR:
+            place = i
+    for i in range(4):
+        if place < 0 and kept[i][0] == least:
+            place = i
     if new[0] <= kept[place][0]:
         return kept
     return (
-        new if place == 0 else one,
-        new if place == 1 else two,
-        new if place == 2 else three,
-        new if place == 3 else four,
+        new if place == 0 else kept[0],
+        new if place == 1 else kept[1],
+        new if place == 2 else kept[2],
+        new if place == 3 else kept[3],
     )
-
-
-@compiled
-def _is_near(one: Start, two: Start) -> bool:
-    return bool(dot(one[1], two[1]) > _NEAR)
 
 
 _CUTS, _WIDE = 400, 0.1
