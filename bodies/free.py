@@ -18,10 +18,10 @@ from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, 
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from .blocks import places_behind_frame, rotation_of
+from .blocks import places_behind_frame, put_rows, rotation_of
 from .inertia import Triple, check_inertia, tensor_of
 from .values import Word, check_carried, read_start
-from .vectors import put, vector_at
+from .vectors import dot, put, vector_at
 
 _WORDS: dict[str, Word] = {
     "position": (3, (0.0, 0.0, 0.0), "m"),
@@ -46,20 +46,17 @@ def _evaluate(
     gravity_z: float,
 ) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
-    ox, oy, oz = vector_at(u, 3)
+    spin = vector_at(u, 3)
+    ox, oy, oz = spin
     jx, jy, jz, jyz, jxz, jxy = inertia[0], inertia[1], inertia[2], inertia[3], inertia[4], inertia[5]
     put(out, POSITION, vector_at(q, 0))
     put(out, VELOCITY, vector_at(u, 0))
-    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_of(a, b, c, d)
-    put(out, ROTATION, (xx, xy, xz))
-    put(out, ROTATION + 3, (yx, yy, yz))
-    put(out, ROTATION + 6, (zx, zy, zz))
-    put(out, SPIN, (xx * ox + xy * oy + xz * oz, yx * ox + yy * oy + yz * oz, zx * ox + zy * oy + zz * oz))
+    rows = rotation_of(a, b, c, d)
+    put_rows(out, ROTATION, rows)
+    put(out, SPIN, (dot(rows[0], spin), dot(rows[1], spin), dot(rows[2], spin)))
     # Jacobian of (velocity, angular velocity): identity and rotation
     out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
-    put(out, JACOBIAN + 21, (xx, xy, xz))
-    put(out, JACOBIAN + 27, (yx, yy, yz))
-    put(out, JACOBIAN + 33, (zx, zy, zz))
+    put_rows(out, JACOBIAN + 21, rows, 6)
     # coordinate rates: velocity and half the quaternion product q (0, omega)
     put(out, _RATES, vector_at(u, 0))
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)

@@ -15,7 +15,7 @@ from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 from .blocks import places_behind_frame, pose_of, write_pose
-from .values import Word, check_carried, direction, read_start, unit_quaternion, vector
+from .values import Word, check_fields, keep_carried, read_start
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
 _RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=1, n_u=1)
@@ -76,14 +76,8 @@ class LineBody(Body):
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     def _check(self) -> None:
-        values = {
-            "direction": direction("LineBody.direction", self.direction),
-            "origin": vector("LineBody.origin", self.origin, 3, "m"),
-            "orientation": unit_quaternion("LineBody.orientation", self.orientation),
-        }
-        for name, value in values.items():
-            object.__setattr__(self, name, tuple(value.tolist()))
-        object.__setattr__(self, "carried", check_carried("LineBody.carried", self.carried))
+        check_fields(self, "direction", "origin", "orientation")
+        keep_carried(self)
 
     def parameters(self) -> Mapping[str, Value]:
         """Return mass, direction and the pose at the origin."""

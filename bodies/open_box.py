@@ -17,7 +17,7 @@ from nonsmooth.types import Floats
 from .blocks import POSE
 from .prescribed import Prescribed
 from .shapes.plane import Plane
-from .values import unit_quaternion, vector
+from .values import check_fields
 
 _PLANES = 5
 
@@ -58,9 +58,7 @@ class OpenBox(Prescribed):
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     def _check(self) -> None:
-        object.__setattr__(self, "position", tuple(vector("OpenBox.position", self.position, 3, "m").tolist()))
-        turn = unit_quaternion("OpenBox.orientation", self.orientation)
-        object.__setattr__(self, "orientation", tuple(turn.tolist()))
+        check_fields(self, "position", "orientation")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the poses of floor and walls; the third axis of a wall is the normal to the inside."""

@@ -16,7 +16,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
 from .blocks import places_behind_frame
-from .values import Word, check_carried, read_start
+from .values import Word, keep_carried, read_start
 from .vectors import put, vector_at
 
 _WORDS: dict[str, Word] = {
@@ -88,7 +88,7 @@ class PlanarBody(Body):
     y: float = parameter(0.0, doc="second coordinate of its plane", unit="m")
 
     def _check(self) -> None:
-        object.__setattr__(self, "carried", check_carried("PlanarBody.carried", self.carried))
+        keep_carried(self)
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:

@@ -14,7 +14,7 @@ from nonsmooth.vectors import perpendiculars
 from .blocks import stand_still
 from .prescribed import Prescribed
 from .shapes.plane import Plane
-from .values import direction, vector
+from .values import check_fields
 
 
 @final
@@ -39,8 +39,7 @@ class Wall(Prescribed):
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def _check(self) -> None:
-        object.__setattr__(self, "normal", tuple(direction("Wall.normal", self.normal).tolist()))
-        object.__setattr__(self, "point", tuple(vector("Wall.point", self.point, 3, "m").tolist()))
+        check_fields(self, "normal", "point")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the pose: the point [m], and the rotation matrix whose third column is the normal."""

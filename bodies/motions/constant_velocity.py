@@ -13,7 +13,7 @@ from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 from ..blocks import pose_of
-from ..values import direction, unit_quaternion, vector
+from ..values import check_fields
 from ..vectors import put
 
 
@@ -89,16 +89,9 @@ class ConstantVelocity(Motion):
     centre: tuple[float, float, float] | None = None
 
     def _check(self) -> None:
-        centre = self.position if self.centre is None else self.centre
-        values = {
-            "velocity": vector("ConstantVelocity.velocity", self.velocity, 3, "m/s"),
-            "axis": direction("ConstantVelocity.axis", self.axis),
-            "position": vector("ConstantVelocity.position", self.position, 3, "m"),
-            "orientation": unit_quaternion("ConstantVelocity.orientation", self.orientation),
-            "centre": vector("ConstantVelocity.centre", centre, 3, "m"),
-        }
-        for name, value in values.items():
-            object.__setattr__(self, name, tuple(value.tolist()))
+        if self.centre is None:
+            object.__setattr__(self, "centre", self.position)
+        check_fields(self, "velocity", "axis", "position", "orientation", "centre")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return rate, velocity, axis, centre, and the pose at t = 0."""

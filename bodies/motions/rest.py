@@ -12,7 +12,7 @@ from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import Value, parameter
 
 from ..blocks import pose_of, stand_still
-from ..values import unit_quaternion, vector
+from ..values import check_fields
 
 
 @final
@@ -40,10 +40,7 @@ class Rest(Motion):
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     def _check(self) -> None:
-        position = vector("Rest.position", self.position, 3, "m")
-        orientation = unit_quaternion("Rest.orientation", self.orientation)
-        object.__setattr__(self, "position", tuple(position.tolist()))
-        object.__setattr__(self, "orientation", tuple(orientation.tolist()))
+        check_fields(self, "position", "orientation")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the pose on the slope: position [m] and rotation matrix."""
