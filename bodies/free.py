@@ -6,7 +6,7 @@ import functools
 import math
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
-from typing import Any, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, Vector
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
@@ -148,6 +148,9 @@ class FreeBody(Body):
     Velocities: of the mass centre in world axes [m/s], angular velocity in body axes [rad/s].
     """
 
+    q_labels, u_labels, quaternion = POSE_LABELS, TWIST_LABELS, 3
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
+
     def __post_init__(self) -> None:
         super().__post_init__()
         try:
@@ -194,21 +197,6 @@ class FreeBody(Body):
         return (check_carried(f"{type(self).__name__}.shapes", self.shapes),)
 
     @property
-    def q_labels(self) -> NamesAndUnits:
-        """Names and units of the coordinates: position and quaternion."""
-        return POSE_LABELS
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """Names and units of the velocities: velocity and angular velocity."""
-        return TWIST_LABELS
-
-    @property
-    def quaternion(self) -> int:
-        """Offset of the quaternion in q: 3, behind the position."""
-        return 3
-
-    @property
     def spin(self) -> int:
         """Offset of the angular velocity in u, 3, for a symmetric top; else -1.
 
@@ -219,11 +207,6 @@ class FreeBody(Body):
         both kinds of axes: for a ball the result is -1.
         """
         return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Function that writes the output block of the body, by the Newton-Euler equations."""
-        return _evaluate
 
     @property
     def flight(self) -> Callable[..., None] | None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import NamesAndUnits, Vector
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
@@ -74,6 +74,8 @@ class LineBody(Body):
     carried: tuple[Shape, ...] = ()
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    q_labels, u_labels = (("s", "m"),), (("v", "m/s"),)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
         check_fields(self, "direction", "origin", "orientation")
@@ -88,21 +90,6 @@ class LineBody(Body):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """One frame with the shapes as given."""
         return (self.carried,)
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        """The distance along the line."""
-        return (("s", "m"),)
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """Its rate."""
-        return (("v", "m/s"),)
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Newton's equation along the line."""
-        return _evaluate
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position [m] and velocity [m/s], both along the line."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 import numpy as np
 
@@ -56,6 +56,7 @@ class OpenBox(Prescribed):
     half_y: float = parameter(doc="half of the inner length along the second axis", unit="m", above=0.0)
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
         check_fields(self, "position", "orientation")
@@ -76,8 +77,3 @@ class OpenBox(Prescribed):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """Five frames, each with the plane through its origin."""
         return ((Plane(),),) * _PLANES
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The fixed poses of floor and walls."""
-        return _evaluate

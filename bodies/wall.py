@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import Value
@@ -37,6 +37,7 @@ class Wall(Prescribed):
 
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(stand_still)
 
     def _check(self) -> None:
         check_fields(self, "normal", "point")
@@ -50,8 +51,3 @@ class Wall(Prescribed):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """One frame with the plane through its origin."""
         return ((Plane(),),)
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The fixed pose."""
-        return stand_still

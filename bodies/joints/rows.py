@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -90,71 +90,6 @@ def parallel_axes(axes: Sequence[Sequence[float]], seen: Sequence[Sequence[float
     the second body.
     """
     return [right_angle(axes[i], seen[(i + 1) % 3]) for i in range(3)]
-
-
-@dataclass(frozen=True)
-class RowsJoint(Joint, ABC):
-    """A joint that is a table of rows; subclasses are final and give ``rows``.
-
-    Attributes
-    ----------
-    first, second : tuple of float
-        A point in the frame of the first and of the second body [m], shape [3].
-    """
-
-    first: Point = (0.0, 0.0, 0.0)
-    second: Point = (0.0, 0.0, 0.0)
-
-    def _check(self) -> None:
-        self.parameters()
-
-    @property
-    @abstractmethod
-    def rows(self) -> Sequence[JointRow]:
-        """Scalar conditions of the joint, one for each degree of freedom that it removes."""
-
-    def parameters(self) -> Mapping[str, Value]:
-        """Return the number of rows and the table of the rows, for the evaluator."""
-        for name in ("first", "second"):
-            vector(f"{type(self).__name__}.{name}", getattr(self, name), 3, "m")
-        rows = self.rows
-        numbers = (float(x) for row in rows for x in itertools.chain((row.kind,), *row[1:]))
-        return {"n_rows": float(len(rows)), "rows": tuple(numbers)}
-
-    @property
-    def n_rows(self) -> int:
-        """Number of rows: the degrees of freedom that the joint removes."""
-        return len(self.rows)
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Function that writes the joint's rows: residual, axis, moment and bias of each."""
-        return evaluate_rows
-
-    @property
-    def ends(self) -> Vector:
-        """Positions of the joint in pictures, one in the frame of the first and one in that of the second body [m].
-
-        Shape [2, 3].
-        """
-        return np.array([self.first, self.second], dtype=float)
-
-
-def evaluate_rows(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats) -> None:
-    """Write the rows of a joint to ``out``: residual, axis, moment, points and bias of each condition.
-
-    ``rows`` is the table of the conditions between the frames ``a`` and ``b`` of the first and the second body.  The
-    layout of ``out`` is explained in :mod:`nonsmooth.engine.memory.blocks`.
-    """
-    for i in range(int(n_rows)):
-        row, own = _WIDTH * i, block_at(out, JOINT_ROW * i)
-        kind, first, second = int(rows[row]), vector_at(rows, row + 1), vector_at(rows, row + 4)
-        if kind == RowKind.ON_PLANE:
-            point_row(a, b, own, first, second, vector_at(rows, row + 7))
-        elif kind == RowKind.RIGHT_ANGLE:
-            angle_row(a, b, own, first, second)
-        else:
-            distance_row(a, b, own, first, second, rows[row + 7])
 
 
 @compiled
@@ -242,3 +177,64 @@ def distance_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vect
     stretch = dot(n, rate)
     bias = dot(n, acceleration) + (dot(rate, rate) - stretch * stretch) / distance
     _write_row(out, distance - length, n, (0.0, 0.0, 0.0), bias)
+
+
+def evaluate_rows(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats) -> None:
+    """Write the rows of a joint to ``out``: residual, axis, moment, points and bias of each condition.
+
+    ``rows`` is the table of the conditions between the frames ``a`` and ``b`` of the first and the second body.  The
+    layout of ``out`` is explained in :mod:`nonsmooth.engine.memory.blocks`.
+    """
+    for i in range(int(n_rows)):
+        row, own = _WIDTH * i, block_at(out, JOINT_ROW * i)
+        kind, first, second = int(rows[row]), vector_at(rows, row + 1), vector_at(rows, row + 4)
+        if kind == RowKind.ON_PLANE:
+            point_row(a, b, own, first, second, vector_at(rows, row + 7))
+        elif kind == RowKind.RIGHT_ANGLE:
+            angle_row(a, b, own, first, second)
+        else:
+            distance_row(a, b, own, first, second, rows[row + 7])
+
+
+@dataclass(frozen=True)
+class RowsJoint(Joint, ABC):
+    """A joint that is a table of rows; subclasses are final and give ``rows``.
+
+    Attributes
+    ----------
+    first, second : tuple of float
+        A point in the frame of the first and of the second body [m], shape [3].
+    """
+
+    first: Point = (0.0, 0.0, 0.0)
+    second: Point = (0.0, 0.0, 0.0)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(evaluate_rows)
+
+    def _check(self) -> None:
+        self.parameters()
+
+    @property
+    @abstractmethod
+    def rows(self) -> Sequence[JointRow]:
+        """Scalar conditions of the joint, one for each degree of freedom that it removes."""
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the number of rows and the table of the rows, for the evaluator."""
+        for name in ("first", "second"):
+            vector(f"{type(self).__name__}.{name}", getattr(self, name), 3, "m")
+        rows = self.rows
+        numbers = (float(x) for row in rows for x in itertools.chain((row.kind,), *row[1:]))
+        return {"n_rows": float(len(rows)), "rows": tuple(numbers)}
+
+    @property
+    def n_rows(self) -> int:
+        """Number of rows: the degrees of freedom that the joint removes."""
+        return len(self.rows)
+
+    @property
+    def ends(self) -> Vector:
+        """Positions of the joint in pictures, one in the frame of the first and one in that of the second body [m].
+
+        Shape [2, 3].
+        """
+        return np.array([self.first, self.second], dtype=float)

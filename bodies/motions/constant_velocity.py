@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Motion
@@ -87,6 +87,7 @@ class ConstantVelocity(Motion):
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
     centre: tuple[float, float, float] | None = None
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
         if self.centre is None:
@@ -102,11 +103,6 @@ class ConstantVelocity(Motion):
             "centre": self.centre or self.position,
             "pose": pose_of(self.position, self.orientation),
         }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Pose, velocities and accelerations of the frame."""
-        return _evaluate
 
     @property
     def time_scale(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.interfaces import Motion
@@ -38,6 +38,8 @@ class Rest(Motion):
     slope: float = parameter(0.0, doc="angle of the slope", unit="rad", minimum=-math.pi / 2, maximum=math.pi / 2)
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    time_scale = math.inf
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(stand_still)
 
     def _check(self) -> None:
         check_fields(self, "position", "orientation")
@@ -49,13 +51,3 @@ class Rest(Motion):
         for i in (ROTATION, ROTATION + 3, ROTATION + 6):
             pose[i], pose[i + 2] = pose[i] * c - pose[i + 2] * s, pose[i] * s + pose[i + 2] * c
         return {"pose": tuple(pose)}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The fixed pose."""
-        return stand_still
-
-    @property
-    def time_scale(self) -> float:
-        """Infinite [s]."""
-        return math.inf
