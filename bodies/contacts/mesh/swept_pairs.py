@@ -28,20 +28,9 @@ from ..surface.surface_ball import write_ball
 from ..surface.surface_edges import write_edges
 from ..surface.surface_near import NARROW, patches_near, room_ahead, seen_from
 from ..surface.surface_pairs import DEPARTURES, MOST_NEAR
-from ..surface.surface_search import FAR, corner_at, edge_at
+from ..surface.surface_search import FAR, ON_CORNER, corner_at, edge_at, feature_of, member_of, node_at
 from ..surface.surface_search import steepest as steepest
-from ..surface.surface_tables import (
-    CORNER,
-    CORNERS,
-    MEMBERS,
-    N_EDGES,
-    N_NODES,
-    N_TRIANGLES,
-    NODE,
-    NODES,
-    part_names,
-    surface_numbers,
-)
+from ..surface.surface_tables import N_NODES, part_names, surface_numbers
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
 """Kinds of candidates, the first of a candidate's three numbers; the numbers of its features follow.
@@ -82,19 +71,18 @@ def corners_over(
     reach, turn, kind, out, n, most : float, Floats and int
         As in :func:`bodies.contacts.surface.surface_near.corners_near`.
     """
-    first, members, node = int(surface[N_TRIANGLES]) + int(surface[N_EDGES]), int(surface[MEMBERS]), 0
+    node = 0
     while node < int(surface[N_NODES]) and n <= most:
-        at = int(surface[NODES]) + NODE * node
+        at = node_at(surface, node)
         half = times(0.5, minus(vector_at(surface, at + 3), vector_at(surface, at)))
         found = nearest_of_core(core, seen_from(b, a, plus(vector_at(surface, at), half)))
         if found[1] > sweep + reach + size_of(half):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
-            corner = int(surface[members + int(surface[at + 7]) + i]) - first
-            if corner < 0 or n > most:
+            what, corner, c = feature_of(surface, member_of(surface, at, i))
+            if what != ON_CORNER or n > most:
                 continue
-            c = int(surface[CORNERS]) + CORNER * corner
             number, distance, x, y, z, _ = nearest_of_core(core, seen_from(b, a, vector_at(surface, c)))
             if distance > sweep + reach:
                 continue
