@@ -1,6 +1,8 @@
-"""Search, by trees of boxes, for patches of a surface near a point, and for corners of another surface near them."""
+"""Search, by trees of boxes, for patches of a surface near a point or a vertex."""
 
 from __future__ import annotations
+
+from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -9,10 +11,8 @@ from ...vectors import Vector3, ahead, dot, minus, put, size_of, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world
 from .surface_search import (
-    ON_CORNER,
     ON_FACE,
     box_square,
-    corner_at,
     face_at,
     feature_of,
     in_triangle,
@@ -29,6 +29,9 @@ OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
 In this order: corner of the second body over a patch of the first, corner of the first body over a patch of the second,
 two edges.  The numbers of patch and corner, or of the edges of the first and the second body, follow.
 """
+Near: TypeAlias = tuple[float, float, int]
+"""Largest distance of near features [m], largest rotation of the bodies until the next search [rad], and largest number
+of candidates."""
 FEW = 64
 """Largest number of candidates of a search whose margin (its reach) exceeds ``narrow``; see :func:`room_ahead`.
 
@@ -107,8 +110,10 @@ def patches_near(
         The point in the axes of the surface, and the largest distance from it [m].
     kind, third : float
         The first and the third number of the candidates that are appended.
-    out, n, most : Floats, int
-        As in :func:`corners_near`.
+    out : Floats
+        Three numbers of each candidate, from index 1 on.
+    n, most : int
+        Number of candidates so far, and the number after which the search stops.
     """
     first, node = n, 0
     while node < int(surface[N_NODES]) and n <= most:
@@ -155,7 +160,7 @@ def patches_under(
     Return the number of candidates after that.  A face may be touched if it is within ``reach`` [m] of the vertex, and
     if a rotation by ``turn`` [rad] can turn all edges of the vertex out of the face (within ``ASTRAY``).  ``place`` is
     the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other arguments are those
-    of :func:`corners_near` and :func:`patches_near`.
+    of :func:`patches_near`.
     """
     point = seen_from(frame, other, place)
     first, node = n, 0
@@ -173,54 +178,5 @@ def patches_under(
             apart = minus(point, (px, py, pz))
             if dot(apart, apart) <= reach * reach and leaning(frame, other, surface, f, n_star, star) <= ASTRAY + turn:
                 n = _add_patch(surface[f + 4], kind, third, first, out, n)
-        node += 1
-    return n
-
-
-@compiled
-def corners_near(
-    frame: Floats,
-    other: Floats,
-    surface: Floats,
-    corners: Floats,
-    reach: float,
-    turn: float,
-    kind: float,
-    out: Floats,
-    n: int,
-    most: int,
-) -> int:
-    """Append candidates: pairs of a corner of the other body and a near patch of the surface in ``frame``.
-
-    Return the number of candidates after that.
-
-    Parameters
-    ----------
-    frame, other : Floats
-        Frame blocks.
-    surface, corners : Floats
-        Numbers of the surface in ``frame`` and of the surface of the other body.
-    reach : float
-        Largest distance of corner and patch [m].
-    turn : float
-        Largest relative rotation of the bodies until the next search [rad].
-    kind : float
-        The first number of these candidates.
-    out : Floats
-        Three numbers of each candidate, from index 1 on.
-    n, most : int
-        Number of candidates so far, and the number after which the search stops.
-    """
-    node = 0
-    while node < int(corners[N_NODES]) and n <= most:
-        at = node_at(corners, node)
-        if not is_node_near(frame, other, surface, corners, at, reach):
-            node = int(corners[at + 6])
-            continue
-        for i in range(int(corners[at + 8])):
-            what, number, _ = feature_of(corners, member_of(corners, at, i))
-            if what == ON_CORNER:
-                corner = corner_at(corners, number)
-                n = patches_under(frame, other, surface, *corner, reach, turn, kind, float(number), out, n, most)
         node += 1
     return n
