@@ -180,14 +180,7 @@ def write_vertex(
 
 
 def evaluate_vertex_over_swept(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    core: Floats,
-    own: Floats,
-    vertex: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
 ) -> None:
     """Write the geometry block of a vertex of a core over another core; arguments as in :func:`write_vertex`."""
     v = vertex_at(own, vertex)
@@ -196,14 +189,7 @@ def evaluate_vertex_over_swept(
 
 
 def bound_of_vertex(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    core: Floats,
-    own: Floats,
-    vertex: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
 ) -> None:
     """Write the distance of a vertex from a core, less both radii [m]."""
     own_frame, other = (a, b) if swap == 1.0 else (b, a)

@@ -32,14 +32,7 @@ are refused.
 
 
 def evaluate_swept_edges(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    core_a: Floats,
-    core_b: Floats,
-    edge_a: float,
-    edge_b: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, core_a: Floats, core_b: Floats, edge_a: float, edge_b: float, size: float
 ) -> None:
     """Write the geometry block of two rounded edges of convex cores that cross.
 
@@ -75,14 +68,7 @@ def evaluate_swept_edges(
 
 
 def bound_of_swept_edges(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    core_a: Floats,
-    core_b: Floats,
-    edge_a: float,
-    edge_b: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, core_a: Floats, core_b: Floats, edge_a: float, edge_b: float, size: float
 ) -> None:
     """Write by how much the bodies must move before two rounded edges touch [m]."""
     distance = edges_bound(a, b, core_a, edge_at(core_a, edge_a), core_b, edge_at(core_b, edge_b))

@@ -10,16 +10,7 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, ahead, dot, minus, put, size_of, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world
-from .surface_search import (
-    ON_FACE,
-    box_square,
-    face_at,
-    feature_of,
-    in_triangle,
-    member_of,
-    node_at,
-    patch_of,
-)
+from .surface_search import ON_FACE, box_square, face_at, feature_of, in_triangle, member_of, node_at, patch_of
 from .surface_tables import N_NODES
 from .surface_vertex import leaning
 
