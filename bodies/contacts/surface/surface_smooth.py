@@ -70,8 +70,7 @@ def _extent(core: Floats) -> float:
 @compiled
 def _point_against(core: Floats, turn: Axes, center: Vector3, normal: Vector3) -> Vector3:
     """Return the core's farthest point in the direction opposite to a normal [m], in the axes of the surface."""
-    s = support_of(core, back(turn, opposite(normal)))
-    farthest: Vector3 = plus(center, forth(turn, (s[1], s[2], s[3])))
+    farthest: Vector3 = plus(center, forth(turn, support_of(core, back(turn, opposite(normal)))[1]))
     return farthest
 
 
@@ -116,8 +115,7 @@ def _on_edge(surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, c
     edge to the core, is not a normal of the edge.
     """
     w, along = minus(center, vector_at(surface, e)), vector_at(surface, e + 3)
-    g, _, _, _, x, y, z = widest_from(point, core, turn, w, along, w)
-    n = x, y, z
+    g, _, n = widest_from(point, core, turn, w, along, w)
     s = dot(_point_against(core, turn, w, n), along)
     past = max(-s, s - surface[e + 6])
     past = max(past, size * dot(n, vector_at(surface, e + 7)))
@@ -134,8 +132,8 @@ def _on_corner(
     The distance past the end is positive if an edge of the corner is nearer to the core than the corner itself.
     """
     w = minus(center, vector_at(surface, c))
-    g, _, _, _, x, y, z = widest_from(point, core, turn, w, (0.0, 0.0, 0.0), w)
-    return g, max(-dot((x, y, z), w), size * steepest(surface, c, x, y, z)), (x, y, z)
+    g, _, n = widest_from(point, core, turn, w, (0.0, 0.0, 0.0), w)
+    return g, max(-dot(n, w), size * steepest(surface, c, *n)), n
 
 
 @compiled
@@ -294,8 +292,8 @@ def write_surface_smooth(
     if kind == ON_EDGE and not is_round(second):
         e = edge_at(surface, number)
         start, along = vector_at(surface, e), vector_at(surface, e + 3)
-        _, x, y, z, _, _, _ = across_line(second, turn, minus(center, start), along, n, 1.0, 0.0, 0.0)
-        p = plus((x, y, z), start)
+        _, p, _ = across_line(second, turn, minus(center, start), along, n, 1.0, 0.0, 0.0)
+        p = plus(p, start)
     # if there is one patch only, it is the whole surface, which has no end
     out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 else 0.0
     normal = vector_in_world(a, n)
