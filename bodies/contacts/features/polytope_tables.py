@@ -43,7 +43,7 @@ def face_table(polytope: Polytope) -> Numbers:
     return tuple(itertools.chain(*rows))
 
 
-def core_numbers(polytope: Polytope, sweep: float) -> SharedNumbers:
+def core_numbers(polytope: Polytope, sweep: float = 0.0) -> SharedNumbers:
     """Return the numbers of a polyhedron or a segment: head, faces, edges, ends of edges, vertices, unit vectors.
 
     ``sweep`` is the radius about the core [m].  A segment has no faces.  The unit vectors lead from each vertex along

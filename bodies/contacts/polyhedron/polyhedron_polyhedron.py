@@ -83,7 +83,7 @@ class PolyhedronPolyhedron(ContactKinematics):
 
 def _each_pair(first: Polyhedron, second: Polyhedron) -> Iterator[FeaturePair]:
     one, two = first.core, second.core
-    cores, size = (core_numbers(one, 0.0), core_numbers(two, 0.0)), max(one.size, two.size)
+    cores, size = (core_numbers(one), core_numbers(two)), max(one.size, two.size)
     values: dict[str, Value] = {"core_a": cores[0], "core_b": cores[1], "size": size}
     for i, j in itertools.product(range(len(one.edges)), range(len(two.edges))):
         numbers = {**values, "edge_a": float(i), "edge_b": float(j)}
