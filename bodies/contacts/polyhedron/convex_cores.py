@@ -10,17 +10,7 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, ahead, cross, dot, minus, size_of, vector_at
 from ..features.edge_crossing import Crossing, edge_astray
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import (
-    ALONG,
-    EDGE,
-    EDGES,
-    INTO_FIRST,
-    INTO_SECOND,
-    LENGTH,
-    N_EDGES,
-    START,
-    faces_of,
-)
+from ..features.polytope_tables import ALONG, EDGE, EDGES, INTO_FIRST, INTO_SECOND, LENGTH, N_EDGES, START, faces_of
 from ..features.vertex_face import height_over, separation_of_faces
 
 _FLUSH = 1e-5

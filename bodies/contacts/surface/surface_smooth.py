@@ -28,32 +28,21 @@ from .surface_search import (
     ON_EDGE,
     ON_FACE,
     box_square,
+    edge_at,
+    face_at,
     face_height,
+    feature_of,
     has_patch,
     in_triangle,
+    member_of,
     nearest_in_patch,
+    node_at,
     over_ends,
     past_edge,
+    patch_of,
     steepest,
 )
-from .surface_tables import (
-    CORNER,
-    CORNERS,
-    EDGE,
-    EDGES,
-    FACE,
-    FACES,
-    MEMBERS,
-    N_EDGES,
-    N_NODES,
-    N_PATCHES,
-    N_TRIANGLES,
-    NODE,
-    NODES,
-    SIZE,
-    TRIANGLE,
-    TRIANGLES,
-)
+from .surface_tables import N_EDGES, N_NODES, N_PATCHES, N_TRIANGLES, SIZE
 
 _SAME = 1e-15
 """Difference of two distances that is round-off, relative to the size of the bodies."""
@@ -98,14 +87,13 @@ def _least(core: Floats, turn: Axes, way: Vector3) -> float:
 
 
 @compiled
-def _on_face(surface: Floats, member: int, core: Floats, turn: Axes, center: Vector3) -> Reached:
+def _on_face(surface: Floats, t: int, core: Floats, turn: Axes, center: Vector3) -> Reached:
     """Return how the core reaches the plane of a triangle.
 
     The distance past the end is positive if the core's nearest point to the plane is past the border of the triangle's
     face, or if the centre of the body is below the plane.
     """
-    t = int(surface[TRIANGLES]) + TRIANGLE * member
-    f = int(surface[FACES]) + FACE * int(surface[t + 9])
+    f = face_at(surface, int(surface[t + 9]))
     n = vector_at(surface, f)
     p = _point_against(core, turn, center, n)
     height = dot(n, p) - surface[f + 3]
@@ -189,35 +177,31 @@ def _look_at(
     ``member`` is the number of the feature in the tree: triangles, then convex edges, then corners.  ``aim`` is the
     body's supporting plane for the nearest feature so far.
     """
-    n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
-    size, excluded = _extent(core), (0.0, 0.0, 1.0)
-    if member < n_triangles:
-        t = int(surface[TRIANGLES]) + TRIANGLE * member
-        f = int(surface[FACES]) + FACE * int(surface[t + 9])
-        least = face_height(surface, f, *center) - size
-        if surface[f + 4] != patch or least > best:
-            return math.inf, 0.0, excluded, least
-        if min(_above(surface, t, aim), min(_above(surface, t + 3, aim), _above(surface, t + 6, aim))) > best:
-            return math.inf, 0.0, excluded, least
-        g, past, n = _on_face(surface, member, core, turn, center)
-    elif member < n_triangles + n_edges:
-        e = int(surface[EDGES]) + EDGE * (member - n_triangles)
-        least = _above(surface, e, aim) - max(surface[e + 6] * dot(aim[0], vector_at(surface, e + 3)), 0.0)
-        if surface[e + 13] != patch or least > best:
-            return math.inf, 0.0, excluded, least
-        least = _least(core, turn, minus(center, past_edge(surface, e, center)[1]))
+    kind, number, at = feature_of(surface, member)
+    size, excluded = _extent(core), (math.inf, 0.0, (0.0, 0.0, 1.0), -math.inf)
+    if patch_of(surface, member) != patch:
+        return excluded
+    if kind == ON_FACE:
+        least = face_height(surface, face_at(surface, number), *center) - size
+        lowest = min(_above(surface, at, aim), min(_above(surface, at + 3, aim), _above(surface, at + 6, aim)))
+        if least > best or lowest > best:
+            return excluded
+        g, past, n = _on_face(surface, at, core, turn, center)
+    elif kind == ON_EDGE:
+        least = _above(surface, at, aim) - max(surface[at + 6] * dot(aim[0], vector_at(surface, at + 3)), 0.0)
         if least > best:
-            return math.inf, 0.0, excluded, least
-        g, past, n = _on_edge(surface, e, core, point, turn, center, size)
+            return excluded
+        least = _least(core, turn, minus(center, past_edge(surface, at, center)[1]))
+        if least > best:
+            return excluded
+        g, past, n = _on_edge(surface, at, core, point, turn, center, size)
     else:
-        c = int(surface[CORNERS]) + CORNER * (member - n_triangles - n_edges)
-        least = _above(surface, c, aim)
-        if surface[c + 3] != patch or least > best:
-            return math.inf, 0.0, excluded, least
-        least = _least(core, turn, minus(center, vector_at(surface, c)))
+        if _above(surface, at, aim) > best:
+            return excluded
+        least = _least(core, turn, minus(center, vector_at(surface, at)))
         if least > best:
-            return math.inf, 0.0, excluded, least
-        g, past, n = _on_corner(surface, c, core, point, turn, center, size)
+            return excluded
+        g, past, n = _on_corner(surface, at, core, point, turn, center, size)
     return g, past - REACH * surface[SIZE], n, least
 
 
@@ -243,8 +227,7 @@ def _nearest(
     feature is nearer than ``reach`` [m], gap and distance past the end are ``reach``.  The distance is nan if the
     search failed for a feature that may be nearer.
     """
-    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
-    size = _extent(core)
+    n_triangles, size = int(surface[N_TRIANGLES]), _extent(core)
     same = _SAME * (size + surface[SIZE])
     best, missed, found = reach, math.inf, 0
     distance, past, normal = reach + core[RADIUS], reach, (0.0, 0.0, 1.0)
@@ -263,13 +246,13 @@ def _nearest(
     for stage in range(2):
         node = 0
         while node < int(surface[N_NODES]):
-            at = nodes + NODE * node
+            at = node_at(surface, node)
             far = math.sqrt(box_square(surface, at, *center)) - size > best or _above_box(surface, at, aim) > best
             if far or not has_patch(surface, at, patch):
                 node = int(surface[at + 6])
                 continue
             for i in range(int(surface[at + 8])):
-                member = int(surface[members + int(surface[at + 7]) + i])
+                member = member_of(surface, at, i)
                 if (member < n_triangles) != (stage == 0):
                     continue
                 g, beyond, n, least = _look_at(surface, patch, member, core, point, turn, center, best, aim)
@@ -286,12 +269,8 @@ def _nearest(
             node += 1
     if not missed >= best:
         distance = math.nan
-    if found < n_triangles:
-        return distance, past, ON_FACE, int(surface[int(surface[TRIANGLES]) + TRIANGLE * found + 9]), normal
-    found -= n_triangles
-    if found < int(surface[N_EDGES]):
-        return distance, past, ON_EDGE, found, normal
-    return distance, past, ON_CORNER, found - int(surface[N_EDGES]), normal
+    kind, number, _ = feature_of(surface, found)
+    return distance, past, kind, number, normal
 
 
 @compiled
@@ -311,7 +290,7 @@ def write_surface_smooth(
         gap = math.hypot(gap, past)
     p = _point_against(second, turn, center, n)
     if kind == ON_EDGE and not is_round(second):
-        e = int(surface[EDGES]) + EDGE * number
+        e = edge_at(surface, number)
         start, along = vector_at(surface, e), vector_at(surface, e + 3)
         _, p, _ = across_line(second, turn, minus(center, start), along, n, 1.0, 0.0, 0.0)
         p = plus(p, start)
