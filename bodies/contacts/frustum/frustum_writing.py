@@ -66,8 +66,8 @@ def past_disc(
 
     The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
     the frustum ``one`` that is lowest over the face, ``gap`` its height [m].  A foot on the far side of a disc is not
-    its lowest point.  If the gap is negative, the line from p to the middle of the frustum must lead back through the
-    disc.
+    its lowest point.  If p lies below the face, the line from p to the middle of the frustum must lead back through the
+    disc.  Discs in one plane touch with the faces of both sides; the engine takes those that met.
     """
     ax, ay, az = axis_in_world(other, second)
     kx, ky, kz = center_in_world(other, second)
@@ -75,7 +75,7 @@ def past_disc(
     height = up * (ax * (x - kx) + ay * (y - ky) + az * (z - kz))
     if height < gap - REACH * size:
         return size
-    if gap > 0.0:
+    if gap >= -REACH * size:
         return -size
     # rounded bodies on the other side of the plane are apart
     if height <= 0.0 or first[SWEEP] + second[SWEEP] > 0.0:
