@@ -235,13 +235,13 @@ def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     largest, of_second = separation_along(ws, number, first), separation_along(ws, number, second)
     known = second if of_second > largest else first
     largest = max(largest, of_second)
+    along = along_pair(pair, n)
+    if are_alike(opposite(along), known):
+        return False
     # feet may extend beyond the parts by the clearance
     allowed = near + pair.clearance
     if largest < -allowed:
         return True
-    along = along_pair(pair, n)
-    if are_alike(opposite(along), known):
-        return False
     # one gap tolerance suffices, except in two cases: the normals of flush faces differ by round-off, which changes the
     # separation by more than that; and feet protrude from the parts
     is_exact = pair.clearance == 0.0 and not are_alike(along, known)

@@ -12,7 +12,7 @@ from nonsmooth.engine.bodies.support import known_direction, separation_along, s
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Pair, Workspace, kernel
-from nonsmooth.engine.numerics.tolerances import ADJACENT
+from nonsmooth.engine.numerics.tolerances import ADJACENT, ALLOWED
 from nonsmooth.engine.numerics.vectors import are_alike, opposite
 from nonsmooth.engine.pairs.overlaps import add_displacements, displacement_bound, known_separation
 from nonsmooth.engine.pairs.separation import accurate_direction
@@ -87,7 +87,7 @@ def renew_direction(ws: Workspace, pair: Pair) -> float:
     direction and its opposite, up to round-off. They keep the side from which they came.
     """
     known = known_direction(ws, pair)
-    n, near = accurate_direction(ws, pair.index, known), ADJACENT * ws.tolerance.gap
+    n, near = accurate_direction(ws, pair.index, known), ALLOWED * ws.tolerance.gap
     if are_alike(opposite(n), known) and separation_along(ws, pair.index, known) >= -near:
         n = known
     store_direction(ws, pair, n)
