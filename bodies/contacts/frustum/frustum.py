@@ -17,7 +17,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers, without_feet
 from ...shapes.polytope import Polytope
-from ...vectors import Vector3, vector_at
+from ...vectors import Vector3, cross, dot, minus, opposite, size_of, vector_at
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE
@@ -106,12 +106,13 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
 
 
 @compiled
-def least_height(frustum: Floats, height: float, cosine: float) -> float:
+def least_height(frustum: Floats, height: float, axis: Vector3, normal: Vector3) -> float:
     """Return the least height of a frustum over a plane [m].
 
-    ``height`` is the height of its centre [m], ``cosine`` the component of its axis along the normal of the plane.
+    ``height`` is the height of its centre [m], ``axis`` its unit axis, ``normal`` the unit normal of the plane.
     """
-    sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
+    # the root of 1 - cosine^2 would be wrong by up to 1e-8 for an axis along the normal
+    cosine, sine = dot(axis, normal), size_of(cross(axis, normal))
     return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
 
 
@@ -128,8 +129,8 @@ def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float,
     best = -math.inf
     for i in range(int(n_faces)):
         f = FACE * i
-        cosine = faces[f] * x + faces[f + 1] * y + faces[f + 2] * z
-        best = max(best, least_height(frustum, plane_height(faces, f, cx, cy, cz), cosine))
+        height = plane_height(faces, f, cx, cy, cz)
+        best = max(best, least_height(frustum, height, (x, y, z), vector_at(faces, f)))
     return best
 
 
@@ -159,12 +160,9 @@ def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: floa
 @compiled
 def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vector3) -> float:
     """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m]."""
-    (nx, ny, nz), (cx, cy, cz), (kx, ky, kz) = n, center_in_world(a, first), center_in_world(b, second)
-    ax, ay, az = axis_in_world(a, first)
-    bx, by, bz = axis_in_world(b, second)
-    height = nx * (kx - cx) + ny * (ky - cy) + nz * (kz - cz)
-    height = least_height(first, height, -nx * ax - ny * ay - nz * az)
-    return float(least_height(second, height, nx * bx + ny * by + nz * bz))
+    height = dot(n, minus(center_in_world(b, second), center_in_world(a, first)))
+    height = least_height(first, height, axis_in_world(a, first), opposite(n))
+    return float(least_height(second, height, axis_in_world(b, second), n))
 
 
 @compiled

@@ -107,8 +107,8 @@ def _evaluate(
     found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
         f = FACE * i
-        cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
-        if least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine) < best - margin:
+        height = plane_height(faces, f, kx, ky, kz)
+        if least_height(frustum, height, (ux, uy, uz), vector_at(faces, f)) < best - margin:
             continue
         nx, ny, nz = vector_in_world(b, vector_at(faces, f))
         px, py, pz, at = _touching(a, b, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
