@@ -77,8 +77,8 @@ def past_disc(
         return size
     if gap >= -REACH * size:
         return -size
-    # rounded bodies on the other side of the plane are apart
-    if height <= 0.0 or first[SWEEP] + second[SWEEP] > 0.0:
+    # rounded bodies on the other side of the plane are apart; so is a frustum that touches the rim with its middle
+    if height <= REACH * size or first[SWEEP] + second[SWEEP] > 0.0:
         return size
     back = gap / (gap - height)
     x, y, z = p[0] + back * (x - p[0]) - kx, p[1] + back * (y - p[1]) - ky, p[2] + back * (z - p[2]) - kz
