@@ -76,3 +76,17 @@ def test_a_disc_that_falls_on_a_disc_stays_above_it(seed: int) -> None:
     solution = ns.simulate(system, 1.3 * np.sqrt(2.0 * height / 9.81))
     assert solution.status == "done"
     assert np.min(solution.of(high)[0][:, 2] - solution.of(low)[0][:, 2]) >= -1e-9
+
+
+@pytest.mark.parametrize("radius", [0.1, 0.01])
+def test_a_disc_leans_on_the_middle_of_another(radius: float) -> None:
+    """Its rim touches the upper face of the lower disc in the middle, whose rim is then below its own middle."""
+    plate, low, high = Plate(), DiscBody(radius), DiscBody(radius)
+    system = ns.System([plate, low, high], gravity=9.81)
+    for one, two in ((plate, low), (plate, high), (low, high)):
+        system.contact(one, two, **{**LAWS, "friction": Coulomb(0.3)})
+    system.place(low, position=(0.0, 0.0, 0.01 * radius))
+    system.place(high, position=(radius, 0.0, 0.2 * radius))
+    solution = ns.simulate(system, 0.25)
+    assert solution.status == "done"
+    assert solution.of(high)[0][-1, 2] > solution.of(low)[0][-1, 2]

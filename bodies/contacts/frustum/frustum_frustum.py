@@ -63,7 +63,7 @@ def _evaluate(
     nx, ny, nz = -up * bx, -up * by, -up * bz
     cx, cy, cz = point_in_world(own, (x, y, z))
     _, sine, _ = across((nx, ny, nz), (ax, ay, az))
-    is_flat, outside = radius > 0.0 and sine < FLATTEST, -size
+    is_flat, is_tip, outside = radius > 0.0 and sine < FLATTEST, radius == 0.0, -size
     if is_flat:
         _, offset, (fx, fy, fz) = across((kx - cx, ky - cy, kz - cz), (bx, by, bz))
         middle, half = common_length(radius, wide, offset)
@@ -81,7 +81,7 @@ def _evaluate(
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
     past = max(away - wide, outside) - margin * size
     if second[SIDE] == 0.0:
-        past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
+        past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), is_tip, size))
     else:
         past = max(past, past_depth(own, first, other, second, gap, size))
         if gap < 0.0:

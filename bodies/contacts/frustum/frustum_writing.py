@@ -16,7 +16,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, SIN, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ...vectors import Vector3, put, vector_at
+from ...vectors import Vector3, ahead, dot, minus, put, size_of, vector_at
 from ..features.edge_crossing import ASTRAY, PARALLEL, edge_astray
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG, START
@@ -60,30 +60,38 @@ def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, 
 
 @compiled
 def past_disc(
-    one: Floats, first: Floats, other: Floats, second: Floats, up: float, gap: float, p: Point, size: float
+    one: Floats,
+    first: Floats,
+    other: Floats,
+    second: Floats,
+    up: float,
+    gap: float,
+    p: Point,
+    is_tip: bool,
+    size: float,
 ) -> float:
     """Return the distance of a contact of a disc's face past its boundary [m]; negative if it is valid.
 
     The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
-    the frustum ``one`` that is lowest over the face, ``gap`` its height [m].  A foot on the far side of a disc is not
-    its lowest point.  If p lies below the face, the line from p to the middle of the frustum must lead back through the
-    disc.  Discs in one plane touch with the faces of both sides; the engine takes those that met.
+    the frustum ``one`` that is lowest over the face, or the tip of a foot or cone (``is_tip``); ``gap`` is its height
+    [m].  If p lies below the face, the line from p to the middle of the frustum must lead back through the disc, and
+    the rim of the disc must lie below that line.  Discs in one plane touch with the faces of both sides; the engine
+    takes those that met.
     """
-    ax, ay, az = axis_in_world(other, second)
-    kx, ky, kz = center_in_world(other, second)
-    x, y, z = middle_in_world(one, first)
-    height = up * (ax * (x - kx) + ay * (y - ky) + az * (z - kz))
-    if height < gap - REACH * size:
+    axis, own_axis = axis_in_world(other, second), axis_in_world(one, first)
+    center, middle = center_in_world(other, second), middle_in_world(one, first)
+    height, to_middle = up * dot(axis, minus(middle, center)), minus(middle, p)
+    # the middle of a frustum is above its lowest point; the end of a frustum with a tip must face the disc
+    if height < gap - REACH * size or (is_tip and up * dot(to_middle, own_axis) * dot(own_axis, axis) < 0.0):
         return size
     if gap >= -REACH * size:
         return -size
-    # rounded bodies on the other side of the plane are apart; so is a frustum that touches the rim with its middle
+    # rounded bodies on the other side of the plane are apart
     if height <= REACH * size or first[SWEEP] + second[SWEEP] > 0.0:
         return size
-    back = gap / (gap - height)
-    x, y, z = p[0] + back * (x - p[0]) - kx, p[1] + back * (y - p[1]) - ky, p[2] + back * (z - p[2]) - kz
-    _, away, _ = across((x, y, z), (ax, ay, az))
-    return float(past_border(away - second[0], 0.0, size))
+    _, away, _ = across(minus(ahead(p, gap / (gap - height), to_middle), center), axis)
+    # the rim of a disc that only touches the frustum lies below its surface by round-off
+    return float(REACH * size - (second[0] - away) * (height - gap) / size_of(to_middle))
 
 
 @compiled
