@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ import nonsmooth as ns
 from bodies import DiscBody, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 
-LAWS = {"normal": Unilateral(), "friction": Coulomb(0.0), "impact": EnergeticImpact(0.5)}
+LAWS: dict[str, Any] = {"normal": Unilateral(), "friction": Coulomb(0.0), "impact": EnergeticImpact(0.5)}
 WORLDS = (1.0, 0.0, 0.0, 0.0), (0.8, 0.0, 0.36, 0.48), (0.1, -0.7, 0.5, 0.5)
 """Orientations of both discs."""
 
