@@ -10,14 +10,11 @@ translation that separates the bodies.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import ClassVar, TypeAlias, final
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
@@ -328,7 +325,7 @@ def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
     return best, where
 
 
-def _evaluate(
+def evaluate_frustum_smooth(
     a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, high: Floats, point: Floats, second: Floats
 ) -> None:
     """Write the geometry block of a frustum, whose rims are the cores ``low`` and ``high``, and a core.
@@ -364,49 +361,19 @@ def _evaluate(
 
 
 @final
-@dataclass(frozen=True)
 class FrustumSmooth(ContactKinematics):
-    """One contact of a smooth body with a cap, a rim or the side of a cylinder, a cone or a disc, not with the feet.
-
-    Attributes
-    ----------
-    first : Frustum
-        The cylinder, cone or disc.
-    second : SmoothShape
-        The smooth body.
-    """
+    """One contact of a smooth body with a cap, a rim or the side of a cylinder, a cone or a disc, not with the feet."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SmoothShape)
 
-    first: Frustum
-    second: SmoothShape
-
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[FrustumSmooth, ...]:
-        """Return the single contact of the two."""
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact of the two: each part of the frustum, from the lower cap to the upper one."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SmoothShape)
-        return (cls(first, second),)
-
-    def parameters(self) -> Mapping[str, Value]:
-        """Return the numbers of the frustum, of its rims as flat cores, of a point, and of the support function."""
-        frustum = self.first.frustum
+        frustum = first.frustum
         # a flat ellipsoid, or a point
         low, high = ((radius, radius, 0.0, 2.0, 2.0, 0.0) for radius in frustum[:2])
-        return {
-            "first": frustum,
-            "low": low,
-            "high": high,
-            "point": (0.0, 0.0, 0.0, 2.0, 2.0, 0.0),
-            "second": self.second.core,
-        }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """A trial of the parts, with Newton's method on the support function."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the frustum's parts and the smooth body, from the lower cap to the upper one."""
-        return tuple(f"{part} and smooth" for part in part_names(self.first.frustum))
+        values = {"first": frustum, "low": low, "high": high, "point": (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)}
+        names = tuple(f"{part} and smooth" for part in part_names(frustum))
+        return (FeaturePair(evaluate_frustum_smooth, {**values, "second": second.core}, names),)
