@@ -224,7 +224,7 @@ def contact_kinematics(page: Mapping[str, Any]) -> Any:
         frames.append(np.array([*place, c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c, *12 * (0.0,)]))
     first, second = frames
     out = np.zeros(31)
-    page["contact"].evaluator(first, second, out, **page["contact"].parameters())
+    page["contact"].evaluator(first, second, out, **page["contact"].values)
     tangent, normal, a, b = (out[[i, i + 2]] for i in (4, 1, 7, 10))
     centre, along = second[[0, 2]], second[[3, 9]]
     line = np.array([first[[0, 2]] - 0.05 * tangent, first[[0, 2]] + 0.2 * tangent])

@@ -95,7 +95,7 @@ def support_point(core: tuple[float, ...], direction: Vector) -> Vector:
     """Return the farthest point of a core with its radius, in the body frame [m], for a direction of any length."""
     axes = np.array(core[9:18]).reshape(3, 3)
     unit = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
-    point = support_of(core, tuple(axes.T @ unit))[1:4]
+    point = support_of(core, tuple(axes.T @ unit))[1]
     return np.asarray(np.array(core[6:9]) + axes @ np.array(point) + core[5] * unit)
 
 

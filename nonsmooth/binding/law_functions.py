@@ -25,14 +25,14 @@ _CONTACT = owners.ContactRecord
 
 
 class LawFunction(NamedTuple):
-    """A function of the laws or of the kinematics of a contact.
+    """A function of the laws of a contact.
 
     Attributes
     ----------
     address, parameters : declaration
         Fields of a contact: the address of the function, and the offset of its parameters among the floats.
     law : Component
-        The law, or the kinematics.
+        The law.
     function : callable
         The function.
     form : str

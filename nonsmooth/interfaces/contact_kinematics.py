@@ -25,15 +25,20 @@ class ContactKinematics(Component, ABC):
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]]
 
+    @property
+    def values(self) -> Any:
+        """Transitional."""
+        return self.parameters()
+
     @classmethod
     @abstractmethod
     def between(cls, first: Shape, second: Shape) -> tuple[Any, ...]:
         """Return the potential contacts of two shapes of the classes in ``pair``."""
 
     @property
-    @abstractmethod
     def evaluator(self) -> Callable[..., None]:
         """Plain function ``evaluate(a, b, out, ...)`` that writes the geometry block of the contact: point 2 above."""
+        raise NotImplementedError
 
     @property
     def bound(self) -> Callable[..., None] | None:
@@ -51,6 +56,6 @@ class ContactKinematics(Component, ABC):
         return None
 
     @property
-    @abstractmethod
     def features(self) -> tuple[str, ...]:
         """Names of the pairs of features that can touch; the geometry block holds the number of the present one."""
+        raise NotImplementedError

@@ -39,7 +39,7 @@ class FeatureSearch:
     contacts : range
         Numbers of the contacts.
     owner : str
-        Name of the kinematics and of the first contact, for messages.
+        The first contact, for messages.
     """
 
     candidates: CandidateSearch
@@ -90,8 +90,7 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
                         extent,
                         "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                     )
-            owner = f"{type(kinematics).__name__} ({contact})"
-            found.append(FeatureSearch(search, place, range(number, number + 1), owner))
+            found.append(FeatureSearch(search, place, range(number, number + 1), str(contact)))
     return found
 
 

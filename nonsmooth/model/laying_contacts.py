@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import address_alone, bind, parameter_names, parameter_place, vector_place
 from nonsmooth.binding.law_functions import LawFunction, law_functions
+from nonsmooth.binding.source import name_of
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
 from nonsmooth.engine.memory.heap import Heap, output_block
@@ -218,29 +219,24 @@ def _geometry_of(contact: Contact, tried: set[tuple[Any, ...]]) -> Kind:
     ``tried`` holds the functions and tables that were tried out, and this function adds to it.
     """
     made, kinematics = Kind(), contact.kinematics
-    part = LawFunction(
-        _CONTACT.geometry_function, _CONTACT.geometry_parameters, kinematics, kinematics.evaluator, "pair"
-    )
-    available = kinematics.parameters()
-    names = parameter_names(part.function, part.form)
+    function, available = kinematics.evaluator, kinematics.values
+    names = parameter_names(function, "pair")
     tables = {n: v for n in names if isinstance(v := available.get(n), SharedNumbers)}
     # the parameters, with nothing in place of tables: the memory holds each table once, and a reference to it here
-    without_tables, owner = {**available, **dict.fromkeys(tables, ())}, _owner_of(part, contact)
-    made.fields[part.address], values = bind(part.function, part.form, without_tables, owner)
-    key = part.function, *map(id, tables.values())
-    if not tables:
-        _try_function(contact, part, values)
-    elif key not in tried:
-        tried.add(key)
+    without_tables, owner = {**available, **dict.fromkeys(tables, ())}, str(contact)
+    made.fields[_CONTACT.geometry_function], values = bind(function, "pair", without_tables, owner)
+    key = function, *map(id, tables.values())
+    if key not in tried:
         # the trial reads the tables behind the parameters
-        _try_function(contact, part, bind(part.function, part.form, available, owner)[1])
-    start = made.block.store(part.parameters, values)
-    made.block.tables = [
-        (start + parameter_place(part.function, part.form, n), start, table) for n, table in tables.items()
-    ]
+        whole = bind(function, "pair", available, owner)[1] if tables else values
+        try_out(function, "pair", available, whole, PAIR, owner, FRAMES)
+    if tables:
+        tried.add(key)
+    start = made.block.store(_CONTACT.geometry_parameters, values)
+    made.block.tables = [(start + parameter_place(function, "pair", n), start, table) for n, table in tables.items()]
     if kinematics.candidates is not None:
         # what a search finds: kind and numbers of two features, and the distance up to which they are valid
-        place = start + vector_place(part.function, part.form, values, "candidate")
+        place = start + vector_place(function, "pair", values, "candidate")
         made.block.mark_written(_CONTACT.features, place, CANDIDATE + 1)
     if (bound := kinematics.bound) is not None:
         made.fields[_CONTACT.bound_function] = _address_of_bound(contact, bound, available, values, tables)
@@ -278,7 +274,7 @@ def laws_of(memory: Memory, contact: Contact) -> Kind:
 
 
 def _owner_of(part: LawFunction, contact: Contact) -> str:
-    """Name of the law or kinematics that a function belongs to, and its contact, for messages."""
+    """Name of the law that a function belongs to, and its contact, for messages."""
     return f"{type(part.law).__name__} ({contact})"
 
 
@@ -322,12 +318,12 @@ def _address_of_bound(
     wanted, found = (parameter_names(function, "pair") for function in (kinematics.evaluator, bound))
     if found != wanted:
         raise InvalidInput(
-            f"{type(kinematics).__name__}.bound",
+            f"{name_of(bound)}, the bound of the {contact}",
             "must have the arguments of the evaluator",
             found,
             f"Name its arguments after a, b and out {', '.join(wanted)}.",
         )
-    owner = type(kinematics).__name__
+    owner = str(contact)
     # with large tables a trial takes long
     if not tables:
         try_out(bound, "pair", available, values, PAIR, owner, FRAMES)
@@ -341,9 +337,8 @@ def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) 
     """
     start = initial_state(contact.friction)
     # by form: size of the block, and any valid arguments before the parameters. These are
-    # pair: two frames; traction: normal force, slip with spin, inner states; rates: slip speed, inner states
+    # traction: normal force, slip with spin, inner states; rates: slip speed, inner states
     trials: Mapping[str, tuple[int, Sequence[float | Sequence[float]]]] = {
-        "pair": (PAIR, FRAMES),
         "traction": (FORCE_AND_MOMENT + len(start), (1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start)),
         "rates": (len(start), (0.1, start)),
     }

@@ -253,7 +253,8 @@ def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
     if inspect.isabstract(loaded):
         missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
         return f"must define {missing}."
-    if "__dataclass_fields__" not in vars(loaded):
+    # a contact kinematics is never instantiated
+    if "__dataclass_fields__" not in vars(loaded) and not issubclass(loaded, ContactKinematics):
         return f"must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}."
     return None
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
+from nonsmooth.binding.source import name_of
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Declaration, Life, declarations
 from nonsmooth.engine.memory.memory import Memory
@@ -71,14 +73,15 @@ def _classes(model: LaidOut) -> bytes:
     """
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
-    # classes are numbered in the order in which they are met
-    known: dict[type, int] = {}
+    # classes, and functions of contacts, are numbered in the order in which they are met
+    known: dict[Any, int] = {}
     numbers = [known.setdefault(type(part), len(known)) for part in parts]
     # the kind of each contact is a parameter
     kinds: list[list[int]] = []
     for same in groups_of(system.contacts):
         row = system.contacts.rows[same[0]]
         laws = row.laws.normal, row.laws.friction, row.laws.impact
-        kinds += [[known.setdefault(type(part), len(known)) for part in (one, *laws)] for one in row.kinematics]
-    names = repr([(kind.__module__, kind.__qualname__) for kind in known]).encode()
+        deciding = ((one.evaluator, *map(type, laws)) for one in row.kinematics)
+        kinds += [[known.setdefault(part, len(known)) for part in parts] for parts in deciding]
+    names = repr([(kind.__module__, name_of(kind)) for kind in known]).encode()
     return names + np.array(numbers).tobytes() + np.array(kinds, np.int64).tobytes()

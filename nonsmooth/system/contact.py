@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from nonsmooth.interfaces import (
     Body,
-    ContactKinematics,
+    FeaturePair,
     Guard,
     ImpactLaw,
     Joint,
@@ -32,8 +32,8 @@ class Contact:
         Number of the frame of each body.
     shapes : tuple of Shape
         Shape of each body.
-    kinematics : ContactKinematics
-        Geometry of the pair of shapes.
+    kinematics : FeaturePair
+        Geometry of the contact.
     extents : tuple of float
         Radius of the sphere about the frame's origin that contains each shape [m].
     levers : tuple of float
@@ -50,7 +50,7 @@ class Contact:
     second: Body
     frames: tuple[int, int]
     shapes: tuple[Shape, Shape]
-    kinematics: ContactKinematics
+    kinematics: FeaturePair
     extents: tuple[float, float]
     levers: tuple[float, float]
     normal: NormalLaw
@@ -62,7 +62,7 @@ class Contact:
         cls,
         bodies: tuple[Body, Body],
         shapes: tuple[Shape, Shape],
-        kinematics: ContactKinematics,
+        kinematics: FeaturePair,
         laws: ContactLaws,
         *,
         frames: tuple[int, int] = (0, 0),
@@ -86,9 +86,9 @@ class Contact:
         return f"contact {self.name!r}"
 
     def __repr__(self) -> str:
-        """Name, kinematics and laws of the contact."""
+        """Name, features and laws of the contact."""
         laws = ", ".join(type(law).__name__ for law in (self.normal, self.friction, self.impact) if law is not None)
-        return f"Contact({self.name!r}: {type(self.kinematics).__name__}; {laws})"
+        return f"Contact({self.name!r}: {self.kinematics.features[0]}; {laws})"
 
     @property
     def size(self) -> float:

@@ -14,7 +14,7 @@ from typing import Any, SupportsIndex, final, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.interfaces import Body, ContactKinematics, Shape
+from nonsmooth.interfaces import Body, FeaturePair, Shape
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.materials import ContactLaws
 from nonsmooth.system.names import numbered
@@ -29,8 +29,8 @@ class ContactRow:
     ----------
     bodies, frames, shapes : tuple
         The two bodies, the number of the frame of each, and its shape.
-    kinematics : sequence of ContactKinematics
-        Kinematics of each contact.
+    kinematics : sequence of FeaturePair
+        Geometry of each contact.
     laws : ContactLaws
         Laws of all of them.
     label : str
@@ -44,7 +44,7 @@ class ContactRow:
     bodies: tuple[Body, Body]
     frames: tuple[int, int]
     shapes: tuple[Shape, Shape]
-    kinematics: Sequence[ContactKinematics]
+    kinematics: Sequence[FeaturePair]
     laws: ContactLaws
     label: str
     first_number: int

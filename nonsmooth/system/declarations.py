@@ -9,7 +9,7 @@ from typing import TypeAlias, final
 
 from nonsmooth.checks import check_kind, check_pair
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, ContactKinematics, ImpactLaw, ImpactProcess
+from nonsmooth.interfaces import Body, FeaturePair, ImpactLaw, ImpactProcess
 from nonsmooth.system.contact import Contact, ContactDeclaration
 from nonsmooth.system.contacts import ContactRow, Contacts
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws, check_sharing
@@ -17,7 +17,7 @@ from nonsmooth.system.members import Members
 from nonsmooth.system.names import between
 from nonsmooth.system.pairing import ContactGeometries, Side, select
 
-_Facing: TypeAlias = tuple[Side, Side, Sequence[ContactKinematics]]
+_Facing: TypeAlias = tuple[Side, Side, Sequence[FeaturePair]]
 _WITHOUT_SHAPE = -1
 """Stands in ``ContactDeclarations.paired`` for the number of a shape that was given to ``System.add_contact``.
 
@@ -105,7 +105,7 @@ class ContactDeclarations:
         where = "System.add_contact"
         check_kind(where, contact, Contact, "Make it by nonsmooth.system.contact.Contact.of_shapes(...).")
         kinematics, first, second = contact.kinematics, contact.first, contact.second
-        check_kind(f"{where}: kinematics", kinematics, ContactKinematics, "See `nonsmooth list kinematics`.")
+        check_kind(f"{where}: kinematics", kinematics, FeaturePair, "Take one of `between(first, second)`.")
         check_laws(where, contact.normal, contact.friction, contact.impact)
         names = self._checked(where, first, second, contact.impact)
         self.members.check_frames(where, first, second, contact.frames)

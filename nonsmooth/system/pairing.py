@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, ContactKinematics, Shape
+from nonsmooth.interfaces import Body, ContactKinematics, FeaturePair, Shape
 from nonsmooth.plugins import registry
 
 Frames: TypeAlias = tuple[tuple[Shape, ...], ...]
@@ -99,7 +99,7 @@ class ContactGeometries:
         self._frames: dict[int, tuple[tuple[Shape, ...], ...]] = {}
         self._shapes: dict[Shape, Shape] = {}
         self._kinds: dict[tuple[type[Shape], type[Shape]], Found] = {}
-        self._made: dict[tuple[int, int], tuple[ContactKinematics, ...]] = {}
+        self._made: dict[tuple[int, int], tuple[FeaturePair, ...]] = {}
         self._reaches: dict[int, tuple[float, float]] = {}
 
     def shapes(self, body: Body) -> tuple[tuple[Shape, ...], ...]:
@@ -120,7 +120,7 @@ class ContactGeometries:
             self._reaches[id(shape)] = shape.extent, shape.lever
         return self._reaches[id(shape)]
 
-    def between(self, first: Shape, second: Shape) -> tuple[Sequence[ContactKinematics], bool]:
+    def between(self, first: Shape, second: Shape) -> tuple[Sequence[FeaturePair], bool]:
         """Contact geometries of two shapes from :meth:`shapes`; True if the geometries have the shapes in this order.
 
         Raises

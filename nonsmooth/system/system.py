@@ -342,8 +342,7 @@ class System(metaclass=Readable):
         ------
         InvalidInput
             If the object is not a Contact, a body is not of this system, the bodies are the same, a frame is unknown,
-            the kinematics are not ContactKinematics, a law is of the wrong kind or cannot be combined with the others,
-            or the
+            the kinematics are no FeaturePair, a law is of the wrong kind or cannot be combined with the others, or the
             name is taken.
         """
         return self._declared.add_given(contact)

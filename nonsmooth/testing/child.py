@@ -119,7 +119,7 @@ class _Child:
         self._report.unlink(missing_ok=True)
 
 
-_NOTHING = Subject(None, lambda component: [], {})
+_NOTHING = Subject(None, lambda component: [], {}, object)
 """Placeholder for the component of a child that has just started."""
 _children: list[_Child] = []
 """The child process: empty before the first check, then a list with one entry."""

@@ -278,7 +278,12 @@ def all_rows(
     first : sequence of Row, optional
         Properties that are checked without a call of these functions.
     """
-    return [*component_rows(component), *first, *_Functions(functions).rows(found)]
+    return [*component_rows(component), *first, *function_rows(functions, found)]
+
+
+def function_rows(functions: Callable[[], Sequence[CheckedFunction]], found: Sequence[Row]) -> list[Row]:
+    """Return the properties of functions that the engine calls, then others that are checked if these can be run."""
+    return _Functions(functions).rows(found)
 
 
 def _short(value: Any) -> str:

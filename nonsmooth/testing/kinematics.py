@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -15,15 +15,15 @@ import numpy as np
 
 from nonsmooth.engine.memory import blocks
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.claims import GIVEN, Claim, Claims, Inapplicable, claim, rows
 from nonsmooth.testing.differences import slope
-from nonsmooth.testing.functions import CheckedFunction, all_rows, left_over, plain_caller
+from nonsmooth.testing.functions import CheckedFunction, function_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
-from nonsmooth.testing.outcome import Broken, Row
-from nonsmooth.testing.property import Property, properties
+from nonsmooth.testing.outcome import Broken, Row, Subject
+from nonsmooth.testing.property import Property, properties_of
 from nonsmooth.testing.puck import ContactRig, Pose
 from nonsmooth.types import Array
 
@@ -45,16 +45,23 @@ _NORMAL, _TANGENT = slice(blocks.NORMAL, blocks.TANGENT), slice(blocks.TANGENT, 
 
 
 def check_contact_kinematics(
-    kinematics: ContactKinematics, first: Shape, second: Shape, *, reach: float | None = None
+    kinematics: type[ContactKinematics],
+    first: Shape,
+    second: Shape,
+    *,
+    contacts: Sequence[int] | None = None,
+    reach: float | None = None,
 ) -> list[Property]:
-    """Return the properties of a contact of two shapes.
+    """Return the properties of contacts of two shapes.
 
     Parameters
     ----------
-    kinematics : ContactKinematics
-        The contact, one of ``between(first, second)``.
+    kinematics : type
+        The class that makes the contacts.
     first, second : Shape
-        The shapes that it was made for.
+        Two shapes of the classes in its ``pair``.
+    contacts : sequence of int, optional
+        Numbers of the contacts in ``between(first, second)``; by default the first with each evaluator.
     reach : float, optional
         Largest distance of the bodies along each axis [m]; by default the sum of the shapes' finite extents, or 1 m if
         that is zero.
@@ -62,39 +69,69 @@ def check_contact_kinematics(
     Raises
     ------
     InvalidInput
-        The kinematics searches for its features, and so has no given features that can be checked.
+        The shapes are not of the classes in ``pair``, there are no contacts between them, or a contact has no names of
+        features, or searches for its features, and so has no given features that can be checked.
     """
-    if kinematics.candidates is not None:
+    made = _between(kinematics, first, second)
+    if contacts is None:
+        firsts = {contact.evaluator: number for number, contact in reversed(list(enumerate(made)))}
+        contacts = sorted(firsts.values())
+    lengths = [shape.extent for shape in (first, second) if math.isfinite(shape.extent)]
+    options = {"shapes": (first, second), "reach": reach or sum(lengths) or 1.0}
+    found = []
+    for number in contacts:
+        contact = made[number]
+        _check_record(kinematics, contact)
+        label = contact.features[0] if len(made) > 1 else ""
+        found += properties_of(Subject(contact, _rows, options, kinematics, label))
+    return found
+
+
+def _between(kinematics: type[ContactKinematics], first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+    """Contacts of two shapes; InvalidInput if the shapes are of other classes, or have no contact."""
+    for shape, kind in zip((first, second), kinematics.pair, strict=True):
+        if not isinstance(shape, kind):
+            raise InvalidInput(
+                f"{kinematics.__name__}: shape", f"must be a {kind.__name__}, as `pair` says", shape, "Give others."
+            )
+    made = kinematics.between(first, second)
+    if not made:
+        raise InvalidInput(f"{kinematics.__name__}.between", "must return a contact", made, "Return at least one.")
+    return made
+
+
+def _check_record(kinematics: type[ContactKinematics], contact: FeaturePair) -> None:
+    names = contact.features
+    if not names or len(set(names)) != len(names):
+        remedy = "Name every pair of features, each differently."
+        raise InvalidInput(f"{kinematics.__name__}: features", "must be names, each another", names, remedy)
+    if contact.candidates is not None:
         raise InvalidInput(
-            type(kinematics).__name__,
-            "must be a contact of given features (`candidates` None)",
-            kinematics.candidates,
+            f"{kinematics.__name__}: a contact",
+            "must be of given features (`candidates` None) to be checked",
+            contact.candidates,
             "Check the contacts of small shapes, whose features are given, and compare runs of both.",
         )
-    lengths = [shape.extent for shape in (first, second) if math.isfinite(shape.extent)]
-    return properties(kinematics, _rows, shapes=(first, second), reach=reach or sum(lengths) or 1.0)
 
 
-def _rows(kinematics: ContactKinematics, shapes: tuple[Shape, Shape], reach: float) -> list[Row]:
+def _rows(contact: FeaturePair, shapes: tuple[Shape, Shape], reach: float) -> list[Row]:
     smooth: set[int] = set()
-    rig = functools.cache(lambda: ContactRig(kinematics, shapes))
+    rig = functools.cache(lambda: ContactRig(contact, shapes))
     bounded = all(math.isfinite(shape.extent) for shape in shapes)
     placed = Drawn(_numbers(reach), lambda case: _Placed(case, rig(), reach, smooth).shallow(bounded))
-    table = functools.partial(rows, components=lambda: [kinematics], count=_DRAWS, given=[placed])
-    pair = "`between` gives it, for shapes of the classes in `pair`"
+    table = functools.partial(rows, components=lambda: [contact], count=_DRAWS, given=[placed])
     found = [
-        Row("pair", pair, lambda: _check_between(kinematics, shapes)),
         *table(_AT_PLACES),
         *(
-            Row(one.name, one.says, functools.partial(_examine_where_smooth, one.at(placed), kinematics, smooth))
+            Row(one.name, one.says, functools.partial(_examine_where_smooth, one.at(placed), contact, smooth))
             for one in (_gap_rate, _second_order_terms)
         ),
         *table(_MOVED),
     ]
-    return all_rows(kinematics, lambda: [_evaluator(kinematics, reach)], found)
+    return function_rows(lambda: [_evaluator(contact, reach)], found)
 
 
-def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set[int]) -> None:
+def _examine_where_smooth(one: Claim, contact: FeaturePair, smooth: set[int]) -> None:
     """Try a claim that can be tested only at inputs at which the contact is smooth.
 
     The claim is tried with 40 inputs. If the contact is smooth at none of them, it is tried with 400 inputs. A trial
@@ -103,7 +140,7 @@ def _examine_where_smooth(one: Claim, kinematics: ContactKinematics, smooth: set
     smooth.clear()
     for count in (_DRAWS, _MOST_DRAWS):
         if not smooth:
-            one.examine([kinematics], count)
+            one.examine([contact], count)
     if not smooth:
         raise Broken(f"it is smooth at none of {_MOST_DRAWS} places")
 
@@ -135,10 +172,10 @@ def _frame(pose: Pose) -> Array:
     return block
 
 
-def _evaluator(kinematics: ContactKinematics, reach: float) -> CheckedFunction:
+def _evaluator(contact: FeaturePair, reach: float) -> CheckedFunction:
     cases = draws([Drawn(_numbers(reach), dict)], 8)
     inputs = [("a, b", tuple(map(_frame, _poses(case)))) for case in cases]
-    return CheckedFunction(kinematics, "evaluator", "pair", kinematics.parameters(), inputs, blocks.PAIR)
+    return CheckedFunction(contact, "evaluator", "pair", contact.values, inputs, blocks.PAIR)
 
 
 @final
@@ -215,20 +252,10 @@ class _Placed:
         return ""
 
 
-def _check_between(kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
-    owner = type(kinematics)
-    if not all(isinstance(shape, kind) for shape, kind in zip(shapes, owner.pair, strict=True)):
-        raise Broken("the shapes are not of these classes", "pair", tuple(kind.__name__ for kind in owner.pair))
-    if kinematics not in owner.between(*shapes):
-        raise Broken("`between` gives other contacts for the shapes", "between", owner.between(*shapes))
-    if not kinematics.features or len(set(kinematics.features)) != len(kinematics.features):
-        raise Broken("features must have names, each another", "features", kinematics.features)
-
-
 @_AT_PLACES.claim(GIVEN, n_inputs=80)
-def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
+def _writes_its_block(contact: FeaturePair, at: _Placed) -> str:
     """A call of the kinematics writes every number of its block that is not always zero, and nothing outside of it."""
-    case, call = at.case, plain_caller(kinematics.evaluator, "pair", kinematics.parameters())
+    case, call = at.case, plain_caller(contact.evaluator, "pair", contact.values)
     turned_there = case | {"turn_a_x": case["turn_a_x"] + 1.0}
     here = tuple(map(_frame, _poses(case)))
     for other in (turned_there, turned_there | {"place_y": case["place_y"] - at.reach}):
@@ -239,7 +266,7 @@ def _writes_its_block(kinematics: ContactKinematics, at: _Placed) -> str:
 
 
 @_AT_PLACES.claim(GIVEN)
-def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
+def _axes(contact: FeaturePair, at: _Placed) -> str:
     """The contact's normal and its first tangent are unit vectors at right angles."""
     block = at.put().geometry
     n, t = block[_NORMAL], block[_TANGENT]
@@ -250,7 +277,7 @@ def _axes(kinematics: ContactKinematics, at: _Placed) -> str:
 
 
 @_AT_PLACES.claim(GIVEN)
-def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
+def _witness_points(contact: FeaturePair, at: _Placed) -> str:
     """The vector between the witness points is the gap times the normal, unless they are past the end of a feature."""
     block = at.put().geometry
     # past an end the gap may be a substitute, hypot(gap, distance past the end)
@@ -264,14 +291,14 @@ def _witness_points(kinematics: ContactKinematics, at: _Placed) -> str:
 
 
 @_AT_PLACES.claim(GIVEN)
-def _feature(kinematics: ContactKinematics, at: _Placed) -> str:
+def _feature(contact: FeaturePair, at: _Placed) -> str:
     """The feature's number in the geometry block is an index of the names in `features`."""
-    found, n = float(at.put().geometry[blocks.FEATURE]), len(kinematics.features)
+    found, n = float(at.put().geometry[blocks.FEATURE]), len(contact.features)
     return "" if found in range(n) else f"it is {found:g}, of {n} features"
 
 
 @claim(GIVEN)
-def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
+def _gap_rate(contact: FeaturePair, at: _Placed) -> str:
     """The gap rate is the time derivative of the gap."""
     rate = float(at.put().rate[0])
     found = at.derivative(lambda rig: rig.geometry[:1])
@@ -281,7 +308,7 @@ def _gap_rate(kinematics: ContactKinematics, at: _Placed) -> str:
 
 
 @claim(GIVEN, name="second-order terms")
-def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
+def _second_order_terms(contact: FeaturePair, at: _Placed) -> str:
     """The second-order terms of gap and slip are the time derivatives of gap rate and slip velocity while u' = 0."""
     rig = at.put()
     axes, rate, bias = rig.axes, rig.rate, rig.bias
@@ -300,7 +327,7 @@ def _second_order_terms(kinematics: ContactKinematics, at: _Placed) -> str:
 
 
 @_MOVED.claim(GIVEN)
-def _tangent_follows_the_first_body(kinematics: ContactKinematics, at: _Placed) -> str:
+def _tangent_follows_the_first_body(contact: FeaturePair, at: _Placed) -> str:
     """If both bodies turn together, the first tangent of the contact turns with them."""
     # the bodies turn about the normal: in such a turn, a tangent that is wrongly fixed in space keeps its direction,
     # and so is found
@@ -308,7 +335,7 @@ def _tangent_follows_the_first_body(kinematics: ContactKinematics, at: _Placed) 
 
 
 @_MOVED.claim(GIVEN)
-def _frame_invariance(kinematics: ContactKinematics, at: _Placed) -> str:
+def _frame_invariance(contact: FeaturePair, at: _Placed) -> str:
     """If both bodies are moved together, the gap is the same and the normal turns with the bodies."""
     before = float(at.put().geometry[blocks.GAP])
     wrong = at.moved_together(np.array([0.4, -0.3, 0.5]), _NORMAL, "normal")

@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import Any, NamedTuple, final
 
 from nonsmooth.errors import NonsmoothError
-from nonsmooth.parameters import Component, rules
+from nonsmooth.parameters import rules
 
 _OTHERS = ("nonsmooth", "numpy", "scipy", "numba")
 """Packages whose code is not named as the place of an exception: the component that called it is named as the cause."""
@@ -106,22 +106,27 @@ class Subject:
         Takes the component and the options, and returns the properties.
     options : mapping
         Keyword arguments of ``rows``.
+    owner : type
+        The class in whose name messages are written.
+    label : str
+        What is added to the name of the class, to tell several subjects of one class apart; may be empty.
     """
 
     component: Any
     rows: Callable[..., list[Row]]
     options: Mapping[str, Any]
+    owner: type
+    label: str = ""
 
     def __reduce__(self) -> Any:
         """Pickle the component without its properties: another process makes them again."""
-        return Subject, (self.component, self.rows, self.options)
+        return Subject, (self.component, self.rows, self.options, self.owner, self.label)
 
     @cached_property
     def all(self) -> Mapping[str, Row]:
         """The properties by name."""
-        owner: type[Component] = type(self.component)
         rows = {row.name: row for row in self.rows(self.component, **self.options)}
-        if unknown := sorted(set(owner.departures) - set(rows)):
+        if unknown := sorted(set(self.component.departures) - set(rows)):
             fault = Broken("there are no such properties", "departures", unknown)
             rows["departures"] = Row("departures", "They name properties", lambda: _raise(fault))
         return rows

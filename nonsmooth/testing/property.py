@@ -90,11 +90,16 @@ class Property:
 
     @property
     def owner(self) -> type:
-        """The class of the component."""
-        return type(self.subject.component)
+        """The class in whose name messages are written."""
+        return self.subject.owner
 
     def __str__(self) -> str:
-        return f"{self.owner.__name__}: {self.name}"
+        return f"{self._thing}: {self.name}"
+
+    @property
+    def _thing(self) -> str:
+        label = self.subject.label
+        return f"{self.owner.__name__} ({label})" if label else self.owner.__name__
 
     def __call__(self) -> None:
         """Check the property in a child process, which is ended if the component does not return.
@@ -119,7 +124,7 @@ class Property:
 
     def _judge(self, found: Outcome) -> None:
         print(found.printed, end="")
-        thing, holds = self.owner.__name__, found.kind == "holds"
+        thing, holds = self._thing, found.kind == "holds"
         # a function of a script or a notebook loses its file name when it is sent to the child process, which then
         # writes `_DYNAMIC` in the reason. Replace it by the file of the component's class
         reason = (
@@ -141,13 +146,20 @@ class Property:
 
 
 def properties(component: Any, rows: Callable[..., list[Row]], **options: Any) -> list[Property]:
-    """Return the properties of a component, with the reasons for the departures that its class declares.
+    """Return the properties of a component, with the reasons for the departures that it declares.
+
+    ``options`` are those of ``rows``.
 
     Raises
     ------
     MissingPackagesError
         The package hypothesis or cloudpickle is not installed.
     """
+    return properties_of(Subject(component, rows, options, type(component)))
+
+
+def properties_of(subject: Subject) -> list[Property]:
+    """Return the properties of a subject, as :func:`properties` does."""
     require_packages()
-    subject, departures = Subject(component, rows, options), type(component).departures
+    departures = subject.component.departures
     return [Property(row.name, row.says, subject, departures.get(row.name, "")) for row in subject.all.values()]

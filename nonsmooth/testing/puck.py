@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import Any, final
 
 import numpy as np
 
@@ -33,7 +33,7 @@ from nonsmooth.engine.memory.blocks import (
 )
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, Shape
+from nonsmooth.interfaces import Body, CompliantNormalLaw, FeaturePair, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS
 from nonsmooth.model.assembly import lay_out
 from nonsmooth.parameters import parameter
@@ -125,24 +125,9 @@ class _Spot(Shape):
     length: float = 0.0
 
 
-@final
-@dataclass(frozen=True)
-class _Touch(ContactKinematics):
+def _touch(normal: Numbers, tangent: Numbers) -> FeaturePair:
     """The point of the puck over the plane of the slab; normal and tangent are in the slab's frame."""
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (_Spot, _Spot)
-    features = ("puck-slab",)
-    normal: Numbers
-    tangent: Numbers
-
-    def parameters(self) -> dict[str, Any]:
-        return {"normal": self.normal, "tangent": self.tangent}
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[_Touch, ...]:
-        return (cls((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),)
-
-    evaluator = staticmethod(_evaluate_touch)
+    return FeaturePair(_evaluate_touch, {"normal": normal, "tangent": tangent}, ("puck-slab",))
 
 
 @final
@@ -267,7 +252,7 @@ def over_slab(
     slab = _Slab(slab_turn)
     system = System([slab, puck], gravity)
     x, _, z = rotation(slab_turn).tolist()
-    shapes, touch = (slab.frames[0][0], puck.shape), _Touch(tuple(z), tuple(x))
+    shapes, touch = (slab.frames[0][0], puck.shape), _touch(tuple(z), tuple(x))
     system.add_contact(Contact.of_shapes((slab, puck), shapes, touch, laws, name="contact of puck and slab"))
     system.set_start(puck, np.array([0.0, 0.0, height, *turn]), np.array(u, dtype=float))
     return system
@@ -302,7 +287,7 @@ class ConstantLoad(CompliantNormalLaw):
 class ContactRig:
     """Two pucks with one shape each, and a contact between them with given kinematics."""
 
-    def __init__(self, kinematics: ContactKinematics, shapes: tuple[Shape, Shape]) -> None:
+    def __init__(self, kinematics: FeaturePair, shapes: tuple[Shape, Shape]) -> None:
         bodies = Puck(shape=shapes[0]), Puck(shape=shapes[1])
         system, laws = System(bodies), ContactLaws(ReferenceContact(), ReferenceFriction(), ReferenceImpact())
         system.add_contact(Contact.of_shapes(bodies, shapes, kinematics, laws))

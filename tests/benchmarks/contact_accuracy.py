@@ -32,7 +32,7 @@ import nonsmooth as ns
 from nonsmooth.binding.compile import bind
 from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import InvalidInput, NoDistance
-from nonsmooth.interfaces import ContactKinematics, ConvexShape, Shape
+from nonsmooth.interfaces import ConvexShape, FeaturePair, Shape
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.system.pairing import nearest_pair
@@ -201,7 +201,7 @@ def pose(pair: str, gap: float, rng: Generator) -> Pose:
     return Pose((first, second), ((place, q[0]), (other, q[1])), gap, n, np.array([witness, witness + gap * n]))
 
 
-def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[ContactKinematics, ...]:
+def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[FeaturePair, ...]:
     """Return the contacts of two shapes, by what is installed."""
     found = nearest_pair(registry.load_all("kinematics").values(), *shapes)
     if found is None or not found[1]:

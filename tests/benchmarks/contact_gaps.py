@@ -7,10 +7,10 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.binding.source import described
+from nonsmooth.binding.source import described, name_of
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY, PAST_END
 from nonsmooth.errors import PluginError
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
+from nonsmooth.interfaces import CandidateSearch, FeaturePair, Shape
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.queries.result import DistanceResult
@@ -25,8 +25,8 @@ long as the search finds more pairs of features than the kinematics has contacts
 class _Given:
     """Contacts with fixed features."""
 
-    def __init__(self, contacts: Sequence[ContactKinematics]) -> None:
-        self._calls = [pair_caller(one.evaluator, one.parameters(), type(one).__name__) for one in contacts]
+    def __init__(self, contacts: Sequence[FeaturePair]) -> None:
+        self._calls = [pair_caller(one.evaluator, one.values, name_of(one.evaluator)) for one in contacts]
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:
         """Yield the geometry block of each contact, and the distance up to which all gaps are known [m].
@@ -42,11 +42,11 @@ class _Given:
 class _Searched:
     """Contacts whose features a search finds at each pose."""
 
-    def __init__(self, contacts: Sequence[ContactKinematics], search: CandidateSearch) -> None:
-        one, name = contacts[0], type(contacts[0]).__name__
+    def __init__(self, contacts: Sequence[FeaturePair], search: CandidateSearch) -> None:
+        one, name = contacts[0], name_of(contacts[0].evaluator)
         self._name, self._function = name, search.function
         self._find = pair_caller(search.function, search.values, name)
-        self._call = candidate_caller(one.evaluator, one.parameters(), name)
+        self._call = candidate_caller(one.evaluator, one.values, name)
         self._most = len(contacts)
 
     def blocks(self, a: Vector, b: Vector, reach: float) -> Iterator[tuple[Vector, float]]:

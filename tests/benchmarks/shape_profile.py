@@ -28,6 +28,7 @@ import nonsmooth as ns
 from bodies import BoxBody, Dumbbell, Ellipsoid, EllipsoidBody, Harmonic, HullBody, Plate, RigidBody
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.binding.compile import bind
+from nonsmooth.binding.source import name_of
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.native.kernel import address_of, call_pair, entry_addresses
@@ -144,8 +145,8 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
     memory = model.memory
     shims: dict[int, int] = {}
     for contact in model.system.contacts:
-        kind = type(contact.kinematics).__name__
-        inner = bind(contact.kinematics.evaluator, "pair", contact.kinematics.parameters(), kind)[0]
+        kind = name_of(contact.kinematics.evaluator)
+        inner = bind(contact.kinematics.evaluator, "pair", contact.kinematics.values, kind)[0]
         if inner not in shims:
             shims[inner] = _timed(inner, accounts.setdefault(kind, np.zeros(2, np.int64)))
     function, of_kinds = owners.ContactRecord.geometry_function, owners.KindRecord.geometry_function

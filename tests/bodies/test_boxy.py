@@ -39,15 +39,15 @@ def test_gauge_and_support_function_belong_together(along: float, across: float,
     if np.min(np.abs(way)) < 0.05:
         return
     core = np.array(Superellipsoid(0.2, 0.3, 0.4, along, across).core)
-    s = np.array(place_on(core, *way))
-    point, normal, tangents = s[:3], s[3:6], s[6:12].reshape(2, 3)
-    f = boxy_gauge_of(core, *point)
+    place: Any = place_on(core, way)
+    point, normal, tangents = np.array(place[0]), place[1], np.array(place[2:4])
+    f = boxy_gauge_of(core, point)
     assert f[0] == pytest.approx(1.0, rel=1e-13)
-    np.testing.assert_allclose(support_of(core, normal)[1:4], point, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(support_of(core, normal)[1], point, rtol=0, atol=1e-12)
     step = 1e-5 * np.min(np.abs(point))
-    curve = np.array([[s[12], s[13]], [s[13], s[14]]])
+    curve = np.array([place[4][:2], place[4][1:]])
     for i, t in enumerate(tangents):
-        high, low = (np.array(place_on(core, *(point + sign * step * t)))[3:6] for sign in (1.0, -1.0))
+        high, low = (np.array(place_on(core, point + sign * step * t)[1]) for sign in (1.0, -1.0))
         found = tangents @ (high - low) / (2.0 * step)
         np.testing.assert_allclose(found, curve[i], rtol=0, atol=1e-7 * (1.0 + np.max(np.abs(curve))) / min(along, 0.5))
 
@@ -59,7 +59,7 @@ def test_the_farthest_point(along: float) -> None:
 
     def reach(angle: float) -> float:
         direction = np.array([np.cos(angle), 0.0, np.sin(angle)])
-        return -1.0 / float(boxy_gauge_of(np.array(body.core), *direction)[0])
+        return -1.0 / float(boxy_gauge_of(np.array(body.core), direction)[0])
 
     best = minimize_scalar(reach, bounds=(0.0, 0.5 * np.pi), method="bounded", options={"xatol": 1e-12})
     assert body.length == pytest.approx(-best.fun, rel=1e-9)
@@ -83,10 +83,10 @@ def _touching(rng: np.random.Generator, low: float, on_faces: bool, other: Any, 
     """Return two cores, rotation and centre of the second, and the normal: of a random direction or a random point."""
     one, two = _core(rng, low, min(low + 0.2, 0.99)), other(rng)
     turn, n = Rotation.random(random_state=rng).as_matrix(), rng.normal(size=3)
-    s = np.array(place_on(one, *n))
-    n = s[3:6] if on_faces else n / np.linalg.norm(n)
-    p = s[:3] if on_faces else np.array(support_of(one, n)[1:4])
-    q = np.array(support_of(two, (-turn.T @ n))[1:4])
+    s = place_on(one, n)
+    n = np.array(s[1]) if on_faces else n / np.linalg.norm(n)
+    p = np.array(s[0]) if on_faces else np.array(support_of(one, n)[1])
+    q = np.array(support_of(two, (-turn.T @ n))[1])
     return one, two, turn, p + gap * n - turn @ q, n
 
 
@@ -110,10 +110,9 @@ def test_gaps_of_known_poses(low: float, other: str, on_faces: bool) -> None:
             for swapped in (False, True):
                 there = -turn.T @ x if swapped else x
                 pair = (two, one, turn.T) if swapped else (one, two, turn)
-                found = np.array(widest(*pair[:2], tuple(pair[2].ravel()), *there))
-                normal = -turn @ found[4:7] if swapped else found[4:7]
-                assert abs(found[0] - gap) <= 1e-12
-                np.testing.assert_allclose(normal, n, rtol=0, atol=1e-9)
+                g, _, normal = widest(*pair[:2], tuple(pair[2].ravel()), tuple(there))
+                assert abs(g - gap) <= 1e-12
+                np.testing.assert_allclose(-turn @ np.array(normal) if swapped else normal, n, rtol=0, atol=1e-9)
 
 
 def test_a_body_on_its_face_is_found_at_its_middle() -> None:
@@ -121,8 +120,10 @@ def test_a_body_on_its_face_is_found_at_its_middle() -> None:
     core = np.array(Superellipsoid(0.01, 0.01, 0.01, 0.2, 0.2).core)
     ball = np.array(Superellipsoid(0.004, 0.005, 0.006).core)
     same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-    found = widest(core, ball, same, 0.0, 0.0, 0.017)
-    np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
+    found = widest(core, ball, same, (0.0, 0.0, 0.017))
+    np.testing.assert_allclose(
+        [found[0], *found[1], *found[2]], [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16
+    )
 
 
 @pytest.mark.slow

@@ -35,16 +35,18 @@ def test_point_and_normal_move_as_the_chart_says(along: float, across: float, wa
         return
     core, n, length = _core((along, across)), np.array(way) / np.linalg.norm(way), 0.005
     norm: Any = tuple(core[:5].tolist())
-    point, normal, first, second, slide, turn, w, one, two = chart_of(norm, length, *start_of(norm, *n.tolist()))
+    point, normal, first, second, slide, turn, w, one, two = chart_of(norm, length, start_of(norm, tuple(n.tolist())))
     np.testing.assert_allclose(normal, n, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(point, support_of(core, n)[1:4], rtol=0, atol=1e-14)
-    assert gauge_of(core, *point) == pytest.approx(1.0, rel=1e-12)
+    np.testing.assert_allclose(point, support_of(core, n)[1], rtol=0, atol=1e-14)
+    assert gauge_of(core, point) == pytest.approx(1.0, rel=1e-12)
     tangents = np.array([first, second])
     s, u = (np.array([[m[0], m[1]], [m[1], m[2]]]) for m in (slide, turn))
     np.testing.assert_allclose(u + length * s, np.eye(2), rtol=0, atol=1e-9)
     step = 1e-6 * length
     for i, way_of_w in enumerate((one, two)):
-        there, back = (chart_of(norm, length, *(np.array(w) + sign * step * np.array(way_of_w))) for sign in (1, -1))
+        there, back = (
+            chart_of(norm, length, tuple(np.array(w) + sign * step * np.array(way_of_w))) for sign in (1, -1)
+        )
         moves, turns = (tangents @ (np.array(there[k]) - np.array(back[k])) / (2.0 * step) for k in (0, 1))
         np.testing.assert_allclose(moves, u[:, i], rtol=0, atol=1e-6)
         np.testing.assert_allclose(length * turns, length * s[:, i], rtol=0, atol=1e-6)
@@ -63,19 +65,21 @@ def test_gaps_of_known_poses(exponents: Any, other: Any) -> None:
             # not where a slight overlap is more than the bodies are round
             n[i % 3] *= 10.0 ** rng.uniform(-8.0, -1.0) if gap > -1e-8 else 1.0
             n /= np.linalg.norm(n)
-            p, q = np.array(support_of(one, n)[1:4]), np.array(support_of(two, (-turn.T @ n))[1:4])
+            p, q = np.array(support_of(one, n)[1]), np.array(support_of(two, (-turn.T @ n))[1])
             x = p + gap * n - turn @ q
             for swapped in (False, True):
                 there = -turn.T @ x if swapped else x
                 pair = (two, one, turn.T) if swapped else (one, two, turn)
-                found = np.array(widest(*pair[:2], tuple(pair[2].ravel()), *there))
-                assert abs(found[0] - gap) <= 1e-12
-                np.testing.assert_allclose(-turn @ found[4:7] if swapped else found[4:7], n, rtol=0, atol=1e-9)
+                g, _, normal = widest(*pair[:2], tuple(pair[2].ravel()), tuple(there))
+                assert abs(g - gap) <= 1e-12
+                np.testing.assert_allclose(-turn @ np.array(normal) if swapped else normal, n, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("exponents", BOTH_WAYS)
 def test_a_ball_over_the_third_axis(exponents: Any) -> None:
     """Over the middle of a flat place, or over a tip, where the chart has no directions."""
     ball = np.array(Superellipsoid(0.004, 0.004, 0.004).core)
-    found = widest(_core(exponents), ball, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0.0, 0.012)
-    np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.008, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
+    found = widest(_core(exponents), ball, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.012))
+    np.testing.assert_allclose(
+        [found[0], *found[1], *found[2]], [0.001, 0.0, 0.0, 0.008, 0.0, 0.0, 1.0], rtol=0, atol=1e-16
+    )

@@ -145,15 +145,15 @@ def test_radii_of_curvature_are_derivatives_of_the_support_point(along: float, a
         return
     n /= np.linalg.norm(n)
     core = Superellipsoid(0.2, 0.3, 0.4, along, across).core
-    h, x, y, z, xx, yy, zz, yz, xz, xy = support_of(core, n.tolist())
-    assert h == pytest.approx(float(n @ [x, y, z]), rel=1e-13)
+    h, point, (xx, yy, zz, yz, xz, xy) = support_of(core, n.tolist())
+    assert h == pytest.approx(float(n @ point), rel=1e-13)
     second = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     # the point lies on the surface
-    assert gauge_of(core, x, y, z) == pytest.approx(1.0, rel=1e-13)
+    assert gauge_of(core, point) == pytest.approx(1.0, rel=1e-13)
     # it does not change along the direction itself
     np.testing.assert_allclose(second @ n, 0.0, rtol=0, atol=1e-12)
     step = 1e-6 * np.eye(3)
-    points = [np.array(support_of(core, (n + e).tolist())[1:4]) - support_of(core, (n - e).tolist())[1:4] for e in step]
+    points = [np.subtract(support_of(core, (n + e).tolist())[1], support_of(core, (n - e).tolist())[1]) for e in step]
     np.testing.assert_allclose(np.array(points) / 2e-6, second, rtol=0, atol=1e-6)
 
 

@@ -45,6 +45,7 @@ from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.rotations import rotation
+from nonsmooth.system.pairing import installed_pair
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
 from tests.bodies.given_shapes import EllipsoidSum, RoundedLens, SameEllipsoid, Sum
@@ -156,7 +157,9 @@ def test_rates_and_second_order_terms_are_the_derivatives(one: str, two: str) ->
     shapes = GIVEN[one], (OTHERS | GIVEN)[two]
     system = ns.System([DrivenBody(carried=(shape,)) for shape in shapes])
     contacts = system.contact(*system.bodies, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.5))
-    for row in check_contact_kinematics(contacts[0].kinematics, *contacts[0].shapes):
+    found = installed_pair(*contacts[0].shapes)
+    assert found is not None
+    for row in check_contact_kinematics(found[0], *contacts[0].shapes, contacts=[0]):
         row.check()
 
 

@@ -55,7 +55,7 @@ def _pose(rng: np.random.Generator, kinds: Any, gap: float) -> tuple[Array, Arra
     """Return two cores, rotation and centre of the second, and a normal along which their gap is stationary."""
     one, two = _core(rng, kinds[0]), _core(rng, kinds[1])
     turn, n = Rotation.random(random_state=rng).as_matrix(), _directions(rng, 2)[int(rng.integers(2))]
-    p, q = np.array(support_of(one, n)[1:4]), np.array(support_of(two, (-turn.T @ n))[1:4])
+    p, q = np.array(support_of(one, n)[1]), np.array(support_of(two, (-turn.T @ n))[1])
     return one, two, turn, p + gap * n - turn @ q, n
 
 
@@ -68,15 +68,15 @@ def test_no_direction_is_a_shorter_way_out(first: str, second: str) -> None:
     for gap in (-1e-5, -1e-4, -5e-4, -2e-3):
         for _ in range(count):
             one, two, turn, x, n = _pose(rng, (first, second), gap)
-            g, _, _, _, nx, ny, nz = widest(one, two, tuple(turn.ravel()), *x)
+            g, _, normal = widest(one, two, tuple(turn.ravel()), tuple(x))
             assert g >= gap - 1e-12
-            ways = np.vstack([_directions(rng, 2000), np.array([nx, ny, nz]) + 0.1 * rng.normal(size=(200, 3))])
+            ways = np.vstack([_directions(rng, 2000), np.array(normal) + 0.1 * rng.normal(size=(200, 3))])
             ways /= np.linalg.norm(ways, axis=1)[:, None]
             most = np.max(ways @ x - _heights(one, ways) - _heights(two, -ways @ turn))
             assert g >= most - 1e-12
             # the pose's own answer, whether or not it is the shortest
-            stationary = gap, *(x + turn @ np.array(support_of(two, (-turn.T @ n))[1:4])), *n
-            proved = no_shorter_way(one, two, tuple(turn.ravel()), *x, stationary)
+            stationary = gap, x + turn @ np.array(support_of(two, (-turn.T @ n))[1]), n
+            proved = no_shorter_way(one, two, tuple(turn.ravel()), x, stationary)
             proofs += proved
             assert not proved or most <= gap + 1e-12
     assert proofs >= count
@@ -88,10 +88,10 @@ def test_a_long_way_out_is_not_proved() -> None:
     for n in np.eye(3):
         reach = float(support_of(large, n)[0])
         inside = -reach - float(support_of(small, n)[0])
-        assert not no_shorter_way(large, small, SAME, 0.0, 0.0, 0.0, (inside, *(-(reach + inside) * n), *n))
+        assert not no_shorter_way(large, small, SAME, (0.0, 0.0, 0.0), (inside, -(reach + inside) * n, n))
         deep = -5e-7
         x = -(inside - deep) * n
-        assert no_shorter_way(large, small, SAME, *x, (deep, *((reach + deep) * n), *n))
+        assert no_shorter_way(large, small, SAME, x, (deep, (reach + deep) * n, n))
 
 
 def test_tips_against_tips() -> None:
@@ -118,10 +118,10 @@ def test_tips_against_tips() -> None:
     ):
         one, two = (np.array(Superellipsoid(*s, *e).core) for s, e in ((sizes, exponents), (others, powers)))
         turn, n = Rotation.from_quat(turned).as_matrix(), np.array(way) / np.linalg.norm(way)
-        p, q = np.array(support_of(one, n)[1:4]), np.array(support_of(two, (-turn.T @ n))[1:4])
-        found = np.array(widest(one, two, tuple(turn.ravel()), *(p + gap * n - turn @ q)))
-        assert abs(found[0] - gap) <= 1e-12
-        np.testing.assert_allclose(found[4:7], n, rtol=0, atol=1e-9)
+        p, q = np.array(support_of(one, n)[1]), np.array(support_of(two, (-turn.T @ n))[1])
+        g, _, normal = widest(one, two, tuple(turn.ravel()), tuple(p + gap * n - turn @ q))
+        assert abs(g - gap) <= 1e-12
+        np.testing.assert_allclose(normal, n, rtol=0, atol=1e-9)
 
 
 def test_uphill_the_gap_grows() -> None:
@@ -129,17 +129,17 @@ def test_uphill_the_gap_grows() -> None:
     rng = np.random.default_rng(6)
     for kinds in (("boxy", "round"), ("flat along", "flat across")):
         one, two, turn, x, _ = _pose(rng, kinds, -1e-3)
-        given: Any = (one, two, tuple(turn.ravel()), *x)
+        given: Any = (one, two, tuple(turn.ravel()), tuple(x))
         starts = starts_of(*given)
-        ways = np.array(starts)[:, 1:]
+        ways = np.array([way for _, way in starts])
         assert np.max(ways @ ways.T - np.eye(4)) <= 0.95
         for start in starts:
-            assert gap_along(*given, *start[1:]) == pytest.approx(start[0], abs=1e-15)
+            assert gap_along(*given, start[1]) == pytest.approx(start[0], abs=1e-15)
             top = uphill(*given, start, 1e-4)
             assert top[0] >= start[0]
-            nearby = np.array(top[1:]) + 1e-4 * rng.normal(size=(20, 3))
+            nearby = np.array(top[1]) + 1e-4 * rng.normal(size=(20, 3))
             nearby /= np.linalg.norm(nearby, axis=1)[:, None]
-            assert max(gap_along(*given, *n) for n in nearby) <= top[0] + 1e-6
+            assert max(gap_along(*given, n) for n in nearby) <= top[0] + 1e-6
 
 
 @pytest.mark.fast_cases(10)
@@ -155,7 +155,7 @@ def test_under_a_cap_no_direction_is_a_shorter_way_out(frustum: Any, kind: str) 
             core, turn = _core(rng, kind, 0.002), Rotation.random(random_state=rng).as_matrix()
             part, up = (HIGH_CAP, 1.0) if numbers[1] > 0.0 and rng.uniform() < 0.5 else (LOW_CAP, -1.0)
             level, radius = (numbers[3], numbers[1]) if up > 0.0 else (numbers[2], numbers[0])
-            q = turn @ np.array(support_of(core, (-turn.T @ np.array([0.0, 0.0, up])))[1:4])
+            q = turn @ np.array(support_of(core, (-turn.T @ np.array([0.0, 0.0, up])))[1])
             angle, away = rng.uniform(0.0, 2.0 * np.pi), radius * rng.uniform()
             x = np.array([away * np.cos(angle), away * np.sin(angle), level + up * gap]) - q
             found = on_cap(numbers, core, tuple(turn.ravel()), *x, part, 1e-14)

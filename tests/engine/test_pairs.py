@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import pytest
@@ -41,7 +40,7 @@ from nonsmooth.engine.memory.blocks import (
     TURN_MATRIX,
 )
 from nonsmooth.engine.native.kernel import call_entry
-from nonsmooth.interfaces import Body, ContactKinematics, Shape
+from nonsmooth.interfaces import Body, ContactKinematics, FeaturePair, Shape
 from nonsmooth.model.assembly import lay
 from nonsmooth.plugins import registry
 from nonsmooth.queries.undeclared import UndeclaredContact
@@ -84,23 +83,14 @@ def _blind(a: Sequence[float], b: Sequence[float], out: Any) -> None:
         out[POINT_A + i], out[POINT_B + i] = a[i], b[i]
 
 
-@dataclass(frozen=True)
 class Blind(ContactKinematics):
-    """A contact of any two shapes that never sees them near."""
+    """Contacts of any two shapes that never see them near."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Shape, Shape)
+    pair = (Shape, Shape)
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        return cls(), cls()
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return _blind
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        return ("none",)
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        return 2 * (FeaturePair(_blind, {}, ("none",)),)
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,12 +18,10 @@ from bodies import (
     CapsuleBody,
     CylinderBody,
     EllipsoidBody,
-    Ground,
     Harmonic,
     Hinge,
     Plate,
     Rest,
-    Sphere,
 )
 from bodies.contacts.plane.plane_point import evaluate_ball_over_plane
 from laws import Cohesive, EnergeticImpact, Frictionless, LinearCompliant, Unilateral
@@ -32,7 +30,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import PAST_END
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces import Body, ContactKinematics, Joint, Shape
+from nonsmooth.interfaces import Body, FeaturePair, Joint
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.model.assembly import assemble
 from nonsmooth.types import Floats
@@ -47,70 +45,28 @@ _point: Any = compiled(BallJoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.1)).evaluator)
 
 
 def jumping_gap(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
-    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
+    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
     if b[0] > 0.05:
         out[0] = out[0] - depth
 
 
-@dataclass(frozen=True)
-class JumpingGap(ContactKinematics):
-    """A ball over a plane whose gap falls by ``depth`` where the ball passes x = 0.05."""
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Sphere)
-    depth: float
-    radius: float = RADIUS
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        return ()
-
-    def parameters(self) -> dict[str, Any]:
-        return {"depth": self.depth, "radius": self.radius}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return jumping_gap
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        return ("plane-sphere",)
-
-
 def short_normal(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
-    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
+    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
     if b[0] > 0.05:
         out[0] = out[0] - depth
         for i in range(1, 4):
             out[i] = 1e-3 * out[i]
 
 
-@dataclass(frozen=True)
-class ShortNormal(JumpingGap):
-    """The same, with a normal there along which nothing but a long way closes the gap."""
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return short_normal
-
-
 def ending(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
-    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
+    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
     out[PAST_END] = depth if b[0] > 0.05 else -1.0
     if b[0] > 0.05 and out[0] > 0.0:
         out[0] += depth
 
 
-@dataclass(frozen=True)
-class Ending(JumpingGap):
-    """A ball over a plane that ends there: past x = 0.05 the features are past their end, a gap is no distance."""
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return ending
-
-
 def handing(a: Floats, b: Floats, out: Floats, depth: float, radius: float, x: float, onto: float) -> None:
-    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
+    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
     past = onto * (x - b[0])
     if past > 0.0:
         past += depth
@@ -118,26 +74,18 @@ def handing(a: Floats, b: Floats, out: Floats, depth: float, radius: float, x: f
     out[PAST_END] = past
 
 
-@dataclass(frozen=True)
-class Handing(JumpingGap):
-    """A ball over a plane that ends at ``x``, or begins there (``onto`` 1): behind, what stands for a gap is positive.
+def _gap(evaluator: Callable[..., None], depth: float, **values: float) -> FeaturePair:
+    """A ball over a plane whose gap falls by ``depth`` where the ball passes x = 0.05, in the way of the evaluator.
 
-    It is as long as the way past the end, to which ``depth`` is added.
+    ``short_normal``: with a normal there along which nothing but a long way closes the gap.  ``ending``: the features
+    are past their end there, and a gap is no distance.  ``handing``: the plane ends at ``x``, or begins there (``onto``
+    1); behind, what stands for a gap is positive, and as long as the way past the end, to which ``depth`` is added.
     """
-
-    x: float = 0.05
-    onto: float = -1.0
-
-    def parameters(self) -> dict[str, Any]:
-        return {**super().parameters(), "x": self.x, "onto": self.onto}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return handing
+    return FeaturePair(evaluator, {"depth": depth, "radius": RADIUS, **values}, ("plane-sphere",))
 
 
 def _over(
-    gap: JumpingGap, z: float, gravity: float | tuple[float, float, float], laws: Mapping[str, Any] = LAWS
+    gap: FeaturePair, z: float, gravity: float | tuple[float, float, float], laws: Mapping[str, Any] = LAWS
 ) -> ns.System:
     plate, ball = Plate(Rest()), Ball(RADIUS, 7800.0)
     system = ns.System([plate, ball], gravity)
@@ -156,7 +104,7 @@ def _kept(error: ns.RunFailed) -> ns.Solution:
 def test_a_gap_of_a_closed_contact_that_jumps_ends_the_run_by_name_and_moves_nothing(depth: float) -> None:
     """The ball slides at the height it has; a projection would move it by the jump."""
     with pytest.raises(ns.RunFailed, match=r"plate - ball.*the gap is -?[0-9.e-]+ m.*jumping_gap") as caught:
-        ns.simulate(_over(JumpingGap(depth), RADIUS, 9.81), 0.1)
+        ns.simulate(_over(_gap(jumping_gap, depth), RADIUS, 9.81), 0.1)
     solution = _kept(caught.value)
     assert solution.q_end[2] == pytest.approx(RADIUS, abs=1e-11)
     assert 0.05 - 1e-9 < solution.q_end[0] <= 0.1
@@ -165,7 +113,7 @@ def test_a_gap_of_a_closed_contact_that_jumps_ends_the_run_by_name_and_moves_not
 @pytest.mark.parametrize("depth", [1e-8, -1e-8])
 def test_a_jump_within_what_tolerances_explain_is_projected_away(depth: float) -> None:
     """At a tenth of what is explained the run goes on, and the gap is closed."""
-    solution = ns.simulate(_over(JumpingGap(depth), RADIUS, 9.81), 0.1)
+    solution = ns.simulate(_over(_gap(jumping_gap, depth), RADIUS, 9.81), 0.1)
     assert solution.status == "done"
     assert solution.q_end[2] == pytest.approx(RADIUS + depth, abs=1e-11)
 
@@ -175,16 +123,16 @@ def test_a_correction_that_would_move_a_body_far_ends_the_run_by_name_and_moves_
     with pytest.raises(
         ns.RunFailed, match=r"The body 'ball' would have to move by 1e-05 .* contradicts itself"
     ) as caught:
-        ns.simulate(_over(ShortNormal(1e-8), RADIUS, 9.81), 0.1)
+        ns.simulate(_over(_gap(short_normal, 1e-8), RADIUS, 9.81), 0.1)
     assert _kept(caught.value).q_end[2] == pytest.approx(RADIUS, abs=1e-11)
-    closed = ns.simulate(_over(ShortNormal(1e-10), RADIUS, 9.81), 0.1)
+    closed = ns.simulate(_over(_gap(short_normal, 1e-10), RADIUS, 9.81), 0.1)
     assert closed.q_end[2] == pytest.approx(RADIUS + 1e-7, abs=1e-11)
 
 
 def test_a_gap_of_an_open_contact_that_jumps_below_zero_ends_the_run_by_name() -> None:
     """In free flight 1 cm over the plate, with an overlap of 4 cm from nowhere."""
     with pytest.raises(ns.RunFailed, match=r"the gap is -0\.04 m.*jumping_gap") as caught:
-        ns.simulate(_over(JumpingGap(0.05), 2.0 * RADIUS, 0.0), 0.1)
+        ns.simulate(_over(_gap(jumping_gap, 0.05), 2.0 * RADIUS, 0.0), 0.1)
     assert _kept(caught.value).q_end[2] == pytest.approx(2.0 * RADIUS, abs=1e-11)
 
 
@@ -194,14 +142,14 @@ SPRING: Mapping[str, Any] = {"normal": LinearCompliant(1e4), "friction": Frictio
 def test_bodies_that_springs_hold_do_not_pass_where_their_contact_ends() -> None:
     """A ball that a spring lets into a plane loses its contact, and has no other: it would fall through the plane."""
     with pytest.raises(ns.RunFailed, match=r"plate - ball.*the gap is -[0-9.]+e-05 m.*ending") as caught:
-        ns.simulate(_over(Ending(1e-6), RADIUS, 9.81, SPRING), 0.1)
+        ns.simulate(_over(_gap(ending, 1e-6), RADIUS, 9.81, SPRING), 0.1)
     assert _kept(caught.value).q_end[0] == pytest.approx(0.05, abs=1e-9)
 
 
 def test_the_end_of_a_contact_that_jumps_is_an_event() -> None:
     """A spring holds a ball under a ceiling, and behind the end it would pull with 1 m: no step leads there."""
     pulls: Mapping[str, Any] = {**SPRING, "normal": Cohesive(1e4, 1.0)}
-    solution = ns.simulate(_over(Ending(1.0), RADIUS, (0.0, 0.0, 9.81), pulls), 0.1)
+    solution = ns.simulate(_over(_gap(ending, 1.0), RADIUS, (0.0, 0.0, 9.81), pulls), 0.1)
     assert solution.status == "done"
     assert solution.events.causes()[-1] == "end of a feature"
     assert solution.events.time[-1] == pytest.approx(0.05, abs=2e-11)
@@ -211,8 +159,8 @@ def test_the_end_of_a_contact_that_jumps_is_an_event() -> None:
 @pytest.mark.parametrize("place", [0.01, 0.02, 0.03, 0.04, 0.05, 0.06])
 def test_springs_hand_over_to_the_next_feature_though_the_first_seems_to_lift_off(place: float, jump: float) -> None:
     """Its gap jumps from an overlap to a number above zero, on one side or the other of its end by round-off."""
-    system = _over(Handing(jump, x=place), RADIUS, 9.81, SPRING)
-    following = Handing(0.0, x=0.999 * place, onto=1.0)
+    system = _over(_gap(handing, jump, x=place, onto=-1.0), RADIUS, 9.81, SPRING)
+    following = _gap(handing, 0.0, x=0.999 * place, onto=1.0)
     system.add_contact(dataclasses.replace(system.contacts[0], kinematics=following, name=""))
     solution = ns.simulate(system, 1.1 * place)
     assert solution.status == "done"

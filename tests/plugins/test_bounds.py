@@ -63,7 +63,7 @@ def _joint() -> ns.System:
 
 def _pair() -> ns.System:
     bodies = body_dummies.Ball(), body_dummies.Ball()
-    system, kinematics = ns.System(bodies), pair_dummies.Pair(pair_dummies.BEYOND)
+    system, kinematics = ns.System(bodies), pair_dummies.Pair.between(pair_dummies.FIRST, pair_dummies.SECOND)[-1]
     shapes, laws = (pair_dummies.FIRST, pair_dummies.SECOND), ns.ContactLaws(friction=Coulomb(0.2), **RIGID)
     system.add_contact(Contact.of_shapes(bodies, shapes, kinematics, laws, name="the contact"))
     return system
@@ -87,7 +87,7 @@ CASES: dict[Callable[[], ns.System], tuple[str, int, bool]] = {
     _body: ("Ball", 111, True),
     _load: ("Pull", 9, True),
     _joint: ("Point", 42, True),
-    _pair: ("Pair", 31, True),
+    _pair: ("contact 'the contact'", 31, True),
     _traction: ("Brush", 7, False),
     _rates: ("Warm", 1, False),
     _map: ("Map", 3, False),

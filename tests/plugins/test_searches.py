@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,8 +15,7 @@ from bodies import Ball, Plane, Sphere
 from laws import Coulomb, NewtonImpact, Unilateral
 from nonsmooth.binding import bounds
 from nonsmooth.compiled import compiled
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics, FeaturePair, Shape
 from nonsmooth.system.contact import Contact
 from nonsmooth.testing import check_contact_kinematics
 from nonsmooth.types import Floats
@@ -75,33 +73,19 @@ def beyond(a: Floats, b: Floats, out: Floats) -> None:
     out[10] = 1.0
 
 
-@final
-@dataclass(frozen=True)
-class Near(ContactKinematics):
+def near(search: CandidateSearch) -> FeaturePair:
     """Two spheres, found by a search."""
+    return FeaturePair(_evaluate, {"candidate": (0.0, 0.0, 0.0, 0.0)}, ("spheres",), search)
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Sphere, Sphere)
-    search: CandidateSearch
-    number: int
+
+class Near(ContactKinematics):
+    """Spheres that are searched for."""
+
+    pair = (Sphere, Sphere)
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        return ()
-
-    @property
-    def candidates(self) -> CandidateSearch:
-        return self.search
-
-    def parameters(self) -> dict[str, Value]:
-        return {"candidate": (0.0, 0.0, 0.0, 0.0)}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        return ("spheres",)
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        return (near(CandidateSearch(finds, {}, COUNTS)),)
 
 
 @pytest.fixture(autouse=True)
@@ -119,7 +103,7 @@ def _approaching(function: Callable[..., None], second: Shape | None = None, sta
     shapes = Sphere(0.2, x=0.1), second or Sphere(0.3, y=-0.05)
     for i in range(2):
         system.add_contact(
-            Contact.of_shapes((one, two), shapes, Near(search, i), ns.ContactLaws(**LAWS), name=f"pair {i}")
+            Contact.of_shapes((one, two), shapes, near(search), ns.ContactLaws(**LAWS), name=f"pair {i}")
         )
     return system
 
@@ -138,9 +122,7 @@ def test_a_sound_search_is_an_impact() -> None:
 @pytest.mark.filterwarnings("ignore::nonsmooth.RunsInPython")
 def test_a_search_that_fails_ends_the_run(function: Callable[..., None]) -> None:
     """By name; up to there the run stands."""
-    with pytest.raises(
-        ns.RunFailed, match=rf"Near \(contact 'pair 0'\): {function.__name__} in .*test_searches.py"
-    ) as caught:
+    with pytest.raises(ns.RunFailed, match=rf"contact 'pair 0': {function.__name__} in .*test_searches.py") as caught:
         ns.simulate(_approaching(function), 1.5)
     solution = caught.value.solution
     assert isinstance(solution, ns.Solution)
@@ -153,7 +135,7 @@ def test_a_search_that_fails_ends_the_run(function: Callable[..., None]) -> None
 @pytest.mark.parametrize("function", [without_number, raising, negative], ids=lambda f: f.__name__)
 def test_a_search_that_fails_at_the_start_is_named(function: Callable[..., None]) -> None:
     """Before anything runs."""
-    with pytest.raises(ns.PluginError, match=rf"^Near \(contact 'pair 0'\): {function.__name__} in .*test_searches.py"):
+    with pytest.raises(ns.PluginError, match=rf"^contact 'pair 0': {function.__name__} in .*test_searches.py"):
         ns.simulate(_approaching(function, start=0.75), 0.5)
 
 
@@ -163,7 +145,7 @@ def test_a_search_that_writes_beyond_its_room_is_named(tried: bool, monkeypatch:
     if not tried:
         monkeypatch.setattr(bounds, "_MOST", 0)
     said = "reaches for number 10 of a block of 10" if tried else "has written past the 10 numbers of its block"
-    with pytest.raises(ns.PluginError, match=rf"^Near \(contact 'pair 0'\): beyond in .*{said}"):
+    with pytest.raises(ns.PluginError, match=rf"^[Cc]ontact 'pair 0': beyond in .*{said}"):
         ns.simulate(_approaching(beyond, start=0.75), 0.5)
 
 
@@ -177,6 +159,5 @@ def test_unbounded_shapes_have_no_search() -> None:
 
 def test_the_kit_takes_contacts_of_given_features() -> None:
     """A contact that holds no features has no properties."""
-    contact = Near(CandidateSearch(finds, {}, COUNTS), 0)
-    with pytest.raises(ns.InvalidInput, match=r"Near must be a contact of given features"):
-        check_contact_kinematics(contact, Sphere(0.2), Sphere(0.3))
+    with pytest.raises(ns.InvalidInput, match=r"Near: a contact must be of given features"):
+        check_contact_kinematics(Near, Sphere(0.2), Sphere(0.3))

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 from bodies import Sphere, SphereSphere
 from nonsmooth.compiled import compiled
-from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
 FIRST, SECOND = Sphere(0.2, x=0.1), Sphere(0.3, y=-0.05)
@@ -59,40 +57,17 @@ def evaluate(a: Floats, b: Floats, out: Floats, fault: float) -> None:
             out[10 + i] = out[10 + i] + shift * out[1 + i]
 
 
-@dataclass(frozen=True)
 class Pair(ContactKinematics):
-    """Two spheres, 0 for no fault."""
+    """Two spheres: a contact without a fault, then one of each fault."""
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Sphere, Sphere)
-    fault: float = 0.0
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        return tuple(cls(fault) for fault in (0.0, *FAULTS.values(), BEYOND))
-
-    def parameters(self) -> dict[str, Any]:
-        return {"fault": self.fault}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        return ("sphere-sphere",)
-
-
-@dataclass(frozen=True)
-class Single(Pair):
-    """One whose `between` gives others."""
+    pair = (Sphere, Sphere)
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        return ()
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        return tuple(
+            FeaturePair(evaluate, {"fault": fault}, ("sphere-sphere",)) for fault in (0.0, *FAULTS.values(), BEYOND)
+        )
 
 
-DUMMIES: list[tuple[str, ContactKinematics]] = [
-    *((name, Pair(fault)) for name, fault in FAULTS.items()),
-    ("writes its block", Pair(BEYOND)),
-    ("pair", Single()),
-]
+DUMMIES: list[tuple[str, int]] = [(name, 1 + number) for number, name in enumerate([*FAULTS, "writes its block"])]
+"""Property and number of the contact that breaks it."""

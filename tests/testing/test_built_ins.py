@@ -253,12 +253,16 @@ SHAPES: list[tuple[Shape, Shape]] = [
 def _of_pair(first: Shape, second: Shape) -> list[Property]:
     """Return the properties of the contacts of a pair of shapes."""
     owner = _owner(first, second)
-    contacts = [contact for contact in owner.between(first, second) if type(contact) is owner]
-    found = [p for p in check_contact_kinematics(contacts[-1], first, second) if p.name not in owner.departures]
-    # of a class that departs from what depends on the pose, a contact may well have it
-    kept = {"gap rate", "second-order terms"} - set(owner.departures)
-    for contact in contacts[:-1] if kept else ():
-        found += [p for p in check_contact_kinematics(contact, first, second) if p.name in kept]
+    contacts = owner.between(first, second)
+    # all of one contact with each evaluator, and of the others what depends on the features
+    whole = {contact.evaluator: number for number, contact in enumerate(contacts)}.values()
+    found = []
+    for number, contact in enumerate(contacts):
+        kept = {"gap rate", "second-order terms"} - set(contact.departures)
+        if number in whole or kept:
+            wanted = check_contact_kinematics(owner, first, second, contacts=[number])
+            # of a pair that departs from what depends on the pose, a contact may well have it
+            found += [p for p in wanted if not p.departure and (number in whole or p.name in kept)]
     return found
 
 

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from bodies import Plane
 from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     Body,
-    ContactKinematics,
     DistanceBackend,
     Engine,
+    FeaturePair,
     Guard,
     Joint,
     Load,
@@ -60,8 +63,35 @@ def test_body(name: str, thing: Body) -> None:
 
 @pytest.mark.fast_cases(1)
 @_cases(pair_dummies.DUMMIES)
-def test_kinematics(name: str, thing: ContactKinematics) -> None:
-    assert_caught(check_contact_kinematics(thing, FIRST, SECOND), name)
+def test_kinematics(name: str, thing: int) -> None:
+    assert_caught(check_contact_kinematics(Pair, FIRST, SECOND, contacts=[thing]), name)
+
+
+class Nameless(Pair):
+    """Contacts whose features have no names."""
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        return tuple(replace(contact, features=()) for contact in super().between(first, second))
+
+
+class Empty(Pair):
+    """No contacts."""
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        return ()
+
+
+def test_kinematics_that_give_nothing_to_check_are_refused() -> None:
+    """By the rule that is broken."""
+    for kinematics, second, words in (
+        (Nameless, SECOND, "Nameless: features must be names"),
+        (Empty, SECOND, "Empty.between must return a contact"),
+        (Pair, Plane(), "Pair: shape must be a Sphere"),
+    ):
+        with pytest.raises(InvalidInput, match=words):
+            check_contact_kinematics(kinematics, FIRST, second)
 
 
 @_cases(distance_dummies.DUMMIES)
@@ -144,7 +174,7 @@ def test_scenario(name: str, thing: Scenario) -> None:
     [
         (check_body(body_dummies.Flying()), body_dummies.DUMMIES),
         (check_body(body_dummies.Swing()), body_dummies.DUMMIES),
-        (check_contact_kinematics(Pair(), FIRST, SECOND), pair_dummies.DUMMIES),
+        (check_contact_kinematics(Pair, FIRST, SECOND), pair_dummies.DUMMIES),
         (scenario_dummies.checked(scenario_dummies.Bounce()), scenario_dummies.DUMMIES),
         (check_joint(joint_dummies.Point()), joint_dummies.DUMMIES),
         (check_load(load_dummies.Pull()), load_dummies.DUMMIES),

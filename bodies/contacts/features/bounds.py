@@ -16,33 +16,21 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, vector_at
+from ...vectors import Vector3, ahead, cross, dot, minus, size_of, times, vector_at
 from .frames import point_in_world, vector_in_world
 from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
 
 @compiled
-def _dot(a: Vector3, b: Vector3) -> float:
-    """Return the product of two vectors."""
-    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
-
-
-@compiled
-def _cross(a: Vector3, b: Vector3) -> Vector3:
-    """Return the cross product of two vectors."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-@compiled
 def square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
     """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q."""
-    across, along_e, along_f = _dot(e, f), _dot(w, e), _dot(w, f)
+    across, along_e, along_f = dot(e, f), dot(w, e), dot(w, f)
     sine = 1.0 - across * across
     s = min(max((along_e - across * along_f) / sine, 0.0), p) if sine > 0.0 else 0.0
     t = min(max(s * across - along_f, 0.0), q)
     s = min(max(along_e + t * across, 0.0), p)
-    x, y, z = w[0] + t * f[0] - s * e[0], w[1] + t * f[1] - s * e[1], w[2] + t * f[2] - s * e[2]
-    return float(x * x + y * y + z * z)
+    apart = minus(ahead(w, t, f), times(s, e))
+    return float(dot(apart, apart))
 
 
 @compiled
@@ -52,23 +40,18 @@ def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends:
     ``along`` is the unit vector of the edge. ``inward`` are the unit vectors into its faces, ``ends`` the normals of
     these.
     """
-    if max(_dot(n, inward[0]), _dot(n, inward[1])) <= 0.0:
+    if max(dot(n, inward[0]), dot(n, inward[1])) <= 0.0:
         # n is above the arc: the sine of its angle with the plane of the arc
-        return float(abs(_dot(n, along)))
-    nearest = math.inf
-    for i in range(2):
-        end = ends[0] if i == 0 else ends[1]
-        x, y, z = n[0] - end[0], n[1] - end[1], n[2] - end[2]
-        # a chord is shorter than the angle
-        nearest = min(nearest, math.sqrt(x * x + y * y + z * z))
-    return nearest
+        return float(abs(dot(n, along)))
+    # a chord is shorter than the angle
+    return float(min(size_of(minus(n, ends[0])), size_of(minus(n, ends[1]))))
 
 
 @compiled
 def _of_row(frame: Floats, edges: Floats, at: int, sign: float) -> Vector3:
     """Return ``sign`` times a vector of a row of edges, in the world."""
-    x, y, z = vector_in_world(frame, (sign * edges[at], sign * edges[at + 1], sign * edges[at + 2]))
-    return x, y, z
+    found: Vector3 = vector_in_world(frame, times(sign, vector_at(edges, at)))
+    return found
 
 
 @compiled
@@ -78,13 +61,12 @@ def _between_arcs(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Flo
     into_a = _of_row(a, edges_a, at_a + INTO_FIRST, 1.0), _of_row(a, edges_a, at_a + INTO_SECOND, 1.0)
     # the vectors into the faces of the second body, reversed, for its opposite normals
     into_b = _of_row(b, edges_b, at_b + INTO_FIRST, -1.0), _of_row(b, edges_b, at_b + INTO_SECOND, -1.0)
-    ends_a = _cross(e, into_a[0]), _cross(into_a[1], e)
-    ends_b = _cross(f, into_b[0]), _cross(into_b[1], f)
-    c = _cross(e, f)
+    ends_a = cross(e, into_a[0]), cross(into_a[1], e)
+    ends_b = cross(f, into_b[0]), cross(into_b[1], f)
     for sign in (1.0, -1.0):
-        x = sign * c[0], sign * c[1], sign * c[2]
+        n = times(sign, cross(e, f))
         # the arcs cross: the common normal belongs to both
-        if max(max(_dot(x, into_a[0]), _dot(x, into_a[1])), max(_dot(x, into_b[0]), _dot(x, into_b[1]))) <= 0.0:
+        if max(max(dot(n, into_a[0]), dot(n, into_a[1])), max(dot(n, into_b[0]), dot(n, into_b[1]))) <= 0.0:
             return 0.0
     found = min(
         min(_from_arc(ends_a[0], f, into_b, ends_b), _from_arc(ends_a[1], f, into_b, ends_b)),
@@ -99,9 +81,8 @@ def edges_bound(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Float
 
     Of an edge without faces, the segment of a capsule, only the distance counts: its vectors into the faces are 0.
     """
-    ax, ay, az = point_in_world(a, vector_at(edges_a, at_a))
-    bx, by, bz = point_in_world(b, vector_at(edges_b, at_b))
+    w = minus(point_in_world(b, vector_at(edges_b, at_b)), point_in_world(a, vector_at(edges_a, at_a)))
     e, f = _of_row(a, edges_a, at_a + ALONG, 1.0), _of_row(b, edges_b, at_b + ALONG, 1.0)
     p, q = edges_a[at_a + LENGTH], edges_b[at_b + LENGTH]
-    distance = math.sqrt(square_of_lines((bx - ax, by - ay, bz - az), e, p, f, q))
+    distance = math.sqrt(square_of_lines(w, e, p, f, q))
     return float(max(distance, 0.5 * min(p, q) * _between_arcs(a, b, edges_a, at_a, edges_b, at_b)))

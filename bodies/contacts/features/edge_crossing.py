@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.numerics.tolerances import GAP, RELATIVE_GAP
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, vector_at
+from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of, times, vector_at
 from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
 from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
@@ -36,21 +35,15 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
     The normals of an edge lie between the normals of its two faces.  The result is not positive within this range.  The
     row of the edge begins at index ``at`` of ``edge``.
     """
-    x, y, z = vector_in_body(frame, (sign * x, sign * y, sign * z))
-    one, two = at + INTO_FIRST, at + INTO_SECOND
-    return float(
-        max(
-            x * edge[one] + y * edge[one + 1] + z * edge[one + 2],
-            x * edge[two] + y * edge[two + 1] + z * edge[two + 2],
-        )
-    )
+    n = vector_in_body(frame, (sign * x, sign * y, sign * z))
+    return float(max(dot(n, vector_at(edge, at + INTO_FIRST)), dot(n, vector_at(edge, at + INTO_SECOND))))
 
 
 @compiled
 def _across_of(e: Vector3, f: Vector3) -> Vector3:
     """Return the shorter of the vectors f - e and f + e of two unit vectors."""
-    sign = 1.0 if e[0] * f[0] + e[1] * f[1] + e[2] * f[2] > 0.0 else -1.0
-    return f[0] - sign * e[0], f[1] - sign * e[1], f[2] - sign * e[2]
+    shorter: Vector3 = minus(f, times(1.0 if dot(e, f) > 0.0 else -1.0, e))
+    return shorter
 
 
 @compiled
@@ -85,39 +78,28 @@ def cross_edges(
     ``parallel``, or if the normal is farther than ``ASTRAY`` from the normals of an edge.  The rows of the edges begin
     at the indices ``at_a`` and ``at_b``.
     """
-    ax, ay, az = point_in_world(a, vector_at(edge_a, at_a))
-    bx, by, bz = point_in_world(b, vector_at(edge_b, at_b))
-    along_a, along_b = at_a + ALONG, at_b + ALONG
-    ex, ey, ez = vector_in_world(a, vector_at(edge_a, along_a))
-    fx, fy, fz = vector_in_world(b, vector_at(edge_b, along_b))
-    wx, wy, wz = bx - ax, by - ay, bz - az
+    start = point_in_world(a, vector_at(edge_a, at_a))
+    e, f = vector_in_world(a, vector_at(edge_a, at_a + ALONG)), vector_in_world(b, vector_at(edge_b, at_b + ALONG))
+    w = minus(point_in_world(b, vector_at(edge_b, at_b)), start)
     # e x f = e x (f - e): the short vector f - e keeps its digits, so the normal of nearly parallel edges is accurate
-    dx, dy, dz = _across_of((ex, ey, ez), (fx, fy, fz))
-    nx, ny, nz = ey * dz - ez * dy, ez * dx - ex * dz, ex * dy - ey * dx
-    sine = math.sqrt(nx * nx + ny * ny + nz * nz)
-    s, t, over, past = 0.0, 0.0, 0.0, size
+    n = cross(e, _across_of(e, f))
+    sine = size_of(n)
+    s, t, past_ends, past = 0.0, 0.0, 0.0, size
     if sine > 1e-3 * parallel:
-        nx, ny, nz = nx / sine, ny / sine, nz / sine
+        n = over(n, sine)
         # s and t: distances of the nearest points along the lines, s = (w x f) . n / sine and t = (w x e) . n / sine,
         # with the unit vectors e and f of the lines and the vector w from the start of the first to that of the second
-        s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
-        t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
-        over = max(max(-s, s - edge_a[at_a + LENGTH]), max(-t, t - edge_b[at_b + LENGTH]))
-        past = max(over - margin, size * (1.0 - sine / parallel))
+        s, t = dot(n, cross(w, f)) / sine, dot(n, cross(w, e)) / sine
+        past_ends = max(max(-s, s - edge_a[at_a + LENGTH]), max(-t, t - edge_b[at_b + LENGTH]))
+        past = max(past_ends - margin, size * (1.0 - sine / parallel))
     else:
-        along = wx * ex + wy * ey + wz * ez
-        nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez
-        apart = math.sqrt(nx * nx + ny * ny + nz * nz)
-        if apart > 0.0:
-            nx, ny, nz = nx / apart, ny / apart, nz / apart
-        else:
-            nx, ny, nz = tangent_of((ex, ey, ez))
+        n = minus(w, times(dot(w, e), e))
+        apart = size_of(n)
+        n = over(n, apart) if apart > 0.0 else tangent_of(e)
     # measured between the nearest points, so that the length of the edges does not multiply the error of the normal
-    wx, wy, wz = wx + t * fx - s * ex, wy + t * fy - s * ey, wz + t * fz - s * ez
-    gap = wx * nx + wy * ny + wz * nz
-    plus = max(edge_astray(a, edge_a, at_a, 1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, -1.0, nx, ny, nz))
-    minus = max(edge_astray(a, edge_a, at_a, -1.0, nx, ny, nz), edge_astray(b, edge_b, at_b, 1.0, nx, ny, nz))
-    if minus < plus or (minus == plus and gap < 0.0):
-        nx, ny, nz, gap, plus = -nx, -ny, -nz, -gap, minus
-    p = ax + s * ex, ay + s * ey, az + s * ez
-    return p, (ex, ey, ez), (fx, fy, fz), (nx, ny, nz), gap, over, max(past, size * (plus - ASTRAY))
+    gap = dot(minus(ahead(w, t, f), times(s, e)), n)
+    astray = max(edge_astray(a, edge_a, at_a, 1.0, *n), edge_astray(b, edge_b, at_b, -1.0, *n))
+    reversed_astray = max(edge_astray(a, edge_a, at_a, -1.0, *n), edge_astray(b, edge_b, at_b, 1.0, *n))
+    if reversed_astray < astray or (reversed_astray == astray and gap < 0.0):
+        n, gap, astray = opposite(n), -gap, reversed_astray
+    return ahead(start, s, e), e, f, n, gap, past_ends, max(past, size * (astray - ASTRAY))

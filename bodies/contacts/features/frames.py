@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.blocks import NORMAL, POSITION, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
 from ...shapes.placement import turned
-from ...vectors import Vector3, minus, vector_at
+from ...vectors import Vector3, dot, minus, over, put, size_of, times, vector_at
 
 
 @compiled
@@ -62,18 +62,16 @@ def across(vector: Vector3, axis: Vector3) -> tuple[float, float, Vector3]:
 
     The unit vector is perpendicular to the axis even if the part across the axis is zero.
     """
-    (x, y, z), (axis_x, axis_y, axis_z) = vector, axis
-    along = x * axis_x + y * axis_y + z * axis_z
-    x, y, z = x - along * axis_x, y - along * axis_y, z - along * axis_z
-    size = math.sqrt(x * x + y * y + z * z)
+    along = dot(vector, axis)
+    part = minus(vector, times(along, axis))
+    size = size_of(part)
     if size > 0.0:
-        x, y, z = x / size, y / size, z / size
+        part = over(part, size)
         # if the vector is nearly parallel to the axis, its part across is round-off and may lean: project again
-        rest = x * axis_x + y * axis_y + z * axis_z
-        x, y, z = x - rest * axis_x, y - rest * axis_y, z - rest * axis_z
-        length = math.sqrt(x * x + y * y + z * z)
+        part = minus(part, times(dot(part, axis), axis))
+        length = size_of(part)
         if length > 0.5:
-            return along, size, (x / length, y / length, z / length)
+            return along, size, over(part, length)
     return along, size, tangent_of(axis)
 
 
@@ -108,7 +106,4 @@ def write_tangent(a: Floats, out: Floats) -> None:
 
     The tangent depends only on the direction of the normal in the axes of the first body, whose frame block is ``a``.
     """
-    x, y, z = tangent_of(vector_in_body(a, vector_at(out, NORMAL)))
-    for i in range(3):
-        r = ROTATION + 3 * i
-        out[TANGENT + i] = a[r] * x + a[r + 1] * y + a[r + 2] * z
+    put(out, TANGENT, vector_in_world(a, tangent_of(vector_in_body(a, vector_at(out, NORMAL)))))

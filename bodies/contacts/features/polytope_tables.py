@@ -7,14 +7,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.types import Floats
 
 from ...shapes.polytope import Polytope
 
+N_FACES, N_EDGES, N_VERTICES, FACES, EDGES, ENDS, VERTICES = range(7)
+"""Indices in the head of a core's numbers (:func:`core_numbers`).
+
+Names that begin with ``N_`` are indices of a number of rows.  The others are indices of the offset at which the rows of
+that name begin.
+"""
 FACE = 5
 """Floats in the row of a face: outward normal, distance of its plane from the origin [m], depth of the body [m]."""
 EDGE = 13
 """Floats in the row of an edge: first end [m], unit vector, length [m], unit vectors into its first and second face."""
+VERTEX = 5
+"""Floats in the row of a vertex: position [m], number of its edges, index of the unit vectors along them."""
 START, ALONG, LENGTH, INTO_FIRST, INTO_SECOND = 0, 3, 6, 7, 10
 """Offsets in the row of an edge: first end, unit vector, length, unit vector into the first face, into the second."""
 
@@ -31,6 +41,56 @@ def face_table(polytope: Polytope) -> Numbers:
     vertices = np.array(polytope.vertices)
     rows = [(*plane, plane[3] - float(np.min(vertices @ plane[:3]))) for plane in polytope.planes]
     return tuple(itertools.chain(*rows))
+
+
+def core_numbers(polytope: Polytope) -> SharedNumbers:
+    """Return the numbers of a polyhedron or a segment: head, faces, edges, ends of edges, vertices, unit vectors.
+
+    A segment has no faces.  The unit vectors lead from each vertex along its edges.
+    """
+    stars = [star_of(polytope, i) for i in range(len(polytope.vertices))]
+    faces, edges, ends = face_table(polytope), [*itertools.chain(*edge_rows(polytope))], end_table(polytope)
+    sizes = len(faces), len(edges), len(ends), VERTEX * len(stars), *map(len, stars)
+    begins = [*itertools.accumulate(sizes, initial=7)]
+    rows = [(*place, len(star) // 3, at) for place, star, at in zip(polytope.vertices, stars, begins[4:], strict=False)]
+    head = len(faces) // FACE, len(polytope.edges), len(stars), *begins[:4]
+    return SharedNumbers([*head, *faces, *edges, *ends, *itertools.chain(*rows), *itertools.chain(*stars)])
+
+
+def point_numbers(*place: float) -> SharedNumbers:
+    """Return the numbers of a point, without faces and edges; of nothing if no place is given [m]."""
+    return SharedNumbers([0.0, 0.0, 1.0 if place else 0.0, 7.0, 7.0, 7.0, 7.0, *place, 0.0, 0.0])
+
+
+def part_names(polytope: Polytope) -> list[str]:
+    """Return the names of all faces, edges and vertices by number; the edge of a segment is its side."""
+    edge = "edge" if polytope.planes else "side"
+    counts = ("face", len(polytope.planes)), (edge, len(polytope.edges)), ("vertex", len(polytope.vertices))
+    return [f"{kind} {i}" for kind, n in counts for i in range(n)]
+
+
+@compiled
+def faces_of(core: Floats) -> tuple[float, Floats]:
+    """Return the number of the faces of a core, and their rows."""
+    return core[N_FACES], block_at(core, int(core[FACES]))
+
+
+@compiled
+def edges_of(core: Floats) -> tuple[float, Floats]:
+    """Return the number of the edges of a core, and their rows."""
+    return core[N_EDGES], block_at(core, int(core[EDGES]))
+
+
+@compiled
+def edge_at(core: Floats, edge: float) -> int:
+    """Return the index at which the row of an edge begins."""
+    return int(core[EDGES]) + EDGE * int(edge)
+
+
+@compiled
+def vertex_at(core: Floats, vertex: float) -> int:
+    """Return the index at which the row of a vertex begins."""
+    return int(core[VERTICES]) + VERTEX * int(vertex)
 
 
 @dataclass(frozen=True)
@@ -62,33 +122,14 @@ class ConvexCore:
         """Return the numbers of a point without faces, or of nothing if no place is given."""
         return cls(SharedNumbers(()), SharedNumbers(place), SharedNumbers(()))
 
-    @property
-    def n_faces(self) -> int:
-        """Number of faces."""
-        return len(self.faces) // FACE
-
-    @property
-    def n_edges(self) -> int:
-        """Number of edges."""
-        return len(self.edges) // EDGE
-
-    @property
-    def n_vertices(self) -> int:
-        """Number of vertices."""
-        return len(self.vertices) // 3
-
     def values(self, side: str = "") -> dict[str, Value]:
         """Return faces and vertices by the names of the evaluators' arguments, which end with ``side``."""
         return {
-            f"n_faces{side}": float(self.n_faces),
+            f"n_faces{side}": float(len(self.faces) // FACE),
             f"faces{side}": self.faces or (0.0,),
-            f"n_vertices{side}": float(self.n_vertices),
+            f"n_vertices{side}": float(len(self.vertices) // 3),
             f"vertices{side}": self.vertices or (0.0,),
         }
-
-    def values_with_edges(self, side: str) -> dict[str, Value]:
-        """Return faces, vertices and edges by the names of the evaluators' arguments, which end with ``side``."""
-        return {**self.values(side), f"n_edges{side}": float(self.n_edges), f"edges{side}": self.edges}
 
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:

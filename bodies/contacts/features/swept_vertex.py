@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from typing import ClassVar, final
+from collections.abc import Iterator
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.interfaces import FeaturePair
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Point
-from ...vectors import put, vector_at
+from ...vectors import Vector3, dot, minus, put, times, vector_at
 from .frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
-from .polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
-from .vertex_face import Nearest, nearest_feature
+from .polytope_tables import EDGE, ENDS, N_FACES, core_numbers, edges_of, faces_of, part_names, vertex_at
+from .vertex_face import Nearest, nearest_of_core
 from .writing import write_flat, write_principal, write_round
 
 END = 3e-10
@@ -50,11 +47,9 @@ def past_star(
     the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the other
     core the result is negative.
     """
-    x, y, z = vector_in_body(frame, (nx, ny, nz))
-    past = -size
+    n, past = vector_in_body(frame, (nx, ny, nz)), -size
     for i in range(int(n_star) if distance > 0.0 else 0):
-        along = x * star[3 * i] + y * star[3 * i + 1] + z * star[3 * i + 2]
-        past = max(past, -distance * along)
+        past = max(past, -distance * dot(n, vector_at(star, 3 * i)))
     return past - 2.0 * END * size
 
 
@@ -96,7 +91,7 @@ def write_vertex_over(
     """
     other = b if swap == 1.0 else a
     number, distance, nx, ny, nz, within = found
-    nx, ny, nz = vector_in_world(other, (nx, ny, nz))
+    n = vector_in_world(other, (nx, ny, nz))
     shared = END * size - within if swap == 1.0 else -math.inf
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
@@ -105,236 +100,139 @@ def write_vertex_over(
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
     out[GAP], out[FEATURE], out[PAST_END] = gap, number, past
-    put(out, NORMAL, (sign * nx, sign * ny, sign * nz))
-    put(out, near, (center[0] - radius * nx, center[1] - radius * ny, center[2] - radius * nz))
-    put(out, far, (out[near] - gap * nx, out[near + 1] - gap * ny, out[near + 2] - gap * nz))
+    put(out, NORMAL, times(sign, n))
+    put(out, near, minus(center, times(radius, n)))
+    put(out, far, minus(vector_at(out, near), times(gap, n)))
     write_tangent(a, out)
     write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
 
 
-def _evaluate(
+@compiled
+def write_vertex(
     a: Floats,
     b: Floats,
     out: Floats,
     swap: float,
-    n_faces: float,
-    faces: Floats,
-    n_edges: float,
-    edges: Floats,
-    ends: Floats,
-    sweep: float,
-    x_v: float,
-    y_v: float,
-    z_v: float,
+    core: Floats,
+    own_faces: tuple[float, Floats],
+    place: Vector3,
     n_star: float,
     star: Floats,
-    n_own_faces: float,
-    own_faces: Floats,
+    sweep: float,
     radius: float,
     size: float,
 ) -> None:
-    """Write the geometry block of a vertex against a core; see the attributes of :class:`SweptVertex`."""
-    own, other = (a, b) if swap == 1.0 else (b, a)
-    px, py, pz = point_in_world(own, (x_v, y_v, z_v))
-    x, y, z = point_in_body(other, (px, py, pz))
-    found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    nx, ny, nz = vector_in_world(other, (found[2], found[3], found[4]))
-    number, distance, _, _, _, within = found
+    """Write the geometry block of a vertex, with its radius, against the nearest feature of a swept core.
+
+    If two vertices touch, only the contact of the second body's vertex closes; that of the first body's vertex is open.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks and geometry block.
+    swap : float
+        1 if the vertex belongs to the first body, else 0.
+    core : Floats
+        Core of the other body (:func:`bodies.contacts.features.polytope_tables.core_numbers`).
+    own_faces : tuple
+        Number and rows of the faces of the core to which the vertex belongs; none if its body is not convex.
+    place : tuple of float
+        The vertex in its body frame [m].
+    n_star, star : float and Floats
+        Unit vectors along the edges that begin at the vertex, in the body frame.
+    sweep, radius : float
+        Radii about the core and about the vertex [m].
+    size : float
+        Size of the larger body [m].
+    """
+    own_frame, other = (a, b) if swap == 1.0 else (b, a)
+    p = point_in_world(own_frame, place)
+    point = point_in_body(other, p)
+    number, distance, x, y, z, within = nearest_of_core(core, point)
+    n = vector_in_world(other, (x, y, z))
     # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
-    past = past_star(own, star, n_star if number >= int(n_faces) else 0.0, distance, nx, ny, nz, size)
+    past = past_star(own_frame, star, n_star if number >= int(core[N_FACES]) else 0.0, distance, *n, size)
     # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
     part = part_of_overlap(radius + sweep - distance, size)
     if distance > 0.0 and part > 0.0:
         # the contact normal and the common direction u point from the first body to the second
         sign = 1.0 - 2.0 * swap
-        if swap == 1.0:
-            u = common_direction(a, b, n_own_faces, own_faces, n_faces, faces, -nx, -ny, -nz)
-        else:
-            u = common_direction(a, b, n_faces, faces, n_own_faces, own_faces, nx, ny, nz)
-        if u[0] * u[0] + u[1] * u[1] + u[2] * u[2] > 0.0:
-            u = sign * u[0], sign * u[1], sign * u[2]
+        first, second = (own_faces, faces_of(core)) if swap == 1.0 else (faces_of(core), own_faces)
+        u = common_direction(a, b, *first, *second, *times(sign, n))
+        if dot(u, u) > 0.0:
+            ends = block_at(core, int(core[ENDS]))
             beyond, within = vertex_past_corner(
-                own, other, swap == 1.0, u, n_faces, faces, n_edges, edges, ends, n_star, star, x, y, z, size
+                own_frame,
+                other,
+                swap == 1.0,
+                times(sign, u),
+                *faces_of(core),
+                *edges_of(core),
+                ends,
+                n_star,
+                star,
+                *point,
+                size,
             )
             past = (1.0 - part) * past + part * beyond
-    found = number, distance, found[2], found[3], found[4], within
-    write_vertex_over(a, b, out, swap, (px, py, pz), radius, found, past, n_faces, n_edges, edges, sweep, size)
+    found = number, distance, x, y, z, within
+    write_vertex_over(a, b, out, swap, p, radius, found, past, core[N_FACES], *edges_of(core), sweep, size)
 
 
-def _bound(
+def evaluate_vertex_over_swept(
     a: Floats,
     b: Floats,
     out: Floats,
     swap: float,
-    n_faces: float,
-    faces: Floats,
-    n_edges: float,
-    edges: Floats,
-    ends: Floats,
+    core: Floats,
+    own: Floats,
+    vertex: float,
     sweep: float,
-    x_v: float,
-    y_v: float,
-    z_v: float,
-    n_star: float,
-    star: Floats,
-    n_own_faces: float,
-    own_faces: Floats,
     radius: float,
     size: float,
 ) -> None:
-    own, other = (a, b) if swap == 1.0 else (b, a)
-    px, py, pz = point_in_world(own, (x_v, y_v, z_v))
-    x, y, z = point_in_body(other, (px, py, pz))
-    _, distance, _, _, _, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
-    out[0] = distance - sweep - radius
+    """Write the geometry block of a vertex of a core over another core; arguments as in :func:`write_vertex`."""
+    v = vertex_at(own, vertex)
+    place, star = vector_at(own, v), block_at(own, int(own[v + 4]))
+    write_vertex(a, b, out, swap, core, faces_of(own), place, own[v + 3], star, sweep, radius, size)
 
 
-write_vertex = compiled(_evaluate)
-"""Compiled function that writes the geometry block of a vertex over a swept core; other contacts call it, too."""
+def bound_of_vertex(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    core: Floats,
+    own: Floats,
+    vertex: float,
+    sweep: float,
+    radius: float,
+    size: float,
+) -> None:
+    """Write the distance of a vertex from a core, less both radii [m]."""
+    own_frame, other = (a, b) if swap == 1.0 else (b, a)
+    place = point_in_world(own_frame, vector_at(own, vertex_at(own, vertex)))
+    out[0] = nearest_of_core(core, point_in_body(other, place))[1] - sweep - radius
 
 
-def size_of(first: SweptPolytope, second: SweptPolytope) -> float:
+def size_of_both(first: SweptPolytope, second: SweptPolytope) -> float:
     """Return the size of the larger of two shapes [m]."""
     return max(shape.core.size + 2.0 * shape.sweep for shape in (first, second))
 
 
-@final
-@dataclass(frozen=True)
-class SweptVertex(ContactKinematics):
-    """A vertex, with its radius, against the nearest face, edge or vertex of a swept core of the other body.
-
-    If two vertices touch, only the contact of the second body's vertex closes; that of the first body's vertex is open.
-
-    Attributes
-    ----------
-    swap : bool
-        Whether the vertex belongs to the first body.
-    faces, edges : tuple of float
-        All faces and edges of the core (:mod:`bodies.contacts.features.polytope_tables`).
-    ends : tuple of float
-        Indices of the two vertices of each edge.
-    sweep : float
-        Radius of the sphere that sweeps the core [m].
-    place : tuple of float
-        The vertex in its body frame [m].
-    star : tuple of float
-        Unit vectors along the edges that begin at the vertex, in the body frame.
-    own_faces : tuple of float
-        All faces of the core to which the vertex belongs; empty if the body is not convex.
-    radius : float
-        Radius of the sphere about the vertex, the rounding of its body [m]; 0 if it is sharp.
-    size : float
-        Size of the larger body [m].
-    name : str
-        Name of the vertex.
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SweptPolytope, SweptPolytope)
-    swap: bool
-    faces: Numbers
-    edges: Numbers
-    ends: Numbers
-    sweep: float
-    place: tuple[float, float, float]
-    star: Numbers
-    own_faces: Numbers
-    radius: float
-    size: float
-    name: str
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[SweptVertex, ...]:
-        """Return the contacts of all vertices of the second shape, then those of the first."""
-        assert isinstance(first, SweptPolytope)
-        assert isinstance(second, SweptPolytope)
-        size = size_of(first, second)
-        return tuple(
-            contact
-            for swap, own, other in ((False, second, first), (True, first, second))
-            for contact in cls.over(
-                other,
-                [(place, star_of(own.core, i), f"vertex {i}") for i, place in enumerate(own.core.vertices)],
-                own.sweep,
-                size,
-                swap,
-                face_table(own.core),
-            )
-        )
-
-    @classmethod
-    def over(
-        cls,
-        other: SweptPolytope,
-        vertices: Iterable[tuple[tuple[float, float, float], Numbers, str]],
-        radius: float,
-        size: float,
-        swap: bool,
-        own_faces: Numbers = (),
-    ) -> tuple[SweptVertex, ...]:
-        """Return the contacts of vertices with the core of ``other``.
-
-        Parameters
-        ----------
-        other : SweptPolytope
-            The shape whose core the vertices touch.
-        vertices : iterable of tuple
-            Place in the body frame [m], unit vectors along the edges, and name of each vertex.
-        radius : float
-            Radius of the sphere about each vertex [m].
-        size : float
-            Size of the larger body [m].
-        swap : bool
-            Whether the vertices belong to the first body.
-        own_faces : tuple of float
-            All faces of the core of the vertices; empty if their body is not convex.
-        """
-        core = other.core
-        tables = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
-        return tuple(
-            cls(swap, *tables, other.sweep, place, star, own_faces, radius, size, name)
-            for place, star, name in vertices
-        )
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the parameters of the evaluator: the tables of the core, and the numbers of the vertex."""
-        x, y, z = self.place
-        return {
-            "swap": float(self.swap),
-            "n_faces": float(len(self.faces) // FACE),
-            "faces": self.faces,
-            "n_edges": float(len(self.edges) // EDGE),
-            "edges": self.edges,
-            "ends": self.ends,
-            "sweep": self.sweep,
-            "x_v": x,
-            "y_v": y,
-            "z_v": z,
-            "n_star": float(len(self.star) // 3),
-            "star": self.star,
-            "n_own_faces": float(len(self.own_faces) // FACE),
-            "own_faces": self.own_faces or (0.0,),
-            "radius": self.radius,
-            "size": self.size,
-        }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate
-
-    @property
-    def bound(self) -> Callable[..., None]:
-        """Distance of the vertex from the core, less both radii."""
-        return _bound
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the pairs of features: the vertex with each part of the core. The edge of a segment is its side."""
-        edge = "edge" if self.faces else "side"
-        counts = ("face", len(self.faces) // FACE), (edge, len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
-        parts = [f"{kind} {i}" for kind, n in counts for i in range(n)]
-        return tuple(f"{self.name} and {part}" if self.swap else f"{part} and {self.name}" for part in parts)
+def vertices_over_swept(first: SweptPolytope, second: SweptPolytope) -> Iterator[FeaturePair]:
+    """Yield the contacts of all vertices of the second shape, then those of the first, with the other's core."""
+    size = size_of_both(first, second)
+    cores = core_numbers(first.core), core_numbers(second.core)
+    for swap, own, other in ((0, second, first), (1, first, second)):
+        values: dict[str, Value] = {"swap": float(swap), "core": cores[swap], "own": cores[1 - swap]}
+        values |= {"sweep": other.sweep, "radius": own.sweep, "size": size}
+        for i in range(len(own.core.vertices)):
+            pairs = ((f"vertex {i}", part) if swap else (part, f"vertex {i}") for part in part_names(other.core))
+            names = tuple(f"{one} and {two}" for one, two in pairs)
+            numbers = {**values, "vertex": float(i)}
+            yield FeaturePair(evaluate_vertex_over_swept, numbers, names, bound=bound_of_vertex)
 
 
 @compiled
@@ -352,7 +250,6 @@ def write_swept(
         write_flat(out, side)
     elif edge < int(n_edges):
         e = EDGE * edge
-        x, y, z = vector_in_world(frame, vector_at(edges, e + 3))
-        write_principal(out, side, x, y, z, 0.0, 1.0, 1.0, radius)
+        write_principal(out, side, *vector_in_world(frame, vector_at(edges, e + 3)), 0.0, 1.0, 1.0, radius)
     else:
         write_round(out, side, radius)

@@ -12,6 +12,7 @@ from nonsmooth.engine.memory.blocks import (
     PAST_END,
     POINT_A,
     POINT_B,
+    POSITION,
     SIDE_A,
     SIDE_B,
     SLIDE_MATRIX,
@@ -21,7 +22,7 @@ from nonsmooth.engine.memory.blocks import (
 from nonsmooth.interfaces import Shape
 from nonsmooth.types import Floats
 
-from ...vectors import put
+from ...vectors import ahead, cross, dot, minus, over, put, size_of, times, vector_at
 from .frames import write_tangent
 
 
@@ -86,13 +87,9 @@ def write_principal(
     psi is the angle between the normal at a rim and the plane of the rim.  If the contact point goes round the rim by
     an angle, it moves by R times this angle, and the normal turns by cos(psi) times this angle.
     """
-    c = x * out[TANGENT] + y * out[TANGENT + 1] + z * out[TANGENT + 2]
+    tangent = vector_at(out, TANGENT)
     # the second tangent is n x t1
-    s = (
-        x * (out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1])
-        + y * (out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2])
-        + z * (out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT])
-    )
+    c, s = dot((x, y, z), tangent), dot((x, y, z), cross(vector_at(out, NORMAL), tangent))
     slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
     out[slide] = c * c * slide_along + s * s * slide_across
     out[slide + 1] = out[slide + 2] = c * s * (slide_along - slide_across)
@@ -118,9 +115,8 @@ def write_apart(a: Floats, out: Floats, size: float) -> None:
         out[i] = 0.0
     out[GAP] = out[PAST_END] = _APART * size
     out[NORMAL + 2], out[TANGENT] = 1.0, 1.0
-    for i in range(3):
-        out[POINT_A + i] = a[i]
-        out[POINT_B + i] = a[i] + out[GAP] * out[NORMAL + i]
+    put(out, POINT_A, vector_at(a, POSITION))
+    put(out, POINT_B, ahead(vector_at(a, POSITION), out[GAP], vector_at(out, NORMAL)))
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, 0.0)
 
@@ -132,17 +128,13 @@ def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: flo
     On entry, the witness points in ``out`` are the nearest points of the cores.  If the cores touch, these points give
     no normal, and (nx, ny, nz) is taken: it must be perpendicular to both cores.
     """
-    square = 0.0
-    for i in range(3):
-        square += (out[POINT_B + i] - out[POINT_A + i]) * (out[POINT_B + i] - out[POINT_A + i])
-    distance = math.sqrt(square)
+    p, q = vector_at(out, POINT_A), vector_at(out, POINT_B)
+    distance = size_of(minus(q, p))
+    n = over(minus(q, p), distance) if distance > 0.0 else (nx, ny, nz)
     out[GAP] = distance - radius_a - radius_b
-    put(out, NORMAL, (nx, ny, nz))
-    for i in range(3):
-        if distance > 0.0:
-            out[NORMAL + i] = (out[POINT_B + i] - out[POINT_A + i]) / distance
-        out[POINT_A + i] += radius_a * out[NORMAL + i]
-        out[POINT_B + i] -= radius_b * out[NORMAL + i]
+    put(out, NORMAL, n)
+    put(out, POINT_A, ahead(p, radius_a, n))
+    put(out, POINT_B, minus(q, times(radius_b, n)))
     write_tangent(a, out)
 
 
@@ -153,8 +145,9 @@ def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance:
     ``distance`` is the distance of the centre from the other surface [m], along the normal that ``out`` already holds.
     """
     out[GAP] = distance - radius
-    put(out, POINT_A, (x - distance * out[NORMAL], y - distance * out[NORMAL + 1], z - distance * out[NORMAL + 2]))
-    put(out, POINT_B, (x - radius * out[NORMAL], y - radius * out[NORMAL + 1], z - radius * out[NORMAL + 2]))
+    n = vector_at(out, NORMAL)
+    put(out, POINT_A, minus((x, y, z), times(distance, n)))
+    put(out, POINT_B, minus((x, y, z), times(radius, n)))
     write_tangent(a, out)
 
 

@@ -22,7 +22,6 @@ from ...shapes.smooth import SmoothShape
 from ...vectors import put, vector_at
 from ..features.frames import point_in_world, write_tangent
 from ..features.writing import write_sweep
-from ..smooth.boxy_newton import Answer
 from ..smooth.inscribed import gauge, no_shorter_way
 from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
@@ -40,7 +39,7 @@ from .frustum import (
     part_number,
     write_part,
 )
-from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from .frustum_stops import ON_BORDER, Answer, by_search, on_cap, on_flank, on_rim, seven
 
 Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, float, float, float]
 """Arguments of the searches for both bodies, in the axes of the frustum.
@@ -89,7 +88,7 @@ def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: An
     if nx * px + ny * py + nz * pz >= 0.0:
         return False
     px, py, pz = back(turn, (px, py, pz))
-    return bool(gauge(core, px, py, pz) < 1.0)
+    return bool(gauge(core, (px, py, pz)) < 1.0)
 
 
 @compiled
@@ -159,14 +158,14 @@ def _share_a_point(
         else:
             # p is outside of the core: behind its surface, farther each time
             wx, wy, wz = x - px, y - py, z - pz
-            off, wx, wy, wz, _, _, _ = widest_of_round(point, core, turn, wx, wy, wz, wx, wy, wz)
+            off, (wx, wy, wz), _ = widest_of_round(point, core, turn, (wx, wy, wz), (wx, wy, wz))
             if not off > 0.0:
                 return False
             part = float(i - _SAMPLES)
             px, py, pz = px + part * wx, py + part * wy, pz + part * wz
         px, py, pz = _into(frustum, px, py, pz)
         bx, by, bz = back(turn, (px - x, py - y, pz - z))
-        if gauge(core, bx, by, bz) <= 1.0 + _ON_SURFACE:
+        if gauge(core, (bx, by, bz)) <= 1.0 + _ON_SURFACE:
             return True
     return False
 
@@ -261,7 +260,7 @@ def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: f
     """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
     px, py, pz = _into(frustum, x, y, z)
     px, py, pz = back(turn, (px - x, py - y, pz - z))
-    return bool(gauge(core, px, py, pz) < _DEEP)
+    return bool(gauge(core, (px, py, pz)) < _DEEP)
 
 
 @compiled
@@ -272,7 +271,8 @@ def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
     (:func:`bodies.contacts.smooth.inscribed.no_shorter_way`).
     """
     frustum, _, _, point, core, turn, x, y, z, size = bodies
-    if not no_shorter_way(point, core, turn, x, y, z, best):
+    g, px, py, pz, nx, ny, nz = best
+    if not no_shorter_way(point, core, turn, (x, y, z), (g, (px, py, pz), (nx, ny, nz))):
         found, part = _on_hills(bodies)
         if found[0] > best[0] + _HIGHER * size:
             best, where = found, part
@@ -291,8 +291,8 @@ def _beside_apex(bodies: Bodies) -> Answer:
     """
     frustum, _, high, _, core, turn, x, y, z, size = bodies
     best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
-    for start in starts_of(high, core, turn, x, y, z - frustum[HIGH]):
-        _, nx, ny, _ = uphill(high, core, turn, x, y, z - frustum[HIGH], start, _NEARBY)
+    for start in starts_of(high, core, turn, (x, y, z - frustum[HIGH])):
+        _, (nx, ny, _) = uphill(high, core, turn, (x, y, z - frustum[HIGH]), start, _NEARBY)
         if nx != 0.0 or ny != 0.0:
             found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
             if found[0] == found[0] and not found[0] <= best[0]:
@@ -316,7 +316,8 @@ def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
             continue
         circle, height = (low, frustum[LOW]) if part == LOW_RIM else (high, frustum[HIGH])
         up = 0.0 if frustum[SIDE] == 0.0 else 1.0 if part == HIGH_RIM else -1.0
-        found: Answer = up_hills(circle, core, turn, x, y, z - height, up, (frustum[COS], frustum[SIN], size))
+        lean = frustum[COS], frustum[SIN], size
+        found: Answer = seven(up_hills(circle, core, turn, (x, y, z - height), up, lean))
         if found[0] == found[0] and not found[0] <= best[0]:
             best = found[0], found[1], found[2], found[3] + height, found[4], found[5], found[6]
             where = part

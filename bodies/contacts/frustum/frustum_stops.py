@@ -10,6 +10,7 @@ the body is boxy.  A rim is searched as a flat ellipsoid, an apex as a point.
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -18,8 +19,8 @@ from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN
 from ...shapes.support_function import is_round, support_of
 from ...vectors import Vector3
 from ..smooth.boxy_line import across_line
-from ..smooth.boxy_newton import Answer
 from ..smooth.round_search import next_to_axis, round_circle
+from ..smooth.smooth_core import Answer as Found
 from ..smooth.smooth_core import Axes, back, bend, forth
 from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
@@ -44,6 +45,16 @@ They are those of :mod:`bodies.contacts.smooth.dual_newton`.  A search ends at a
 result needs a residual below ``_RIGHT``.
 """
 
+Answer: TypeAlias = tuple[float, float, float, float, float, float, float]
+"""Gap [m], point (3) [m] and unit normal (3), the result of a search."""
+
+
+@compiled
+def seven(found: Found) -> Answer:
+    """Return the result of a search over a smooth body by its seven numbers."""
+    g, (px, py, pz), (nx, ny, nz) = found
+    return g, px, py, pz, nx, ny, nz
+
 
 @compiled
 def point_against(
@@ -51,8 +62,7 @@ def point_against(
 ) -> tuple[float, float, float]:
     """Return the smooth body's farthest point in the direction -(nx, ny, nz) [m], in the axes of the frustum."""
     mx, my, mz = back(turn, (-nx, -ny, -nz))
-    s = support_of(core, (mx, my, mz))
-    px, py, pz = forth(turn, (s[1], s[2], s[3]))
+    px, py, pz = forth(turn, support_of(core, (mx, my, mz))[1])
     return x + px, y + py, z + pz
 
 
@@ -142,9 +152,8 @@ def on_flank(
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
     if not is_round(core):
-        g, px, py, pz, nx, ny, nz = across_line(
-            core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach
-        )
+        found: Answer = seven(across_line(core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach))
+        g, px, py, pz, nx, ny, nz = found
     else:
         g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
     if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):
@@ -170,7 +179,7 @@ def _on_round_flank(
         nx, ny = cosine * ex, cosine * ey
         mx, my, mz = back(turn, (-nx, -ny, -sine))
         s = support_of(core, (mx, my, mz))
-        px, py, pz = forth(turn, (s[1], s[2], s[3]))
+        px, py, pz = forth(turn, s[1])
         px, py, pz = x + px, y + py, z + pz
         found = nx * px + ny * py + sine * pz - reach
         if found < g - _SEEN * size and halvings < _HALVINGS:
@@ -180,8 +189,8 @@ def _on_round_flank(
             g, halvings = found, 0
             lx, ly = ex, ey
             rate = cosine * (ex * py - ey * px)
-            tx, ty, tz = back(turn, (-ey, ex, 0.0))
-            second = -cosine * (ex * px + ey * py) - cosine * cosine * bend(s, tx, ty, tz, tx, ty, tz)
+            t = back(turn, (-ey, ex, 0.0))
+            second = -cosine * (ex * px + ey * py) - cosine * cosine * bend(s[2], t, t)
             residual = abs(rate)
             if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
                 if residual > _RIGHT * size or second > 0.0:
@@ -234,7 +243,8 @@ def on_rim(
         tilt = abs(tilt)
         cap = math.copysign(1.0, axial) if flat else up
         radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
-    g, px, py, pz, nx, ny, nz = widest_of_round(circle, core, turn, x, y, z - height, radial * ex, radial * ey, axial)
+    start = radial * ex, radial * ey, axial
+    g, px, py, pz, nx, ny, nz = seven(widest_of_round(circle, core, turn, (x, y, z - height), start))
     lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
     if not flat and up * lean < -ON_BORDER:
         g = math.nan
@@ -267,7 +277,7 @@ def by_search(
         cosine, sine = frustum[COS], frustum[SIN]
         reach, length = cosine * frustum[0] + sine * frustum[LOW], math.sqrt(sx * sx + sy * sy)
         ex, ey = sx / length, sy / length
-        found = across_line(core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach)
+        found = seven(across_line(core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach))
         if not _before_flank(frustum, near, found):
             found = math.nan, x, y, z, 0.0, 0.0, 1.0
     else:
@@ -280,9 +290,9 @@ def by_search(
             px, py = sx, sy
         found = math.nan, x, y, z, 0.0, 0.0, 1.0
         if is_round(core) and radius > 0.0:
-            found = next_to_axis(core, turn, x, y, z - height, radius, px, py, over)
+            found = seven(next_to_axis(core, turn, (x, y, z - height), radius, (px, py, 0.0), over))
         if found[0] != found[0]:
-            found = round_circle(point, core, turn, x, y, z - height, radius, px, py)
+            found = seven(round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0)))
         g, px, py, pz, nx, ny, nz = found
         lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
         if not flat and up * lean < -_NEAR_BORDER:

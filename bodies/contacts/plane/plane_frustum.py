@@ -2,24 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import math
 from typing import ClassVar, final
 
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import parameter
+from nonsmooth.engine.memory.blocks import SIDE_B
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
+from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, FEET, Frustum, Point
 from ...shapes.ground import Ground
-from .plane_rim import evaluate_rim_over_plane
-from .plane_sphere import PlaneSphere
-from .plane_vertex import PlaneVertex
+from ...vectors import ahead, opposite, vector_at
+from ..features.flat_rim import FLATTEST, touching_point, write_rim
+from ..features.frames import across, point_in_world, vector_in_world
+from .plane_ball import ball_over_plane
+from .plane_point import axis_of, place_over_plane
+
+
+def evaluate_rim_over_plane(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    radius: float,
+    center: Floats,
+    axis: Floats,
+    height: float,
+    rounding: float,
+    crown: float,
+) -> None:
+    """Write the geometry block of a rim over a plane, at the lowest point of the rim or of the torus about it.
+
+    The contact point of a flat rim is explained in :mod:`bodies.contacts.features.flat_rim`.  A face with feet is a
+    cap of a sphere that protrudes from the rim, but less than the feet.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of the bodies, and the geometry block.
+    radius, center, axis : float, Floats
+        Radius of the rim [m], its centre [m] and unit axis in its body frame.
+    height : float
+        Height of the plane in its body frame [m].
+    rounding : float
+        Radius of the torus about a rounded rim [m].
+    crown : float
+        Sine of the cap's tilt at the rim; 0 for a face without feet.
+    """
+    n, along_axis = axis_of(a, 2), vector_in_world(b, vector_at(axis, 0))
+    at, out_of_rim = touching_point(b, a, n, along_axis, radius), 0.0
+    along, sine, down = across(opposite(n), along_axis)
+    if FLATTEST < crown > sine:
+        at = radius * sine / crown, down, 0.0, crown, crown, radius
+        sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)
+        out_of_rim = math.copysign(radius / crown * (crown * crown - sine * sine) / sum_of_cosines, along)
+    point = ahead(point_in_world(b, vector_at(center, 0)), at[0], at[1])
+    point = ahead(ahead(point, out_of_rim, along_axis), -(rounding + at[2]), n)
+    place_over_plane(a, out, point, height)
+    write_rim(out, SIDE_B, along_axis, radius, at, rounding)
 
 
 @final
-@dataclass(frozen=True)
 class PlaneFrustum(ContactKinematics):
-    """The lowest point of one rim of a cylinder, a cone or a disc over a plane.
+    """A cylinder, a cone or a disc over a plane: contacts of the lowest point of each rim, of the apex and of the feet.
 
     Two rims, or a rim and the apex, hold a body that lies on its side.  A rim that lies flat has no lowest point: the
     numbers stay finite, but a single contact cannot hold it.  Its feet can, each a contact of its own.  A rounded body
@@ -32,40 +76,22 @@ class PlaneFrustum(ContactKinematics):
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Frustum)
 
-    radius: float = parameter(doc="radius of the rim", unit="m", above=0.0)
-    x: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")
-    y: float = parameter(doc="its centre in its body frame, second coordinate", unit="m")
-    z: float = parameter(doc="its centre in its body frame, third coordinate", unit="m")
-    axis_x: float = parameter(doc="unit axis in its body frame, first component")
-    axis_y: float = parameter(doc="unit axis in its body frame, second component")
-    axis_z: float = parameter(doc="unit axis in its body frame, third component")
-    height: float = parameter(doc="height of the plane in its body frame", unit="m")
-    rounding: float = parameter(0.0, doc="radius of the torus about a rounded rim", unit="m", minimum=0.0)
-    crown: float = parameter(0.0, doc="sine at the rim of the cap of a sphere within the feet", minimum=0.0)
-
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
         """Return the contacts of the rims, first the one against the axis, of the apex, and of the feet, if any."""
+        assert isinstance(first, Ground)
         assert isinstance(second, Frustum)
-        height = first.parameters()["height"]
-        axis = second.frustum[AXIS], second.frustum[AXIS + 3], second.frustum[AXIS + 6]
-        sweep = second.rounding
+        sweep, numbers = second.rounding, second.frustum
+        axis = numbers[AXIS], numbers[AXIS + 3], numbers[AXIS + 6]
 
-        def point(place: Point) -> ContactKinematics:
-            return PlaneSphere(sweep, *place, height) if sweep > 0.0 else PlaneVertex(*place, height)
+        def rim(radius: float, center: Point) -> FeaturePair:
+            if radius == 0.0:
+                return ball(center)
+            values: dict[str, Value] = {"radius": radius, "center": center, "axis": axis, "height": first.height}
+            values |= {"rounding": sweep, "crown": numbers[FEET] / radius}
+            return FeaturePair(evaluate_rim_over_plane, values, ("plane-rim",))
 
-        rims = (
-            cls(radius, *center, *axis, height, sweep, second.frustum[FEET] / radius) if radius > 0.0 else point(center)
-            for radius, center in second.standing_rims
-        )
-        return *rims, *(point(foot) for foot in second.feet)
+        def ball(center: Point) -> FeaturePair:
+            return ball_over_plane(first, sweep, center, "sphere" if sweep > 0.0 else "vertex")
 
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return evaluate_rim_over_plane
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Name of the only pair of features."""
-        return ("plane-rim",)
+        return *(rim(*one) for one in second.standing_rims), *(ball(foot) for foot in second.feet)

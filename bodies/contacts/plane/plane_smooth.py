@@ -2,73 +2,97 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+import math
 from typing import ClassVar, final
 
-from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import SIDE_B
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
+from ...shapes.ellipsoid import Ellipsoid
 from ...shapes.ground import Ground
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import support_of
-from ...vectors import vector_at
-from ..features.frames import point_in_world
-from ..smooth.smooth_core import RADIUS, axes_in_world, back, forth
+from ...vectors import Vector3, ahead, cross, dot, opposite, over, plus, vector_at
+from ..features.frames import point_in_world, turned_by, vector_in_body
+from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, back, forth, write_matrices
 from ..smooth.smooth_newton import write_surface
-from .plane_point import place_over_plane
+from .plane_point import axis_of, place_over_plane
 
 
-def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) -> None:
-    axes = axes_in_world(b, second)
-    x, y, z = point_in_world(b, vector_at(second, 6))
-    mx, my, mz = back(axes, (-a[ROTATION + 2], -a[ROTATION + 5], -a[ROTATION + 8]))
-    s = support_of(second, (mx, my, mz))
-    px, py, pz = forth(axes, (s[1], s[2], s[3]))
-    r = second[RADIUS]
-    place_over_plane(
-        a, out, x + px - r * a[ROTATION + 2], y + py - r * a[ROTATION + 5], z + pz - r * a[ROTATION + 8], height
+@compiled
+def scaled(factors: Vector3, v: Vector3) -> Vector3:
+    """Return the vector of the products of components."""
+    return factors[0] * v[0], factors[1] * v[1], factors[2] * v[2]
+
+
+def evaluate_smooth_over_plane(a: Floats, b: Floats, out: Floats, second: Floats, height: float) -> None:
+    """Write the geometry block of a smooth body, given as a core, over a plane."""
+    axes, n = axes_in_world(b, second), axis_of(a, 2)
+    normal = back(axes, opposite(n))
+    _, point, _ = support_of(second, normal)
+    lowest = plus(point_in_world(b, vector_at(second, CENTER)), forth(axes, point))
+    place_over_plane(a, out, ahead(lowest, -second[RADIUS], n), height)
+    write_surface(out, SIDE_B, second, axes, normal, point)
+
+
+def evaluate_ellipsoid_over_plane(
+    a: Floats, b: Floats, out: Floats, semi: Floats, center: Floats, orientation: Floats, height: float
+) -> None:
+    """Write the geometry block of an ellipsoid over a plane.
+
+    Semi-axes [m], centre in the body frame [m], and quaternion from the ellipsoid's axes to those of the body.
+    """
+    # the outward normal of the ellipsoid at the point sought, in its own axes, and the plane's tangents there
+    w, x, y, z = orientation[0], orientation[1], orientation[2], orientation[3]
+    n, s = vector_in_body(b, opposite(axis_of(a, 2))), vector_in_body(b, axis_of(a, 0))
+    n, s = turned_by(w, -x, -y, -z, n[0], n[1], n[2]), turned_by(w, -x, -y, -z, s[0], s[1], s[2])
+    t = cross(s, n)
+    # support function h and its derivative, the point
+    squares = semi[0] * semi[0], semi[1] * semi[1], semi[2] * semi[2]
+    h = math.sqrt(dot(scaled(squares, n), n))
+    p = over(scaled(squares, n), h)
+    lowest = plus(vector_at(center, 0), turned_by(w, x, y, z, p[0], p[1], p[2]))
+    place_over_plane(a, out, point_in_world(b, lowest), height)
+    # slide 1, turn the second derivative of h in the tangent plane: the inverse of the shape operator
+    along_s, along_t, across_s, across_t = dot(p, s), dot(p, t), scaled(squares, s), scaled(squares, t)
+    turn = (
+        (dot(across_s, s) - along_s * along_s) / h,
+        (dot(across_s, t) - along_s * along_t) / h,
+        (dot(across_t, t) - along_t * along_t) / h,
     )
-    write_surface(out, SIDE_B, second, axes, (mx, my, mz), (s[1], s[2], s[3]))
+    write_matrices(out, SIDE_B, (1.0, 0.0, 1.0), turn)
 
 
 @final
-@dataclass(frozen=True)
 class PlaneSmooth(ContactKinematics):
-    """The point of a smooth body that a plane supports.
-
-    Attributes
-    ----------
-    first : Ground
-        The plane.
-    second : SmoothShape
-        The smooth body.
-    """
+    """A smooth body over a plane: one contact, of its lowest point."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, SmoothShape)
 
-    first: Ground
-    second: SmoothShape
-
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[PlaneSmooth, ...]:
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
         """Return the single contact of a plane and a smooth shape."""
         assert isinstance(first, Ground)
         assert isinstance(second, SmoothShape)
-        return (cls(first, second),)
+        values: dict[str, Value] = {"second": second.core, "height": first.height}
+        return (FeaturePair(evaluate_smooth_over_plane, values, ("plane-smooth",)),)
 
-    def parameters(self) -> Mapping[str, Value]:
-        """Return the height of the plane and the numbers of the support function."""
-        return {"height": self.first.height, "second": self.second.core}
 
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate
+@final
+class PlaneEllipsoid(ContactKinematics):
+    """An ellipsoid over a plane: one contact, of its lowest point."""
 
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Name of the only pair of features."""
-        return ("plane-smooth",)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Ellipsoid)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact of a plane and an ellipsoid."""
+        assert isinstance(first, Ground)
+        assert isinstance(second, Ellipsoid)
+        numbers = tuple(second.numbers().values())
+        values: dict[str, Value] = {"semi": numbers[:3], "center": numbers[3:6], "orientation": numbers[6:10]}
+        values["height"] = first.height
+        return (FeaturePair(evaluate_ellipsoid_over_plane, values, ("plane-ellipsoid",)),)

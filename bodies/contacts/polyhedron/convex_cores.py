@@ -1,4 +1,4 @@
-"""Two edges of convex cores that cross."""
+"""Two edges of convex cores that cross, if the cores overlap."""
 
 from __future__ import annotations
 
@@ -7,10 +7,20 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, vector_at
-from ..features.edge_crossing import Crossing, cross_edges, edge_astray
+from ...vectors import Vector3, ahead, cross, dot, minus, size_of, vector_at
+from ..features.edge_crossing import Crossing, edge_astray
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import ALONG, EDGE, INTO_FIRST, INTO_SECOND, LENGTH, START
+from ..features.polytope_tables import (
+    ALONG,
+    EDGE,
+    EDGES,
+    INTO_FIRST,
+    INTO_SECOND,
+    LENGTH,
+    N_EDGES,
+    START,
+    faces_of,
+)
 from ..features.vertex_face import height_over, separation_of_faces
 
 _FLUSH = 1e-5
@@ -23,98 +33,80 @@ The face is adjacent to one of the edges.
 @compiled
 def _in_first(a: Floats, b: Floats, edges: Floats, at: int) -> Vector3:
     """Return the components, along the axes of the first body, of a vector of a row of edges of the second body."""
-    x, y, z = vector_in_world(b, vector_at(edges, at))
-    x, y, z = vector_in_body(a, (x, y, z))
-    return x, y, z
+    vector: Vector3 = vector_in_body(a, vector_in_world(b, vector_at(edges, at)))
+    return vector
 
 
 @compiled
-def _sine(e: Vector3, f: Vector3) -> float:
-    """Return the sine of the angle between two unit vectors."""
-    x, y, z = e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]
-    return math.sqrt(x * x + y * y + z * z)
-
-
-@compiled
-def _separation_of_edges(
-    a: Floats, b: Floats, n_edges_a: float, edges_a: Floats, n_edges_b: float, edges_b: Floats, parallel: float
-) -> float:
+def _separation_of_edges(a: Floats, b: Floats, core_a: Floats, core_b: Floats, parallel: float) -> float:
     """Return the largest separation of two cores along normals that an edge of each has in common [m]."""
     best = -math.inf
-    for k in range(int(n_edges_b)):
-        at = EDGE * k
-        fx, fy, fz = _in_first(a, b, edges_b, at + ALONG)
-        ux, uy, uz = _in_first(a, b, edges_b, at + INTO_FIRST)
-        vx, vy, vz = _in_first(a, b, edges_b, at + INTO_SECOND)
-        qx, qy, qz = point_in_world(b, vector_at(edges_b, at))
-        qx, qy, qz = point_in_body(a, (qx, qy, qz))
-        for i in range(int(n_edges_a)):
-            e, one, two = EDGE * i + ALONG, EDGE * i + INTO_FIRST, EDGE * i + INTO_SECOND
-            x = edges_a[e + 1] * fz - edges_a[e + 2] * fy
-            y = edges_a[e + 2] * fx - edges_a[e] * fz
-            z = edges_a[e] * fy - edges_a[e + 1] * fx
+    for k in range(int(core_b[N_EDGES])):
+        two = int(core_b[EDGES]) + EDGE * k
+        f = _in_first(a, b, core_b, two + ALONG)
+        u, v = _in_first(a, b, core_b, two + INTO_FIRST), _in_first(a, b, core_b, two + INTO_SECOND)
+        start = point_in_body(a, point_in_world(b, vector_at(core_b, two)))
+        for i in range(int(core_a[N_EDGES])):
+            one = int(core_a[EDGES]) + EDGE * i
+            n = cross(vector_at(core_a, one + ALONG), f)
             # a normal of an edge leads into none of its faces
-            p = x * edges_a[one] + y * edges_a[one + 1] + z * edges_a[one + 2]
-            q = x * edges_a[two] + y * edges_a[two + 1] + z * edges_a[two + 2]
-            r, s = -x * ux - y * uy - z * uz, -x * vx - y * vy - z * vz
+            p, q = dot(n, vector_at(core_a, one + INTO_FIRST)), dot(n, vector_at(core_a, one + INTO_SECOND))
+            r, s = -dot(n, u), -dot(n, v)
             is_ahead, is_behind = max(p, q, r, s) <= 0.0, min(p, q, r, s) >= 0.0
-            sine = math.sqrt(x * x + y * y + z * z)
+            sine = size_of(n)
             if (is_ahead or is_behind) and sine > parallel:
-                t = EDGE * i + START
-                gap = (x * (qx - edges_a[t]) + y * (qy - edges_a[t + 1]) + z * (qz - edges_a[t + 2])) / sine
+                gap = dot(n, minus(start, vector_at(core_a, one + START))) / sine
                 best = max(best, gap if is_ahead else -gap)
     return best
 
 
 @compiled
-def cross_convex_edges(
+def past_if_convex(
     a: Floats,
     b: Floats,
-    edge_a: float,
-    edge_b: float,
-    n_faces_a: float,
-    faces_a: Floats,
-    n_faces_b: float,
-    faces_b: Floats,
-    n_vertices_a: float,
-    vertices_a: Floats,
-    n_vertices_b: float,
-    vertices_b: Floats,
-    n_edges_a: float,
-    edges_a: Floats,
-    n_edges_b: float,
-    edges_b: Floats,
+    core_a: Floats,
+    one: int,
+    core_b: Floats,
+    two: int,
+    crossing: Crossing,
+    past: float,
     parallel: float,
-    margin: float,
-    size: float,
-) -> Crossing:
-    """Return the crossing of two edges (:func:`bodies.contacts.features.edge_crossing.cross_edges`) of convex cores.
-
-    ``edge_a`` and ``edge_b`` are the numbers of the edges.
+    within: float,
+) -> float:
+    """Return the distance past the boundary of two edges of convex cores that cross [m].
 
     Edges whose gap is below zero do not face each other if the cores overlap less along the normal of a face of one of
     them.  If both nearest points are outside of the other core, the normals of all pairs of edges count, too.
 
     Flush edges do not face each other if a face separates the cores as well as their common normal: then the vertices
     over the face touch.  Edges are flush if they are so nearly parallel that the ends of the shorter edge are within
-    ``margin`` [m] of the other edge, and if their common normal is the normal of a face within the sine ``_FLUSH``.
+    ``within`` [m] of the other edge, and if their common normal is the normal of a face within the sine ``_FLUSH``.
 
-    The numbers of the cores are those of :class:`bodies.contacts.features.polytope_tables.ConvexCore`.
+    Parameters
+    ----------
+    a, b : Floats
+        Frame blocks.
+    core_a, one, core_b, two : Floats and int
+        Both cores (:func:`bodies.contacts.features.polytope_tables.core_numbers`), and the rows of the edges in them.
+    crossing : tuple
+        The crossing of the edges (:func:`bodies.contacts.features.edge_crossing.cross_edges`).
+    past : float
+        Distance past the boundary of the edges alone [m].
+    parallel : float
+        Sine of the angle between two edges below which they have no common normal.
+    within : float
+        Gaps up to this size are round-off [m].
     """
-    one, two = EDGE * int(edge_a), EDGE * int(edge_b)
-    p, e, f, n, gap, over, past = cross_edges(a, b, edges_a, one, edges_b, two, parallel, margin, size)
-    within = abs(margin)
-    ends = min(edges_a[one + LENGTH], edges_b[two + LENGTH]) * _sine(e, f)
-    inside = max(edge_astray(a, edges_a, one, 1.0, *n), edge_astray(b, edges_b, two, -1.0, *n))
+    p, e, f, n, gap, _, _ = crossing
+    ends = min(core_a[one + LENGTH], core_b[two + LENGTH]) * size_of(cross(e, f))
+    inside = max(edge_astray(a, core_a, one, 1.0, *n), edge_astray(b, core_b, two, -1.0, *n))
     is_flush = ends < within and inside > -_FLUSH
     if past <= within and (gap < -within or is_flush):
-        best = separation_of_faces(a, b, n_faces_a, faces_a, n_vertices_b, vertices_b)
-        best = max(best, separation_of_faces(b, a, n_faces_b, faces_b, n_vertices_a, vertices_a))
+        best = max(separation_of_faces(a, b, core_a, core_b), separation_of_faces(b, a, core_b, core_a))
         if is_flush and best >= gap - within:
             past = max(past, within - ends)
-        q = p[0] + gap * n[0], p[1] + gap * n[1], p[2] + gap * n[2]
-        outside = min(height_over(b, n_faces_b, faces_b, *p), height_over(a, n_faces_a, faces_a, *q))
+        outside = min(height_over(b, *faces_of(core_b), *p), height_over(a, *faces_of(core_a), *ahead(p, gap, n)))
         if gap < -within and outside > within:
-            best = max(best, _separation_of_edges(a, b, n_edges_a, edges_a, n_edges_b, edges_b, parallel))
+            best = max(best, _separation_of_edges(a, b, core_a, core_b, parallel))
         past = max(past, best - gap - within)
-    return p, e, f, n, gap, over, past
+    return past

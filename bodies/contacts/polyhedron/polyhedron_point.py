@@ -2,243 +2,77 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import ClassVar, final
+from typing import final
 
-from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 from ...shapes.point import Point
 from ...shapes.polyhedron import Polyhedron
-from ...vectors import put, vector_at
+from ...vectors import minus, put, times, vector_at
 from ..features.frames import point_in_world, tangent_of, vector_in_world
-from ..features.polytope_tables import FACE, ConvexCore
+from ..features.polytope_tables import FACE, FACES, core_numbers, faces_of, point_numbers, vertex_at
 from ..features.vertex_face import height_over, nearest_face
 from ..features.writing import write_flat, write_round
-from .polyhedron_sphere import PolyhedronSphere
+from .polyhedron_sphere import ball_over_polyhedron
 
 
-@compiled
-def _write_face_tangent(frame: Floats, out: Floats, faces: Floats, f: int) -> None:
-    """Write the first tangent of a face, fixed to its body."""
-    x, y, z = tangent_of(vector_at(faces, f))
-    put(out, TANGENT, vector_in_world(frame, (x, y, z)))
-
-
-def _evaluate(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    n_faces_a: float,
-    faces_a: Floats,
-    n_faces_b: float,
-    faces_b: Floats,
-    n_vertices_a: float,
-    vertices_a: Floats,
-    n_vertices_b: float,
-    vertices_b: Floats,
-    vertex: float,
-    size: float,
+def evaluate_vertex_over_faces(
+    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
 ) -> None:
-    face, gap, past = nearest_face(
-        a, b, n_faces_a, faces_a, n_vertices_b, vertices_b, vertex, n_faces_b, faces_b, n_vertices_a, vertices_a, size
-    )
-    f, v = FACE * int(face), 3 * int(vertex)
+    """Write the geometry block of a vertex of the core ``own`` over the faces of another core.
+
+    The vertex belongs to the first body if ``swap`` is 1, else to the second.  ``size`` is the size of the larger body
+    [m].  The cores are those of :func:`bodies.contacts.features.polytope_tables.core_numbers`.
+    """
+    own_frame, other = (a, b) if swap == 1.0 else (b, a)
+    near, far = (POINT_A, POINT_B) if swap == 1.0 else (POINT_B, POINT_A)
+    place, sign = point_in_world(own_frame, vector_at(own, vertex_at(own, vertex))), 1.0 - 2.0 * swap
+    face, gap, past = nearest_face(other, own_frame, core, own, place, size)
+    normal = vector_at(core, int(core[FACES]) + FACE * int(face))
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    put(out, NORMAL, vector_in_world(a, vector_at(faces_a, f)))
-    put(out, POINT_B, point_in_world(b, vector_at(vertices_b, v)))
-    for i in range(3):
-        out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
-    _write_face_tangent(a, out, faces_a, f)
-    write_flat(out, SIDE_A)
-    write_round(out, SIDE_B, 0.0)
+    put(out, NORMAL, vector_in_world(other, times(sign, normal)))
+    put(out, near, place)
+    put(out, far, minus(place, times(sign * gap, vector_at(out, NORMAL))))
+    # fixed to the body of the face
+    put(out, TANGENT, vector_in_world(other, tangent_of(normal)))
+    write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)
+    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, 0.0)
 
 
-def _evaluate_reversed(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    n_faces_a: float,
-    faces_a: Floats,
-    n_faces_b: float,
-    faces_b: Floats,
-    n_vertices_a: float,
-    vertices_a: Floats,
-    n_vertices_b: float,
-    vertices_b: Floats,
-    vertex: float,
-    size: float,
+def bound_of_vertex_over_faces(
+    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
 ) -> None:
-    face, gap, past = nearest_face(
-        b, a, n_faces_b, faces_b, n_vertices_a, vertices_a, vertex, n_faces_a, faces_a, n_vertices_b, vertices_b, size
-    )
-    f, v = FACE * int(face), 3 * int(vertex)
-    out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    put(out, NORMAL, vector_in_world(b, (-faces_b[f], -faces_b[f + 1], -faces_b[f + 2])))
-    put(out, POINT_A, point_in_world(a, vector_at(vertices_a, v)))
-    for i in range(3):
-        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
-    _write_face_tangent(b, out, faces_b, f)
-    write_round(out, SIDE_A, 0.0)
-    write_flat(out, SIDE_B)
+    """Write the height of a vertex over the faces [m]."""
+    own_frame, other = (a, b) if swap == 1.0 else (b, a)
+    place = point_in_world(own_frame, vector_at(own, vertex_at(own, vertex)))
+    out[0] = height_over(other, *faces_of(core), *place)
 
 
-def _bound(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    n_faces_a: float,
-    faces_a: Floats,
-    n_faces_b: float,
-    faces_b: Floats,
-    n_vertices_a: float,
-    vertices_a: Floats,
-    n_vertices_b: float,
-    vertices_b: Floats,
-    vertex: float,
-    size: float,
-) -> None:
-    v = 3 * int(vertex)
-    out[0] = height_over(a, n_faces_a, faces_a, *point_in_world(b, vector_at(vertices_b, v)))
-
-
-def _bound_reversed(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    n_faces_a: float,
-    faces_a: Floats,
-    n_faces_b: float,
-    faces_b: Floats,
-    n_vertices_a: float,
-    vertices_a: Floats,
-    n_vertices_b: float,
-    vertices_b: Floats,
-    vertex: float,
-    size: float,
-) -> None:
-    v = 3 * int(vertex)
-    out[0] = height_over(b, n_faces_b, faces_b, *point_in_world(a, vector_at(vertices_a, v)))
-
-
-@dataclass(frozen=True)
-class _Tables:
-    """Faces and vertices of both bodies, with the number of one vertex of the body that does not have the faces."""
-
-    cores: tuple[ConvexCore, ConvexCore]
-    face_body: int
-    vertex: int
-    size: float
-
-    def values(self) -> dict[str, Value]:
-        one, two = self.cores
-        return {**one.values("_a"), **two.values("_b"), "vertex": float(self.vertex), "size": self.size}
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        return tuple(f"face {i} and vertex {self.vertex}" for i in range(self.cores[self.face_body].n_faces))
+def vertex_over_faces(
+    swap: int, core: SharedNumbers, n_faces: int, own: SharedNumbers, vertex: int, size: float
+) -> FeaturePair:
+    """Return the contact of a vertex with faces; arguments as in :func:`evaluate_vertex_over_faces`."""
+    values: dict[str, Value] = {"swap": float(swap), "core": core, "own": own}
+    values |= {"vertex": float(vertex), "size": size}
+    names = tuple(f"face {i} and vertex {vertex}" for i in range(n_faces))
+    return FeaturePair(evaluate_vertex_over_faces, values, names, bound=bound_of_vertex_over_faces)
 
 
 @final
-@dataclass(frozen=True)
 class PolyhedronPoint(ContactKinematics):
-    """A vertex of the second body against the faces of the first.
+    """The contact of a polyhedron and a point; over a rounded polyhedron, the point is a ball of radius 0."""
 
-    Attributes
-    ----------
-    tables : _Tables
-        Both bodies, and the vertex.
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, Point)
-    tables: _Tables
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the tables."""
-        return self.tables.values()
+    pair = Polyhedron, Point
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the single contact of a polyhedron and a point.
-
-        If the polyhedron is rounded, the point is treated as a ball of radius 0.
-        """
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact of a polyhedron and a point."""
         assert isinstance(first, Polyhedron)
         assert isinstance(second, Point)
+        place, core = (second.x, second.y, second.z), first.core
         if first.rounding > 0.0:
-            return (PolyhedronSphere.of_ball(first, (second.x, second.y, second.z), 0.0),)
-        own = first.core
-        cores = ConvexCore.of(own), ConvexCore.of_point(second.x, second.y, second.z)
-        return (cls(_Tables(cores, 0, 0, own.size)),)
-
-    @classmethod
-    def of_vertices(cls, cores: tuple[ConvexCore, ConvexCore], size: float) -> tuple[PolyhedronPoint, ...]:
-        """Return the contacts of all vertices of the second polyhedron; ``size`` is that of the larger body [m]."""
-        return tuple(cls(_Tables(cores, 0, i, size)) for i in range(cores[1].n_vertices))
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate
-
-    @property
-    def bound(self) -> Callable[..., None]:
-        """The height of the vertex over the faces."""
-        return _bound
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the pairs of features: each face of the polyhedron with the vertex of the other body."""
-        return self.tables.features
-
-
-@final
-@dataclass(frozen=True)
-class PointPolyhedron(ContactKinematics):
-    """A vertex of the first body against the faces of the second.
-
-    Attributes
-    ----------
-    tables : _Tables
-        Both bodies, and the vertex.
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Point, Polyhedron)
-    tables: _Tables
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the tables."""
-        return self.tables.values()
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[PointPolyhedron, ...]:
-        """Return the single contact of a point and a sharp polyhedron."""
-        assert isinstance(first, Point)
-        assert isinstance(second, Polyhedron)
-        own = second.polytope
-        cores = ConvexCore.of_point(first.x, first.y, first.z), ConvexCore.of(own)
-        return (cls(_Tables(cores, 1, 0, own.size)),)
-
-    @classmethod
-    def of_vertices(cls, cores: tuple[ConvexCore, ConvexCore], size: float) -> tuple[PointPolyhedron, ...]:
-        """Return the contacts of all vertices of the first polyhedron; ``size`` is that of the larger body [m]."""
-        return tuple(cls(_Tables(cores, 1, i, size)) for i in range(cores[0].n_vertices))
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate_reversed
-
-    @property
-    def bound(self) -> Callable[..., None]:
-        """The height of the vertex over the faces."""
-        return _bound_reversed
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the pairs of features: each face of the polyhedron with the vertex of the other body."""
-        return self.tables.features
+            return (ball_over_polyhedron(first, place, 0.0),)
+        return (vertex_over_faces(0, core_numbers(core), len(core.planes), point_numbers(*place), 0, core.size),)

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import itertools
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import parameter
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.box import Box
 from ...shapes.sphere import Sphere
-from ...vectors import put
+from ...vectors import Vector3, minus, over, put, size_of, vector_at
 from ..features.frames import point_in_body, point_in_world, turned_by, vector_in_world
-from ..features.writing import by_side, place_sphere, write_flat, write_principal, write_round
+from ..features.writing import place_sphere, write_flat, write_principal, write_round
 
 _KINDS = "inside", "face", "edge", "vertex"
 _FEATURES = tuple(
@@ -37,110 +34,102 @@ def _side(coordinate: float, half: float) -> int:
     return -1 if coordinate < -half else 0
 
 
-def _evaluate(
+@compiled
+def _beyond(coordinate: float, side: int, half: float) -> float:
+    return coordinate - side * half if side != 0 else 0.0
+
+
+@compiled
+def _in_body(quaternion: Floats, v: Vector3) -> Vector3:
+    """Return a vector of the box's axes in those of its body."""
+    found: Vector3 = turned_by(quaternion[0], quaternion[1], quaternion[2], quaternion[3], v[0], v[1], v[2])
+    return found
+
+
+@compiled
+def _nearest_feature(half: Vector3, p: Vector3) -> tuple[tuple[int, int, int], float, Vector3]:
+    """Return the sides of the feature of a box that is nearest to a point, the distance [m] and the unit normal.
+
+    Sides are 1 or -1 along the axes on which the feature lies, else 0.  All vectors are in the axes of the box.
+    """
+    x, y, z = _side(p[0], half[0]), _side(p[1], half[1]), _side(p[2], half[2])
+    if x == 0 and y == 0 and z == 0:
+        # a centre inside leaves by the nearest face
+        deep_x, deep_y, deep_z = half[0] - abs(p[0]), half[1] - abs(p[1]), half[2] - abs(p[2])
+        least = min(deep_x, deep_y, deep_z)
+        if least == deep_x:
+            x = 1 if p[0] >= 0.0 else -1
+        elif least == deep_y:
+            y = 1 if p[1] >= 0.0 else -1
+        else:
+            z = 1 if p[2] >= 0.0 else -1
+        return (x, y, z), -least, (float(x), float(y), float(z))
+    d = _beyond(p[0], x, half[0]), _beyond(p[1], y, half[1]), _beyond(p[2], z, half[2])
+    distance = size_of(d)
+    return (x, y, z), distance, over(d, distance)
+
+
+def evaluate_box_sphere(
     a: Floats,
     b: Floats,
     out: Floats,
-    half_x_a: float,
-    half_y_a: float,
-    half_z_a: float,
-    x_a: float,
-    y_a: float,
-    z_a: float,
-    orientation_w_a: float,
-    orientation_x_a: float,
-    orientation_y_a: float,
-    orientation_z_a: float,
-    rounding_a: float,
-    radius_b: float,
-    x_b: float,
-    y_b: float,
-    z_b: float,
+    half: Floats,
+    center_a: Floats,
+    orientation: Floats,
+    rounding: float,
+    radius: float,
+    center_b: Floats,
 ) -> None:
-    # the sphere's centre in the axes of the box
-    center_x, center_y, center_z = point_in_world(b, (x_b, y_b, z_b))
-    x, y, z = point_in_body(a, (center_x, center_y, center_z))
-    inverse_x, inverse_y, inverse_z = -orientation_x_a, -orientation_y_a, -orientation_z_a
-    x, y, z = turned_by(orientation_w_a, inverse_x, inverse_y, inverse_z, x - x_a, y - y_a, z - z_a)
-    side_x, side_y, side_z = _side(x, half_x_a), _side(y, half_y_a), _side(z, half_z_a)
-    nx, ny, nz = 0.0, 0.0, 0.0
-    if side_x == 0 and side_y == 0 and side_z == 0:
-        # a centre inside leaves by the nearest face
-        deep_x, deep_y, deep_z = half_x_a - abs(x), half_y_a - abs(y), half_z_a - abs(z)
-        distance = -min(deep_x, deep_y, deep_z)
-        if -distance == deep_x:
-            side_x = 1 if x >= 0.0 else -1
-        elif -distance == deep_y:
-            side_y = 1 if y >= 0.0 else -1
-        else:
-            side_z = 1 if z >= 0.0 else -1
-        nx, ny, nz = float(side_x), float(side_y), float(side_z)
-    else:
-        if side_x != 0:
-            nx = x - side_x * half_x_a
-        if side_y != 0:
-            ny = y - side_y * half_y_a
-        if side_z != 0:
-            nz = z - side_z * half_z_a
-        distance = math.sqrt(nx * nx + ny * ny + nz * nz)
-        nx, ny, nz = nx / distance, ny / distance, nz / distance
-    nx, ny, nz = turned_by(orientation_w_a, orientation_x_a, orientation_y_a, orientation_z_a, nx, ny, nz)
-    put(out, NORMAL, vector_in_world(a, (nx, ny, nz)))
-    place_sphere(a, out, center_x, center_y, center_z, distance - rounding_a, radius_b)
-    sides = abs(side_x) + abs(side_y) + abs(side_z)
-    if sides == 1:
+    """Write the geometry block of a box and a sphere.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of the bodies, and the geometry block.
+    half, center_a, orientation, rounding : Floats, float
+        Half-lengths of the box without its rounding [m], centre in its body frame [m], quaternion from its axes to
+        those of its body, and radius of the rounding [m].
+    radius, center_b : float, Floats
+        Radius of the sphere [m], and its centre in its body frame [m].
+    """
+    w, x, y, z = orientation[0], orientation[1], orientation[2], orientation[3]
+    center = point_in_world(b, vector_at(center_b, 0))
+    p = minus(point_in_body(a, center), vector_at(center_a, 0))
+    sides, distance, n = _nearest_feature(vector_at(half, 0), turned_by(w, -x, -y, -z, p[0], p[1], p[2]))
+    put(out, NORMAL, vector_in_world(a, _in_body(orientation, n)))
+    place_sphere(a, out, center[0], center[1], center[2], distance - rounding, radius)
+    on_x, on_y, on_z = abs(sides[0]), abs(sides[1]), abs(sides[2])
+    if on_x + on_y + on_z == 1:
         write_flat(out, SIDE_A)
-    elif sides == 3:
-        write_round(out, SIDE_A, rounding_a)
+    elif on_x + on_y + on_z == 3:
+        write_round(out, SIDE_A, rounding)
     else:
         # an edge lies along the axis that it does not bound
-        ex, ey, ez = 1.0 - abs(side_x), 1.0 - abs(side_y), 1.0 - abs(side_z)
-        ex, ey, ez = turned_by(orientation_w_a, orientation_x_a, orientation_y_a, orientation_z_a, ex, ey, ez)
-        ex, ey, ez = vector_in_world(a, (ex, ey, ez))
-        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, rounding_a)
-    write_round(out, SIDE_B, radius_b)
-    number = 9 * (side_x + 1) + 3 * (side_y + 1) + side_z + 1
+        x, y, z = vector_in_world(a, _in_body(orientation, (1.0 - on_x, 1.0 - on_y, 1.0 - on_z)))
+        write_principal(out, SIDE_A, x, y, z, 0.0, 1.0, 1.0, rounding)
+    write_round(out, SIDE_B, radius)
+    number = 9 * (sides[0] + 1) + 3 * (sides[1] + 1) + sides[2] + 1
     out[FEATURE] = number - 1 if number > 13 else number
 
 
 @final
-@dataclass(frozen=True)
 class BoxSphere(ContactKinematics):
-    """One contact of a sphere with the nearest face, edge or vertex of a box."""
+    """A box and a sphere: one contact, of the nearest face, edge or vertex of the box."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Box, Sphere)
 
-    half_x_a: float = parameter(
-        doc="half-length of the box without its rounding along its first axis", unit="m", above=0.0
-    )
-    half_y_a: float = parameter(doc="the same along its second axis", unit="m", above=0.0)
-    half_z_a: float = parameter(doc="the same along its third axis", unit="m", above=0.0)
-    x_a: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")
-    y_a: float = parameter(doc="its centre in its body frame, second coordinate", unit="m")
-    z_a: float = parameter(doc="its centre in its body frame, third coordinate", unit="m")
-    orientation_w_a: float = parameter(doc="quaternion from its axes to its body's, scalar part")
-    orientation_x_a: float = parameter(doc="quaternion, first component")
-    orientation_y_a: float = parameter(doc="quaternion, second component")
-    orientation_z_a: float = parameter(doc="quaternion, third component")
-    rounding_a: float = parameter(doc="its rounding", unit="m", minimum=0.0)
-    radius_b: float = parameter(doc="radius of the sphere", unit="m", above=0.0)
-    x_b: float = parameter(doc="its centre in its body frame, first coordinate", unit="m")
-    y_b: float = parameter(doc="its centre in its body frame, second coordinate", unit="m")
-    z_b: float = parameter(doc="its centre in its body frame, third coordinate", unit="m")
-
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[BoxSphere, ...]:
-        """Return the single contact of a box and a sphere."""
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact; its features are 26 faces, edges and vertices, by the axes that they lie on."""
         assert isinstance(first, Box)
-        core = {f"half_{axis}_a": half for axis, half in zip("xyz", first.core_sizes, strict=True)}
-        return (cls(**{**by_side(first, second), **core}),)
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """The 26 faces, edges and vertices, each by the axes that it lies on."""
-        return _FEATURES
+        assert isinstance(second, Sphere)
+        numbers = tuple(first.numbers().values())
+        values: dict[str, Value] = {
+            "half": first.core_sizes,
+            "center_a": numbers[3:6],
+            "orientation": numbers[6:10],
+            "rounding": first.rounding,
+            "radius": second.radius,
+            "center_b": (second.x, second.y, second.z),
+        }
+        return (FeaturePair(evaluate_box_sphere, values, _FEATURES),)

@@ -13,10 +13,8 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_of
-from ...vectors import Vector3
-from .boxy_newton import Answer
-from .smooth_core import Axes, back, forth
+from ...vectors import Vector3, ahead, cross, dot, minus, plus, times
+from .smooth_core import Answer, Axes, facing_point, longest, spread
 
 _LOOKS = 8
 """Number of directions, evenly spaced round the axis of the line, at which the gap is sampled before the search."""
@@ -57,50 +55,48 @@ def across_line(
     reach : float
         Distance of the surface about the line from the origin, along its normals [m]; 0 for the line itself.
     """
-    x, y, z = place
-    spread = math.pi / _LOOKS
-    found = _look(core, turn, place, e, n, cosine, sine, 0.0)
+    between = math.pi / _LOOKS
+    found, slope = _look(core, turn, place, e, n, cosine, sine, 0.0)
     # climb from the given direction n; if no positive gap is found, climb from the best of all sampled directions
-    at, low, high, rising, falling, most = 0, 0.0, 0.0, found[7], found[7], found[0]
-    way = 1 if found[7] > 0.0 else -1
+    at, low, high, rising, falling, most = 0, 0.0, 0.0, slope, slope, found[0]
+    way = 1 if slope > 0.0 else -1
     for i in range(1, _LOOKS // 2 + 2):
-        look = _look(core, turn, place, e, n, cosine, sine, way * i * spread)
+        look, slope = _look(core, turn, place, e, n, cosine, sine, way * i * between)
         most = max(most, look[0])
-        low, high = (high, i * spread) if way > 0 else (-i * spread, low)
-        rising, falling = (falling, look[7]) if way > 0 else (look[7], rising)
+        low, high = (high, i * between) if way > 0 else (-i * between, low)
+        rising, falling = (falling, slope) if way > 0 else (slope, rising)
         if rising > 0.0 > falling:
             break
     if most <= reach:
-        best, last, slope = -math.inf, math.nan, 0.0
+        best, last, middle_slope = -math.inf, math.nan, 0.0
         for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
-            look = _look(core, turn, place, e, n, cosine, sine, i * spread)
+            look, slope = _look(core, turn, place, e, n, cosine, sine, i * between)
             if look[0] > best and abs(i) <= _LOOKS // 2:
-                best, at, rising, slope = look[0], i, last, look[7]
+                best, at, rising, middle_slope = look[0], i, last, slope
             elif at == i - 1:
-                falling = look[7]
-            last = look[7]
-        low, high = (at - 1) * spread, (at + 1) * spread
+                falling = slope
+            last = slope
+        low, high = (at - 1) * between, (at + 1) * between
         # in an overlap the gap may have two maxima between the samples next to the best one: bisect the interval, in
         # the direction in which the gap rises from the best sample, until one maximum remains
         for _ in range(_LOOKS):
             if rising > 0.0 > falling:
                 break
-            middle = at * spread
-            if slope > 0.0:
-                low, rising = middle, slope
+            middle = at * between
+            if middle_slope > 0.0:
+                low, rising = middle, middle_slope
             else:
-                high, falling = middle, slope
+                high, falling = middle, middle_slope
             if rising > 0.0 > falling:
                 break
-            middle = 0.5 * (low + high)
-            look = _look(core, turn, place, e, n, cosine, sine, middle)
-            if slope > 0.0:
-                high, falling = middle, look[7]
+            _, slope = _look(core, turn, place, e, n, cosine, sine, 0.5 * (low + high))
+            if middle_slope > 0.0:
+                high, falling = 0.5 * (low + high), slope
             else:
-                low, rising = middle, look[7]
+                low, rising = 0.5 * (low + high), slope
     if not (rising > 0.0 > falling):
-        return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
-    none = _ROUND_OFF * (abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]))
+        return math.nan, found[1], found[2]
+    none = _ROUND_OFF * (spread(place) + longest(core))
     side, slow = 0, 0
     for _ in range(_STEPS):
         width = high - low
@@ -108,46 +104,39 @@ def across_line(
         middle = (low * falling - high * rising) / (falling - rising)
         if slow >= _PATIENCE or not (low < middle < high):
             middle, slow = 0.5 * (low + high), 0
-        found = _look(core, turn, place, e, n, cosine, sine, middle)
-        if abs(found[7]) <= none:
-            return found[0] - reach, found[1], found[2], found[3], found[4], found[5], found[6]
+        found, slope = _look(core, turn, place, e, n, cosine, sine, middle)
+        if abs(slope) <= none:
+            return found[0] - reach, found[1], found[2]
         if width <= _CLOSED or middle == low or middle == high:
             # the derivative jumps, so a flat place faces the line: interpolate between the points of both directions
-            one = _look(core, turn, place, e, n, cosine, sine, low)
-            two = _look(core, turn, place, e, n, cosine, sine, high)
-            part = min(max(one[7] / (one[7] - two[7]), 0.0), 1.0) if one[7] > two[7] else 0.5
-            px, py = one[1] + part * (two[1] - one[1]), one[2] + part * (two[2] - one[2])
-            pz = one[3] + part * (two[3] - one[3])
-            return found[0] - reach, px, py, pz, found[4], found[5], found[6]
-        if found[7] > 0.0:
-            low, rising = middle, found[7]
+            one, up = _look(core, turn, place, e, n, cosine, sine, low)
+            two, down = _look(core, turn, place, e, n, cosine, sine, high)
+            part = min(max(up / (up - down), 0.0), 1.0) if up > down else 0.5
+            return found[0] - reach, ahead(one[1], part, minus(two[1], one[1])), found[2]
+        if slope > 0.0:
+            low, rising = middle, slope
             falling = 0.5 * falling if side == 1 else falling
             side = 1
         else:
-            high, falling = middle, found[7]
+            high, falling = middle, slope
             rising = 0.5 * rising if side == -1 else rising
             side = -1
         slow = slow + 1 if high - low > 0.5 * width else 0
-    return math.nan, found[1], found[2], found[3], found[4], found[5], found[6]
+    return math.nan, found[1], found[2]
 
 
 @compiled
 def _look(
     core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
-) -> tuple[float, float, float, float, float, float, float, float]:
-    """Return gap, core's point, normal, and the gap's derivative by the angle, at an ``angle`` round the line [rad].
+) -> tuple[Answer, float]:
+    """Return gap, core's point and normal, and the gap's derivative by the angle, at an ``angle`` round the line [rad].
 
     The line has the unit direction ``e``; the unit vector ``n``, perpendicular to it, is at angle 0.  The normal has
     the component ``cosine`` across the line and ``sine`` along it.  The gap is that of the line itself [m]; the
     derivative is in [m].
     """
-    (x, y, z), (ex, ey, ez), (nx, ny, nz) = place, e, n
-    ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
+    u = cross(e, n)
     c, s = cosine * math.cos(angle), cosine * math.sin(angle)
-    ax, ay, az = c * nx + s * ux + sine * ex, c * ny + s * uy + sine * ey, c * nz + s * uz + sine * ez
-    mx, my, mz = back(turn, (-ax, -ay, -az))
-    f = support_of(core, (mx, my, mz))
-    px, py, pz = forth(turn, (f[1], f[2], f[3]))
-    px, py, pz = x + px, y + py, z + pz
-    slope = (c * ux - s * nx) * px + (c * uy - s * ny) * py + (c * uz - s * nz) * pz
-    return ax * px + ay * py + az * pz, px, py, pz, ax, ay, az, slope
+    normal = ahead(plus(times(c, n), times(s, u)), sine, e)
+    p, _ = facing_point(core, turn, place, normal)
+    return (dot(normal, p), p, normal), dot(minus(times(c, u), times(s, n)), p)

@@ -15,54 +15,47 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import OF_FUNCTION, gauge_of
-from ...vectors import vector_at
+from ...vectors import Vector3, ahead, dot, minus, opposite, vector_at
 from .dual_newton import climb
-from .smooth_core import Axes, back
+from .smooth_core import POINT, Answer, Axes, back, longest, spread
 
 
 @compiled
-def no_shorter_way(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, found: tuple[float, ...]
-) -> bool:
+def no_shorter_way(first: Floats, second: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
     """Return True if inscribed balls prove that no translation shorter than the overlap separates the cores.
 
     Parameters
     ----------
-    first, second : Floats
-        The cores; their radii are not used.
-    turn : Axes
-        Rotation from the axes of the second core to those of the first.
-    x, y, z : float
-        The second core's centre from the first's [m].
+    first, second, turn, place : Floats, Axes, Vector3
+        See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
     found : tuple
         The gap, below 0 [m], the second core's contact point and the normal, in the axes of the first core and from
         its centre.
     """
-    g, qx, qy, qz, nx, ny, nz = found
-    depth = -g
-    radius = _ball_in(first, depth, qx - g * nx, qy - g * ny, qz - g * nz, nx, ny, nz)
-    if radius >= depth:
+    g, q, n = found
+    radius = _ball_in(first, -g, ahead(q, -g, n), n)
+    if radius >= -g:
         return True
-    bx, by, bz = back(turn, (qx - x, qy - y, qz - z))
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    return bool(radius + _ball_in(second, depth, bx, by, bz, mx, my, mz) >= depth)
+    point, normal = back(turn, minus(q, place)), back(turn, opposite(n))
+    return bool(radius + _ball_in(second, -g, point, normal) >= -g)
 
 
 @compiled
-def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
-    """Return the radius [m] of a ball that lies inside the core and touches the core's surface at (x, y, z).
+def _ball_in(core: Floats, most: float, point: Vector3, normal: Vector3) -> float:
+    """Return the radius [m] of a ball that lies inside the core and touches the core's surface at a point.
 
-    The point is in the axes of the core, from its centre [m].  (nx, ny, nz) is the outward unit normal there.  The
-    radius is a lower bound of the largest possible radius, and at most ``most`` [m].  It is 0 if no ball was found.
+    The point is in the axes of the core, from its centre [m].  ``normal`` is the outward unit normal there.  The radius
+    is a lower bound of the largest possible radius, and at most ``most`` [m].  It is 0 if no ball was found.
     """
     a, b, c = vector_at(core, 0)
-    height = nx * x + ny * y + nz * z
+    height = dot(normal, point)
     if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
         return 0.0
     # the function is r^j + |z / c|^j, with r^k = |x / a|^k + |y / b|^k.  First: bounds of |x / a|^k, |y / b|^k and
     # |z / c| in a cube that contains the ball of radius `most`, and bounds of the parts s and t of x and y in r^k
     j, k = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
-    x, y, z = abs(x - most * nx), abs(y - most * ny), abs(z - most * nz)
+    x, y, z = ahead(point, -most, normal)
+    x, y, z = abs(x), abs(y), abs(z)
     low_x, low_y, low_z = (max(x - most, 0.0) / a) ** k, (max(y - most, 0.0) / b) ** k, max(z - most, 0.0) / c
     high_x, high_y, high_z = ((x + most) / a) ** k, ((y + most) / b) ** k, (z + most) / c
     low_s, low_t = low_x / (low_x + high_y), low_y / (high_x + low_y)
@@ -82,17 +75,17 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
 
 
 @compiled
-def gauge(core: Floats, x: float, y: float, z: float) -> float:
+def gauge(core: Floats, point: Vector3) -> float:
     """Return the gauge of a point: 1 on the surface of a core, more outside, less inside; in the axes of the core.
 
     A core given by a support function has no gauge in closed form.  There the result is 1 + signed distance / size, or
     nan if no normal was found.
     """
     if core[3] != OF_FUNCTION:
-        return float(gauge_of(core, x, y, z))
-    size = max(core[0], core[1], core[2])
-    if abs(x) + abs(y) + abs(z) <= 1e-9 * size:
+        return float(gauge_of(core, point))
+    size, none = longest(core), (0.0, 0.0, 0.0)
+    if spread(point) <= 1e-9 * size:
         return 0.0
-    point, same = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-    g, _, _, _ = climb(point, core, same, (-x, -y, -z), (0.0, 0.0, 0.0), (-x, -y, -z))
+    same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    g, _ = climb(POINT, core, same, opposite(point), none, opposite(point))
     return float(1.0 + g / size)

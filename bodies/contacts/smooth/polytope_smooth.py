@@ -16,21 +16,37 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias, final
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
+from ...shapes.capsule import Capsule
+from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Polytope
-from ...shapes.support_function import is_round, support_of
-from ...vectors import put, vector_at
+from ...shapes.smooth import SmoothShape
+from ...shapes.support_function import is_round
+from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, put, size_of, times, vector_at
 from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world, write_tangent
 from ..features.writing import write_flat, write_principal, write_round
-from .boxy_newton import Answer
 from .inscribed import gauge
 from .round_search import along_segment, up_hills
-from .smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
+from .smooth_core import (
+    CENTER,
+    POINT,
+    RADIUS,
+    Answer,
+    Axes,
+    axes_in_world,
+    axes_of,
+    back,
+    between_axes,
+    facing_point,
+    longest,
+    spread,
+)
 from .smooth_newton import widest_from, write_surface
 
 Numbers = tuple[float, ...]
@@ -107,60 +123,62 @@ A deeper overlap can have several locally shortest separations, so that its stop
 _ROUND = 8
 """Number of directions about a segment from which Newton's method starts, if the segment is deep in the body."""
 
-Point: TypeAlias = tuple[float, float, float]
-Stop: TypeAlias = tuple[float, float, float, float, int, int, Point]
-Nearest: TypeAlias = tuple[float, float, float, float, int, Point]
+Stop: TypeAlias = tuple[float, Vector3, int, int, Vector3]
+"""Gap [m] and normal at a stop of the walk, kind and number of the feature that follows, point where it starts [m]."""
+Nearest: TypeAlias = tuple[float, Vector3, int, Vector3]
+"""Gap of the cores [m], normal, number of the polytope's nearest feature and a point of this feature [m].
+
+The number of the feature counts faces first, then edges, then vertices.  On an edge or a vertex, the point is the
+polytope's nearest point.  Vectors are in the frame of the polytope.  The gap is nan if the search failed.
+"""
 
 
 @compiled
-def _vertex(hull: Floats, i: int) -> tuple[float, float, float]:
-    at = int(hull[VERTICES]) + 3 * i
-    found: Point = vector_at(hull, at)
+def _vertex(hull: Floats, i: int) -> Vector3:
+    found: Vector3 = vector_at(hull, int(hull[VERTICES]) + 3 * i)
     return found
 
 
 @compiled
-def _edge(hull: Floats, i: int) -> tuple[float, float, float, float]:
+def _begin_of_edge(hull: Floats, i: int) -> Vector3:
+    """Return the first vertex of an edge [m]."""
+    found: Vector3 = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * i]))
+    return found
+
+
+@compiled
+def _edge(hull: Floats, i: int) -> tuple[Vector3, float]:
     """Return the unit vector from the first to the second vertex of an edge, and its length."""
     at = int(hull[EDGES]) + EDGE * i
-    ax, ay, az = _vertex(hull, int(hull[at]))
-    bx, by, bz = _vertex(hull, int(hull[at + 1]))
-    x, y, z = bx - ax, by - ay, bz - az
-    length = math.sqrt(x * x + y * y + z * z)
-    return x / length, y / length, z / length, length
+    e = minus(_vertex(hull, int(hull[at + 1])), _vertex(hull, int(hull[at])))
+    length = size_of(e)
+    return over(e, length), length
 
 
 @compiled
-def _point_along(
-    core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
-) -> tuple[float, float, float]:
-    """Return the smooth body's farthest point in the direction -(nx, ny, nz) [m], in the axes of the polytope."""
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    s = support_of(core, (mx, my, mz))
-    px, py, pz = forth(turn, (s[1], s[2], s[3]))
-    return x + px, y + py, z + pz
+def _edge_from(hull: Floats, vertex: int, i: int) -> tuple[int, float, Vector3]:
+    """Return the number of edge i of a vertex, 1 if the edge begins there, -1 if it ends there, its unit vector."""
+    star = int(hull[STARS]) + 2 * vertex
+    edge = int(hull[int(hull[LISTS]) + int(hull[star]) + i])
+    e, _ = _edge(hull, edge)
+    return edge, 1.0 if int(hull[int(hull[EDGES]) + EDGE * edge]) == vertex else -1.0, e
 
 
 @compiled
-def _exit(
-    hull: Floats, face: int, near: float, fx: float, fy: float, fz: float, tx: float, ty: float, tz: float
-) -> int:
-    """Return the number of the face's edge that the line from f to t crosses first, or -1 if it crosses none.
+def _exit(hull: Floats, face: int, near: float, here: Vector3, there: Vector3) -> int:
+    """Return the number of the face's edge that the line between two points crosses first, or -1 if it crosses none.
 
-    Both points are in the plane of the face, f on the face.  A point up to ``near`` past an edge [m] is on the face.
+    Both points are in the plane of the face, the first on the face.  A point up to ``near`` past an edge [m] is on it.
     """
     at = int(hull[FACES]) + FACE * face
-    nx, ny, nz = vector_at(hull, at)
+    n = vector_at(hull, at)
     loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
     found, least = -1, 2.0
     for i in range(count):
-        vx, vy, vz = _vertex(hull, int(hull[loop + 2 * i]))
-        wx, wy, wz = _vertex(hull, int(hull[loop + 2 * ((i + 1) % count)]))
-        ex, ey, ez = wx - vx, wy - vy, wz - vz
-        length = math.sqrt(ex * ex + ey * ey + ez * ez)
-        ox, oy, oz = (ey * nz - ez * ny) / length, (ez * nx - ex * nz) / length, (ex * ny - ey * nx) / length
-        before = (fx - vx) * ox + (fy - vy) * oy + (fz - vz) * oz
-        after = (tx - vx) * ox + (ty - vy) * oy + (tz - vz) * oz
+        v, w = _vertex(hull, int(hull[loop + 2 * i])), _vertex(hull, int(hull[loop + 2 * ((i + 1) % count)]))
+        e = minus(w, v)
+        outward = over(cross(e, n), size_of(e))
+        before, after = dot(minus(here, v), outward), dot(minus(there, v), outward)
         if after > near and after > before:
             part = max(-before, 0.0) / (after - before)
             if part < least:
@@ -169,14 +187,20 @@ def _exit(
 
 
 @compiled
-def _best_face(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> int:
+def _over_face(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: int) -> Answer:
+    """Return the gap between the plane of a face and the smooth body [m], the body's point [m] and the normal."""
+    at = int(hull[FACES]) + FACE * number
+    n = vector_at(hull, at)
+    p, _ = facing_point(core, turn, place, n)
+    return dot(n, p) - hull[at + 3], p, n
+
+
+@compiled
+def _best_face(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> int:
     """Return the face whose plane has the largest gap to the smooth body, or -1 if the polytope is a segment."""
     best, widest = -1, -math.inf
     for i in range(int(hull[COUNTS + 2])):
-        at = int(hull[FACES]) + FACE * i
-        nx, ny, nz = vector_at(hull, at)
-        px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
-        wide = nx * px + ny * py + nz * pz - hull[at + 3]
+        wide, _, _ = _over_face(hull, core, turn, place, i)
         if wide > widest:
             best, widest = i, wide
     return best
@@ -184,225 +208,190 @@ def _best_face(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: fl
 
 @compiled
 def _look_at_face(
-    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float, number: int, way: Point
+    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, number: int, way: Vector3
 ) -> Stop:
-    at = int(hull[FACES]) + FACE * number
-    nx, ny, nz = vector_at(hull, at)
-    px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
-    g = nx * px + ny * py + nz * pz - hull[at + 3]
-    edge = _exit(hull, number, near, way[0], way[1], way[2], px - g * nx, py - g * ny, pz - g * nz)
-    return g, nx, ny, nz, _HERE if edge < 0 else _EDGE, edge, way
+    g, p, n = _over_face(hull, core, turn, place, number)
+    edge = _exit(hull, number, near, way, ahead(p, -g, n))
+    return g, n, _HERE if edge < 0 else _EDGE, edge, way
 
 
 @compiled
 def _look_at_edge(
-    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float, number: int, begin: Point
+    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, number: int, begin: Vector3
 ) -> Stop:
     at = int(hull[EDGES]) + EDGE * number
-    one, two = int(hull[at]), int(hull[at + 1])
-    vx, vy, vz = _vertex(hull, one)
-    ex, ey, ez, length = _edge(hull, number)
-    g, px, py, pz, nx, ny, nz = widest_from(
-        hull, core, turn, (x - vx, y - vy, z - vz), (ex, ey, ez), (begin[0], begin[1], begin[2])
-    )
-    s = px * ex + py * ey + pz * ez
+    v, (e, length) = _begin_of_edge(hull, number), _edge(hull, number)
+    g, p, n = widest_from(hull, core, turn, minus(place, v), e, begin)
+    s = dot(p, e)
     if s < -near or s > length + near:
-        return g, nx, ny, nz, _VERTEX, one if s < 0.0 else two, begin
+        return g, n, _VERTEX, int(hull[at]) if s < 0.0 else int(hull[at + 1]), begin
     side, most = -1, _ON_BORDER
     for i in range(2):
         face = int(hull[at + 2 + i])
         if face >= 0:
             # into the face, whose loop runs along the edge on its left, against it on its right
-            f = int(hull[FACES]) + FACE * face
-            fx, fy, fz = vector_at(hull, f)
-            into = nx * (fy * ez - fz * ey) + ny * (fz * ex - fx * ez) + nz * (fx * ey - fy * ex)
+            into = dot(n, cross(vector_at(hull, int(hull[FACES]) + FACE * face), e))
             into = into if i == 0 else -into
             if into > most:
                 side, most = face, into
-    return g, nx, ny, nz, _HERE if side < 0 else _FACE, side, (vx + s * ex, vy + s * ey, vz + s * ez)
+    return g, n, _HERE if side < 0 else _FACE, side, ahead(v, s, e)
 
 
 @compiled
-def _look_at_vertex(
-    hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, number: int, begin: Point
-) -> Stop:
-    vx, vy, vz = _vertex(hull, number)
-    g, _, _, _, nx, ny, nz = widest_from(
-        hull, core, turn, (x - vx, y - vy, z - vz), (0.0, 0.0, 0.0), (begin[0], begin[1], begin[2])
-    )
-    star = int(hull[STARS]) + 2 * number
+def _look_at_vertex(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: int, begin: Vector3) -> Stop:
+    v = _vertex(hull, number)
+    g, _, n = widest_from(hull, core, turn, minus(place, v), (0.0, 0.0, 0.0), begin)
     steepest, most = -1, _ON_BORDER
-    for i in range(int(hull[star + 1])):
-        edge = int(hull[int(hull[LISTS]) + int(hull[star]) + i])
-        ex, ey, ez, _ = _edge(hull, edge)
-        away = nx * ex + ny * ey + nz * ez
-        if int(hull[int(hull[EDGES]) + EDGE * edge]) != number:
-            away = -away
+    for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
+        edge, sign, e = _edge_from(hull, number, i)
+        away = sign * dot(n, e)
         if away > most:
             steepest, most = edge, away
-    return g, nx, ny, nz, _HERE if steepest < 0 else _EDGE, steepest, (vx, vy, vz)
+    return g, n, _HERE if steepest < 0 else _EDGE, steepest, v
 
 
 @compiled
-def _middle(hull: Floats, face: int) -> Point:
+def _middle(hull: Floats, face: int) -> Vector3:
     at = int(hull[FACES]) + FACE * face
     loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
-    x = y = z = 0.0
+    middle = 0.0, 0.0, 0.0
     for i in range(count):
-        vx, vy, vz = _vertex(hull, int(hull[loop + 2 * i]))
-        x, y, z = x + vx / count, y + vy / count, z + vz / count
-    return x, y, z
+        middle = plus(middle, over(_vertex(hull, int(hull[loop + 2 * i])), count))
+    return middle
 
 
 @compiled
-def _nearest(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> Nearest:
-    """Return the gap of the cores [m], the normal, the polytope's nearest feature and a point of this feature.
+def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
+    """Return gap, normal, nearest feature and point of a polytope and a smooth body.
 
-    The number of the feature counts faces first, then edges, then vertices.  On an edge or a vertex, the point is the
-    polytope's nearest point.  All vectors are in the frame of the polytope; (x, y, z) is the centre of the smooth
-    body's core.  The gap is nan if no nearest feature was found.
+    ``place`` is the centre of the smooth body's core in the frame of the polytope [m].
     """
     n_edges, n_faces = int(hull[COUNTS + 1]), int(hull[COUNTS + 2])
-    vx, vy, vz = _vertex(hull, 0)
-    size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + abs(vx) + abs(vy) + abs(vz)
+    way = _vertex(hull, 0)
+    size = spread(place) + longest(core) + abs(way[0]) + abs(way[1]) + abs(way[2])
     near = _ON_BORDER * size
-    kind, number, way = _EDGE, 0, (vx, vy, vz)
+    kind, number = _EDGE, 0
     if n_faces > 0:
-        kind, number = _FACE, _best_face(hull, core, turn, x, y, z)
+        kind, number = _FACE, _best_face(hull, core, turn, place)
         way = _middle(hull, number)
-    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, way
+    best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, way)
     # on edges and vertices Newton's method starts with the direction to the smooth body's centre
     for _ in range(n_edges + 4):
         if kind == _FACE:
-            g, nx, ny, nz, after, where, way = _look_at_face(hull, core, turn, x, y, z, near, number, way)
+            g, n, after, where, way = _look_at_face(hull, core, turn, place, near, number, way)
         elif kind == _EDGE:
-            vx, vy, vz = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * number]))
-            begin = (x - vx, y - vy, z - vz)
-            g, nx, ny, nz, after, where, way = _look_at_edge(hull, core, turn, x, y, z, near, number, begin)
+            begin = minus(place, _begin_of_edge(hull, number))
+            g, n, after, where, way = _look_at_edge(hull, core, turn, place, near, number, begin)
         else:
-            vx, vy, vz = _vertex(hull, number)
-            begin = (x - vx, y - vy, z - vz)
-            g, nx, ny, nz, after, where, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
+            begin = minus(place, _vertex(hull, number))
+            g, n, after, where, way = _look_at_vertex(hull, core, turn, place, number, begin)
+        stop = g, n, _feature(hull, kind, number), way
         if after == _HERE and g >= -_SHALLOW * size:
-            return g, nx, ny, nz, _feature(hull, kind, number), way
+            return stop
         # a final stop is valid only if the smooth body's centre is on the outer side of the feature
-        if after == _HERE and nx * (x - way[0]) + ny * (y - way[1]) + nz * (z - way[2]) > 0.0:
+        if after == _HERE and dot(n, minus(place, way)) > 0.0:
             # if the polytope's point lies in the smooth body (gauge below 1), the overlap is proved
-            px, py, pz = _point_along(core, turn, x, y, z, nx, ny, nz)
-            px, py, pz = back(turn, (px - g * nx - x, py - g * ny - y, pz - g * nz - z))
-            if gauge(core, px, py, pz) < 1.0:
-                return g, nx, ny, nz, _feature(hull, kind, number), way
-            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
+            p, _ = facing_point(core, turn, place, n)
+            if gauge(core, back(turn, minus(ahead(p, -g, n), place))) < 1.0:
+                return stop
+            best = stop
         if g != g or after == _HERE:
             break
         kind, number = after, where
-    found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
-    on_segment = way
+    on_segment: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, way)
     if n_faces == 0:
         # a segment: search along it
-        vx, vy, vz = _vertex(hull, 0)
-        ex, ey, ez, length = _edge(hull, 0)
-        found, s = along_segment(core, turn, x - vx, y - vy, z - vz, ex, ey, ez, length)
+        v, (e, length) = _vertex(hull, 0), _edge(hull, 0)
+        found, s = along_segment(core, turn, minus(place, v), e, length)
         number = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
-        on_segment = vx + s * ex, vy + s * ey, vz + s * ez
+        on_segment = found[0], found[2], number, ahead(v, s, e)
         if found[0] >= 0.0:
-            return found[0], found[4], found[5], found[6], number, on_segment
-    g, nx, ny, nz, feature_of_all, way = _best_of_all(hull, core, turn, x, y, z, near)
-    if best == best and not g > best:
-        return best, bx, by, bz, feature, base
-    if g != g and found[0] == found[0]:
+            return on_segment
+    of_all: Nearest = _best_of_all(hull, core, turn, place, near)
+    if best[0] == best[0] and not of_all[0] > best[0]:
+        return best
+    if of_all[0] != of_all[0] and on_segment[0] == on_segment[0]:
         # the trial of all features found nothing: return the overlap that the search along the segment found
-        return found[0], found[4], found[5], found[6], number, on_segment
-    if g != g and n_faces == 0:
-        end: Nearest = _deep_segment(hull, core, turn, x, y, z, size)
-        return end
-    return g, nx, ny, nz, feature_of_all, way
+        return on_segment
+    if of_all[0] != of_all[0] and n_faces == 0:
+        of_all = _deep_segment(hull, core, turn, place, size)
+    return of_all
 
 
 @compiled
-def _deep_segment(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, size: float) -> Nearest:
-    """Return gap, normal, feature and point as `_nearest` does, for a segment deep in the smooth body.
+def _deep_segment(hull: Floats, core: Floats, turn: Axes, place: Vector3, size: float) -> Nearest:
+    """Return the result of :func:`_nearest` for a segment deep in the smooth body.
 
     Searches start uphill from both ends, and from ``_ROUND`` directions round the segment.
     """
-    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
+    best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, (0.0, 0.0, 0.0))
+    e, _ = _edge(hull, 0)
     for end in range(2):
-        vx, vy, vz = _vertex(hull, end)
-        ex, ey, ez, _ = _edge(hull, 0)
-        lean = (1.0, 0.0, size)
-        g, _, _, _, nx, ny, nz = up_hills((0.0, 0.0, 0.0, 2.0, 2.0, 0.0), core, turn, x - vx, y - vy, z - vz, 0.0, lean)
-        ahead = nx * ex + ny * ey + nz * ez
-        if (ahead <= 0.0 if end == 0 else ahead >= 0.0) and g == g and not g <= best:
-            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, _VERTEX, end), (vx, vy, vz)
-    ex, ey, ez, _ = _edge(hull, 0)
-    tx, ty, tz = tangent_of((ex, ey, ez))
+        v = _vertex(hull, end)
+        g, _, n = up_hills(POINT, core, turn, minus(place, v), 0.0, (1.0, 0.0, size))
+        rise = dot(n, e)
+        if (rise <= 0.0 if end == 0 else rise >= 0.0) and g == g and not g <= best[0]:
+            best = g, n, _feature(hull, _VERTEX, end), v
+    t = tangent_of(e)
+    u = cross(e, t)
     for i in range(_ROUND):
         c, s = math.cos(2.0 * math.pi * i / _ROUND), math.sin(2.0 * math.pi * i / _ROUND)
-        begin = (
-            c * tx + s * (ey * tz - ez * ty),
-            c * ty + s * (ez * tx - ex * tz),
-            c * tz + s * (ex * ty - ey * tx),
-        )
-        g, nx, ny, nz, after, _, way = _look_at_edge(hull, core, turn, x, y, z, _ON_BORDER * size, 0, begin)
-        if after == _HERE and g == g and not g <= best:
-            best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, _EDGE, 0), way
-    return best, bx, by, bz, feature, base
+        begin = plus(times(c, t), times(s, u))
+        g, n, after, _, way = _look_at_edge(hull, core, turn, place, _ON_BORDER * size, 0, begin)
+        if after == _HERE and g == g and not g <= best[0]:
+            best = g, n, _feature(hull, _EDGE, 0), way
+    return best
 
 
 @compiled
-def _best_of_all(hull: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, near: float) -> Nearest:
-    """Return gap, normal, feature and point as `_nearest` does, by Newton's method on every feature of the polytope.
+def _best_of_all(hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float) -> Nearest:
+    """Return the result of :func:`_nearest` by Newton's method on every feature of the polytope.
 
     It is used for overlaps in which the walk does not lead to a proved solution.  The result is the final stop with the
     largest gap.  Newton's method starts from an outward direction.  At an edge it is the sum of the normals of its
     faces, at a vertex the sum of the unit vectors opposite to its edges.
     """
-    best, bx, by, bz, feature, base = math.nan, 0.0, 0.0, 1.0, 0, (0.0, 0.0, 0.0)
+    best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, (0.0, 0.0, 0.0))
     for kind in (_FACE, _EDGE, _VERTEX):
         for number in range(int(hull[COUNTS + kind])):
             if kind == _FACE:
-                way = _middle(hull, number)
-                g, nx, ny, nz, after, _, way = _look_at_face(hull, core, turn, x, y, z, near, number, way)
+                g, n, after, _, way = _look_at_face(hull, core, turn, place, near, number, _middle(hull, number))
             elif kind == _EDGE:
-                begin = _outward_of_edge(hull, number, x, y, z)
-                g, nx, ny, nz, after, _, way = _look_at_edge(hull, core, turn, x, y, z, near, number, begin)
+                begin = _outward_of_edge(hull, number, place)
+                g, n, after, _, way = _look_at_edge(hull, core, turn, place, near, number, begin)
             else:
                 begin = _outward_of_vertex(hull, number)
-                g, nx, ny, nz, after, _, way = _look_at_vertex(hull, core, turn, x, y, z, number, begin)
-            if after == _HERE and g == g and not g <= best:
-                best, bx, by, bz, feature, base = g, nx, ny, nz, _feature(hull, kind, number), way
-    return best, bx, by, bz, feature, base
+                g, n, after, _, way = _look_at_vertex(hull, core, turn, place, number, begin)
+            if after == _HERE and g == g and not g <= best[0]:
+                best = g, n, _feature(hull, kind, number), way
+    return best
 
 
 @compiled
-def _outward_of_edge(hull: Floats, number: int, x: float, y: float, z: float) -> Point:
+def _outward_of_edge(hull: Floats, number: int, place: Vector3) -> Vector3:
     """Return a direction out of the polytope at an edge, of any length: the sum of the normals of its two faces.
 
-    A segment has no faces: there it is the vector from its start to the smooth body's centre (x, y, z) [m].
+    A segment has no faces: there it is the vector from its start to the smooth body's centre [m].
     """
     at = int(hull[EDGES]) + EDGE * number
     if hull[at + 2] < 0.0:
-        vx, vy, vz = _vertex(hull, int(hull[at]))
-        return x - vx, y - vy, z - vz
-    x = y = z = 0.0
+        start: Vector3 = minus(place, _begin_of_edge(hull, number))
+        return start
+    outward = 0.0, 0.0, 0.0
     for i in range(2):
         face = int(hull[at + 2 + i])
         if face >= 0:
-            f = int(hull[FACES]) + FACE * face
-            x, y, z = x + hull[f], y + hull[f + 1], z + hull[f + 2]
-    return x, y, z
+            outward = plus(outward, vector_at(hull, int(hull[FACES]) + FACE * face))
+    return outward
 
 
 @compiled
-def _outward_of_vertex(hull: Floats, number: int) -> Point:
-    x = y = z = 0.0
-    star = int(hull[STARS]) + 2 * number
-    for i in range(int(hull[star + 1])):
-        edge = int(hull[int(hull[LISTS]) + int(hull[star]) + i])
-        ex, ey, ez, _ = _edge(hull, edge)
-        sign = -1.0 if int(hull[int(hull[EDGES]) + EDGE * edge]) == number else 1.0
-        x, y, z = x + sign * ex, y + sign * ey, z + sign * ez
-    return x, y, z
+def _outward_of_vertex(hull: Floats, number: int) -> Vector3:
+    outward = 0.0, 0.0, 0.0
+    for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
+        _, sign, e = _edge_from(hull, number, i)
+        outward = ahead(outward, -sign, e)
+    return outward
 
 
 @compiled
@@ -418,32 +407,60 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     ``first`` holds the numbers of the polytope (:func:`polyhedron_numbers`), ``second`` the numbers of the smooth body
     (:func:`bodies.shapes.smooth.core_numbers`).  The gap is nan if no nearest feature was found.
     """
-    axes_a, axes_b = axes_of(a), axes_in_world(b, second)
-    bx, by, bz = point_in_world(b, vector_at(second, 6))
-    x, y, z = point_in_body(a, (bx, by, bz))
-    turn = between_axes(axes_a, axes_b)
-    g, nx, ny, nz, feature, base = _nearest(first, second, turn, x, y, z)
-    px, py, pz = _point_along(second, turn, x, y, z, nx, ny, nz)
+    axes_b = axes_in_world(b, second)
+    place, turn = point_in_body(a, point_in_world(b, vector_at(second, CENTER))), between_axes(axes_of(a), axes_b)
+    g, n, feature, base = _nearest(first, second, turn, place)
+    p, _ = facing_point(second, turn, place, n)
     n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
     if feature >= n_faces and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the polytope's point
-        px, py, pz = base[0] + g * nx, base[1] + g * ny, base[2] + g * nz
-    out[GAP] = g - first[RADIUS] - second[RADIUS]
-    put(out, NORMAL, vector_in_world(a, (nx, ny, nz)))
-    put(out, POINT_B, point_in_world(a, (px, py, pz)))
-    for i in range(3):
-        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
-        out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
-    out[FEATURE] = feature
+        p = ahead(base, g, n)
+    normal, gap = vector_in_world(a, n), g - first[RADIUS] - second[RADIUS]
+    point = ahead(point_in_world(a, p), -second[RADIUS], normal)
+    out[GAP], out[FEATURE] = gap, feature
+    put(out, NORMAL, normal)
+    put(out, POINT_B, point)
+    put(out, POINT_A, ahead(point, -gap, normal))
     write_tangent(a, out)
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    px, py, pz = back(turn, (px - x, py - y, pz - z))
-    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (px, py, pz))
+    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(p, place)))
     if feature < n_faces:
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:
-        ex, ey, ez, _ = _edge(first, feature - n_faces)
-        ex, ey, ez = vector_in_world(a, (ex, ey, ez))
-        write_principal(out, SIDE_A, ex, ey, ez, 0.0, 1.0, 1.0, first[RADIUS])
+        x, y, z = vector_in_world(a, _edge(first, feature - n_faces)[0])
+        write_principal(out, SIDE_A, x, y, z, 0.0, 1.0, 1.0, first[RADIUS])
     else:
         write_round(out, SIDE_A, first[RADIUS])
+
+
+@final
+class PolyhedronSmooth(ContactKinematics):
+    """A polyhedron and a smooth body: one contact, of the nearest face, edge or vertex."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Polyhedron, SmoothShape)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact; its features are the faces, edges and vertices of the polyhedron."""
+        assert isinstance(first, Polyhedron)
+        assert isinstance(second, SmoothShape)
+        polytope = first.core
+        parts = (("face", polytope.faces), ("edge", polytope.edges), ("vertex", polytope.vertices))
+        names = tuple(f"{kind} {i} and smooth" for kind, part in parts for i in range(len(part)))
+        values = {"first": polyhedron_numbers(polytope, first.rounding), "second": second.core}
+        return (FeaturePair(evaluate_polytope_smooth, values, names),)
+
+
+@final
+class CapsuleSmooth(ContactKinematics):
+    """A capsule and a smooth body: one contact, of the side or an end of the capsule."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Capsule, SmoothShape)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact; its features are the side and the ends of the capsule."""
+        assert isinstance(first, Capsule)
+        assert isinstance(second, SmoothShape)
+        names = tuple(f"{part} and smooth" for part in ("side", "low end", "high end"))
+        values = {"first": segment_numbers(first.ends, first.radius), "second": second.core}
+        return (FeaturePair(evaluate_polytope_smooth, values, names),)

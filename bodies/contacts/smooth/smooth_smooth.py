@@ -2,72 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import OF_FUNCTION
-from ...vectors import put, vector_at
+from ...vectors import ahead, minus, opposite, plus, put, vector_at
 from ..features.frames import point_in_world, write_tangent
-from .smooth_core import RADIUS, back, between_axes, forth, unit_axes_in_world
+from .smooth_core import CENTER, RADIUS, back, between_axes, forth, unit_axes_in_world
 from .smooth_newton import widest, write_surface
 
 
-def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
+def evaluate_smooth_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
     """Write the geometry block of two smooth bodies, given as cores; at most one of them is a point.
 
     The gap is nan if Newton's method fails.
     """
     axes_a, axes_b = unit_axes_in_world(a, first), unit_axes_in_world(b, second)
-    ax, ay, az = point_in_world(a, vector_at(first, 6))
-    bx, by, bz = point_in_world(b, vector_at(second, 6))
-    x, y, z = back(axes_a, (bx - ax, by - ay, bz - az))
+    center = point_in_world(a, vector_at(first, CENTER))
+    place = back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
     turn = between_axes(axes_a, axes_b)
-    g, qx, qy, qz, nx, ny, nz = widest(first, second, turn, x, y, z)
-    px, py, pz = qx - g * nx, qy - g * ny, qz - g * nz
+    g, q, n = widest(first, second, turn, place)
+    p, normal = ahead(q, -g, n), forth(axes_a, n)
     out[GAP] = g - first[RADIUS] - second[RADIUS]
-    put(out, NORMAL, forth(axes_a, (nx, ny, nz)))
-    wx, wy, wz = forth(axes_a, (px, py, pz))
-    put(out, POINT_A, (ax + wx, ay + wy, az + wz))
-    wx, wy, wz = forth(axes_a, (qx, qy, qz))
-    put(out, POINT_B, (ax + wx, ay + wy, az + wz))
-    for i in range(3):
-        out[POINT_A + i] += first[RADIUS] * out[NORMAL + i]
-        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
+    put(out, NORMAL, normal)
+    put(out, POINT_A, ahead(plus(center, forth(axes_a, p)), first[RADIUS], normal))
+    put(out, POINT_B, ahead(plus(center, forth(axes_a, q)), -second[RADIUS], normal))
     write_tangent(a, out)
-    write_surface(out, SIDE_A, first, axes_a, (nx, ny, nz), (px, py, pz))
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    qx, qy, qz = back(turn, (qx - x, qy - y, qz - z))
-    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
+    write_surface(out, SIDE_A, first, axes_a, n, p)
+    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(q, place)))
 
 
 @final
-@dataclass(frozen=True)
 class SmoothSmooth(ContactKinematics):
-    """One contact of two smooth bodies; its normal is the one that separates them most.
-
-    Attributes
-    ----------
-    first : SmoothShape
-        The smooth shape of the first body.
-    second : SmoothShape
-        The smooth shape of the second body.
-    """
+    """Two smooth bodies: one contact; its normal is the one that separates them most."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (SmoothShape, SmoothShape)
 
-    first: SmoothShape
-    second: SmoothShape
-
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[SmoothSmooth, ...]:
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
         """Return the single contact of two smooth shapes.
 
         Raises
@@ -85,18 +62,5 @@ class SmoothSmooth(ContactKinematics):
                     [2.0 - 2.0 / power for power in one.core[3:5]],
                     "Next to flat and sharp places at once the search needs the powers of both bodies.",
                 )
-        return (cls(first, second),)
-
-    def parameters(self) -> Mapping[str, Value]:
-        """Return the numbers of both support functions."""
-        return {"first": self.first.core, "second": self.second.core}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Newton's method on the support functions."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Name of the only pair of features."""
-        return ("smooth-smooth",)
+        values = {"first": first.core, "second": second.core}
+        return (FeaturePair(evaluate_smooth_smooth, values, ("smooth-smooth",)),)

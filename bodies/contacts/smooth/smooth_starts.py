@@ -13,8 +13,9 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import support_of
+from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of
 from ..features.frames import tangent_of
-from .smooth_core import Axes, back, forth
+from .smooth_core import Axes, back, facing_point, forth, in_plane, longest, spread, unit
 
 _LONGEST, _MOVES = 0.2, 100
 """Limits of the search uphill (:func:`uphill`), which increases the gap by turning the direction.
@@ -23,76 +24,60 @@ _LONGEST, _MOVES = 0.2, 100
 """
 _NEAR = 0.95
 """Cosine of the angle within which two directions are the same start; the one with the larger gap is kept."""
-Start: TypeAlias = tuple[float, float, float, float]
+Start: TypeAlias = tuple[float, Vector3]
 """A gap [m], and the unit vector along which it is measured."""
 Starts: TypeAlias = tuple[Start, Start, Start, Start]
 """Four starts, in no order."""
 
 
 @compiled
-def gap_along(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
-) -> float:
+def gap_along(first: Floats, second: Floats, turn: Axes, place: Vector3, n: Vector3) -> float:
     """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    return float(
-        nx * x + ny * y + nz * z - support_of(first, (nx, ny, nz))[0] - support_of(second, (mx, my, mz))[0],
-    )
+    return float(dot(n, place) - support_of(first, n)[0] - support_of(second, back(turn, opposite(n)))[0])
 
 
 @compiled
-def uphill(
-    first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float, start: Start, least: float
-) -> Start:
+def uphill(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Start, least: float) -> Start:
     """Return a local maximum of the gap [m] and its direction, to about ``least`` [rad], by steps from ``start``."""
-    g, nx, ny, nz = start
+    g, n = start
     step = _LONGEST
     for _ in range(_MOVES):
         if step <= least:
             break
-        tx, ty, tz = tangent_of((nx, ny, nz))
-        ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
-        best: Start = (g, nx, ny, nz)
+        t = tangent_of(n)
+        u = cross(n, t)
+        best: Start = (g, n)
         for i in range(8):
             c, s = step * math.cos(0.25 * math.pi * i), step * math.sin(0.25 * math.pi * i)
-            mx, my, mz = nx + c * tx + s * ux, ny + c * ty + s * uy, nz + c * tz + s * uz
-            length = math.sqrt(mx * mx + my * my + mz * mz)
-            mx, my, mz = mx / length, my / length, mz / length
-            found = gap_along(first, second, turn, x, y, z, mx, my, mz)
+            m = unit(ahead(ahead(n, c, t), s, u))
+            found = gap_along(first, second, turn, place, m)
             if found > best[0]:
-                best = (found, mx, my, mz)
+                best = (found, m)
         if best[0] <= g:
             step *= 0.4
-        g, nx, ny, nz = best
-    return g, nx, ny, nz
+        g, n = best
+    return g, n
 
 
 @compiled
-def starts_of(first: Floats, second: Floats, turn: Axes, x: float, y: float, z: float) -> Starts:
+def starts_of(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Starts:
     """Return four directions that are not close to each other, with the largest gaps of all directions tried.
 
     Parameters
     ----------
-    first, second : Floats
-        The cores; their radii are not used.
-    turn : Axes
-        Rotation from the axes of the second core to those of the first.
-    x, y, z : float
-        The second core's centre from the first's [m].
+    first, second, turn, place : Floats, Axes, Vector3
+        See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
     """
-    none: Start = (-math.inf, 0.0, 0.0, 0.0)
+    none: Start = (-math.inf, (0.0, 0.0, 0.0))
     kept: Starts = (none, none, none, none)
     for i in range(54):
         way = i % 27
         if way == 13:
             continue
-        nx, ny, nz = way // 9 - 1.0, way // 3 % 3 - 1.0, way % 3 - 1.0
-        length = math.sqrt(nx * nx + ny * ny + nz * nz)
-        nx, ny, nz = nx / length, ny / length, nz / length
+        n = unit((way // 9 - 1.0, way // 3 % 3 - 1.0, way % 3 - 1.0))
         if i >= 27:
-            nx, ny, nz = forth(turn, (nx, ny, nz))
-        g = gap_along(first, second, turn, x, y, z, nx, ny, nz)
-        kept = _with(kept, (g, nx, ny, nz))
+            n = forth(turn, n)
+        kept = _with(kept, (gap_along(first, second, turn, place, n), n))
     return kept
 
 
@@ -123,7 +108,7 @@ def _with(kept: Starts, new: Start) -> Starts:
 
 @compiled
 def _is_near(one: Start, two: Start) -> bool:
-    return bool(one[1] * two[1] + one[2] * two[2] + one[3] * two[3] > _NEAR)
+    return bool(dot(one[1], two[1]) > _NEAR)
 
 
 _CUTS, _WIDE = 400, 0.1
@@ -139,31 +124,27 @@ _HIGHER = 1e-16
 
 
 @compiled
-def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
+def _cut_round(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and its direction, by one run of the ellipsoid method.
 
     The method and the arguments are those of :func:`settle`.
     """
     best: Start = start
-    _, nx, ny, nz = start
-    tx, ty, tz = tangent_of((nx, ny, nz))
-    ux, uy, uz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
-    size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + circle[0]
+    _, n = start
+    t = tangent_of(n)
+    u = cross(n, t)
+    size = spread(place) + longest(core) + circle[0]
     i, j, e11, e12, e22 = 0.0, 0.0, _WIDE * _WIDE, 0.0, _WIDE * _WIDE
     for _ in range(_CUTS):
-        mx, my, mz = nx + i * tx + j * ux, ny + i * ty + j * uy, nz + i * tz + j * uz
-        length = math.sqrt(mx * mx + my * my + mz * mz)
-        mx, my, mz = mx / length, my / length, mz / length
-        a = support_of(circle, (mx, my, mz))
-        bx, by, bz = back(turn, (-mx, -my, -mz))
-        b = support_of(core, (bx, by, bz))
-        dx, dy, dz = forth(turn, (b[1], b[2], b[3]))
-        dx, dy, dz = x + dx - a[1], y + dy - a[2], z + dz - a[3]
-        g = mx * dx + my * dy + mz * dz
+        m = ahead(ahead(n, i, t), j, u)
+        length = size_of(m)
+        m = over(m, length)
+        q, _ = facing_point(core, turn, place, m)
+        d = minus(q, support_of(circle, m)[1])
+        g = dot(m, d)
         if g > best[0]:
-            best = g, mx, my, mz
-        dx, dy, dz = (dx - g * mx) / length, (dy - g * my) / length, (dz - g * mz) / length
-        r, s = dx * tx + dy * ty + dz * tz, dx * ux + dy * uy + dz * uz
+            best = g, m
+        r, s = in_plane(t, u, over(ahead(d, -g, m), length))
         k, h = e11 * r + e12 * s, e12 * r + e22 * s
         most = r * k + s * h
         if not most > (_HIGHER * size) ** 2:
@@ -176,7 +157,7 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: 
 
 
 @compiled
-def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, start: Start) -> Start:
+def settle(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
 
     The method also converges on narrow ridges, where the gap changes little along one curve of directions.
@@ -192,7 +173,7 @@ def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
         A circle, or a point, and the smooth body, as cores.
     turn : Axes
         Rotation from the axes of the core to those of the circle.
-    x, y, z : float
+    place : Vector3
         The core's centre from that of the circle [m].
     start : Start
         Gap and direction to begin with.
@@ -200,7 +181,7 @@ def settle(circle: Floats, core: Floats, turn: Axes, x: float, y: float, z: floa
     best: Start = start
     for _ in range(_ELLIPSES):
         before = best
-        best = _cut_round(circle, core, turn, x, y, z, before)
-        if before[1] * best[1] + before[2] * best[2] + before[3] * best[3] > 1.0 - 0.1 * _WIDE * _WIDE:
+        best = _cut_round(circle, core, turn, place, before)
+        if dot(before[1], best[1]) > 1.0 - 0.1 * _WIDE * _WIDE:
             break
     return best

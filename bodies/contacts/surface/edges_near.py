@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import vector_at
+from ...vectors import Vector3, cross, minus, over, put, size_of, times, vector_at
 from ..features.bounds import square_of_lines
 from ..features.edge_crossing import ASTRAY, edge_astray
 from ..features.frames import vector_in_body, vector_in_world
@@ -19,14 +17,11 @@ _ALONG = 1e-3
 
 
 @compiled
-def _passes_box(
-    surface: Floats, at: int, px: float, py: float, pz: float, dx: float, dy: float, dz: float, reach: float
-) -> bool:
-    """Return whether the segment from p to p + d meets the box of a node, enlarged by ``reach`` [m] to all sides."""
+def _passes_box(surface: Floats, at: int, start: Vector3, way: Vector3, reach: float) -> bool:
+    """Return whether a segment from ``start`` meets the box of a node, enlarged by ``reach`` [m] to all sides."""
     low, high = 0.0, 1.0
     for i in range(3):
-        p, d = (px, dx) if i == 0 else (py, dy) if i == 1 else (pz, dz)
-        one, two = surface[at + i] - reach - p, surface[at + 3 + i] + reach - p
+        one, two, d = surface[at + i] - reach - start[i], surface[at + 3 + i] + reach - start[i], way[i]
         if d < 0.0:
             one, two, d = -two, -one, -d
         if one > d or two < 0.0:
@@ -41,17 +36,15 @@ def _passes_box(
 @compiled
 def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, turn: float) -> bool:
     """Return whether the normals of two edges face each other, or may do so after a rotation by ``turn`` [rad]."""
-    ex, ey, ez = vector_in_world(a, vector_at(surface_a, one + 3))
-    fx, fy, fz = vector_in_world(b, vector_at(surface_b, two + 3))
-    x, y, z = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
-    sine = math.sqrt(x * x + y * y + z * z)
+    n = cross(vector_in_world(a, vector_at(surface_a, one + 3)), vector_in_world(b, vector_at(surface_b, two + 3)))
+    sine = size_of(n)
     if sine <= _ALONG:
         return True
-    x, y, z = x / sine, y / sine, z / sine
-    plus = max(edge_astray(a, surface_a, one, 1.0, x, y, z), edge_astray(b, surface_b, two, -1.0, x, y, z))
-    minus = max(edge_astray(a, surface_a, one, -1.0, x, y, z), edge_astray(b, surface_b, two, 1.0, x, y, z))
+    n = over(n, sine)
+    ahead = max(edge_astray(a, surface_a, one, 1.0, *n), edge_astray(b, surface_b, two, -1.0, *n))
+    behind = max(edge_astray(a, surface_a, one, -1.0, *n), edge_astray(b, surface_b, two, 1.0, *n))
     # a rotation by `turn` turns the normals of an edge by `turn`, the common normal of both by at most 2 turn / sine
-    return bool(min(plus, minus) <= ASTRAY + turn * (1.0 + 2.0 / sine))
+    return bool(min(ahead, behind) <= ASTRAY + turn * (1.0 + 2.0 / sine))
 
 
 @compiled
@@ -76,26 +69,24 @@ def edges_across(
     :func:`edges_near`.
     """
     first, members = int(surface[N_TRIANGLES]), int(surface[MEMBERS])
-    px, py, pz = seen_from(a, b, edges[two], edges[two + 1], edges[two + 2])
-    fx, fy, fz = vector_in_world(b, vector_at(edges, two + 3))
-    fx, fy, fz = vector_in_body(a, (fx, fy, fz))
+    start = seen_from(a, b, vector_at(edges, two))
+    f = vector_in_body(a, vector_in_world(b, vector_at(edges, two + 3)))
     q = edges[two + 6]
     node = 0
     while node < int(surface[N_NODES]) and n <= most:
         at = int(surface[NODES]) + NODE * node
-        if not _passes_box(surface, at, px, py, pz, q * fx, q * fy, q * fz, reach):
+        if not _passes_box(surface, at, start, times(q, f), reach):
             node = int(surface[at + 6])
             continue
         for m in range(int(surface[at + 8])):
-            e = int(surface[members + int(surface[at + 7]) + m]) - first
-            if e < 0 or e >= int(surface[N_EDGES]) or n > most:
+            own = int(surface[members + int(surface[at + 7]) + m]) - first
+            if own < 0 or own >= int(surface[N_EDGES]) or n > most:
                 continue
-            one = int(surface[EDGES]) + EDGE * e
-            wx, wy, wz = px - surface[one], py - surface[one + 1], pz - surface[one + 2]
-            ex, ey, ez, p = surface[one + 3], surface[one + 4], surface[one + 5], surface[one + 6]
-            square = square_of_lines((wx, wy, wz), (ex, ey, ez), p, (fx, fy, fz), q)
+            one = int(surface[EDGES]) + EDGE * own
+            e, p = vector_at(surface, one + 3), surface[one + 6]
+            square = square_of_lines(minus(start, vector_at(surface, one)), e, p, f, q)
             if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
-                out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, float(e), number
+                put(out, 1 + 3 * n, (kind, float(own), number))
                 n += 1
         node += 1
     return n

@@ -1,25 +1,20 @@
-"""Base class for contacts of a sphere or smooth body with a surface of many patches.
-
-A search finds the patches near the body; only these patches are evaluated as contacts.
-"""
+"""Contacts of a sphere or smooth body with the patches of a surface, of many patches with those near the body."""
 
 from __future__ import annotations
 
-from abc import ABC
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Self
+from collections.abc import Callable, Mapping
 
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics
+from nonsmooth.interfaces import CandidateSearch, FeaturePair
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
 from ...meshes.patches import Patches
-from ..features.frames import point_in_body, point_in_world
+from ...vectors import vector_at
 from ..features.writing import NO_CANDIDATE
-from .surface_near import patches_near
-from .surface_tables import N_PATCHES, surface_numbers
+from .surface_near import patches_near, seen_from
+from .surface_search import FAR
+from .surface_tables import N_PATCHES, part_names, surface_numbers
 
 MOST_EACH = 8
 """Largest number of patches of a surface for which each patch is a contact of its own, without a search."""
@@ -30,88 +25,44 @@ A candidate has three numbers: its kind, the number of the patch, and 0.
 """
 
 
-def _find(
-    a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, x_b: float, y_b: float, z_b: float
-) -> None:
-    """Find the patches with a feature near the ball that encloses the second body."""
-    x, y, z = point_in_world(b, (x_b, y_b, z_b))
-    x, y, z = point_in_body(a, (x, y, z))
-    most = int(surface[N_PATCHES])
-    out[0] = float(patches_near(surface, x, y, z, extent + out[0], NEAR, 0.0, out, 0, most))
+def find_near_patches(a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, place: Floats) -> None:
+    """Find the patches with a feature near the ball that encloses the second body, about a place in its frame [m]."""
+    most, reach = int(surface[N_PATCHES]), extent + out[0]
+    out[0] = float(patches_near(surface, *seen_from(a, b, vector_at(place, 0)), reach, NEAR, 0.0, out, 0, most))
 
 
-def are_many(patches: Patches) -> bool:
-    """Return whether there are too many patches for a contact each, so that near patches are searched for."""
-    return patches.count > MOST_EACH
+def patch_contacts(
+    evaluator: Callable[..., None],
+    own: Features,
+    patches: Patches,
+    ball: tuple[float, float, float, float],
+    values: Mapping[str, Value],
+    name: str,
+) -> tuple[FeaturePair, ...]:
+    """Return one contact for each patch of a surface; if there are many, a search assigns near patches to them.
 
+    There are as many contacts as patches, because all patches can be near.  The number of the patch is the second
+    number of the evaluator's argument ``candidate``.
 
-@dataclass(frozen=True)
-class PatchNear(ContactKinematics, ABC):
-    """Contact of a sphere or smooth body with one patch of a surface, which changes as the bodies move.
-
-    A search assigns a patch near the body to the contact.  The number of this patch is the second number of the
-    evaluator's argument ``candidate``.
-
-    Attributes
+    Parameters
     ----------
-    search : CandidateSearch
-        Search for patches near the body.
+    evaluator : callable
+        Function that writes the geometry block of the body and a patch.
+    own, patches : Features, Patches
+        The surface, and how it is divided.
+    ball : tuple of float
+        Centre, in the second body's frame, and radius of a ball that encloses the second body [m].
     values : mapping
-        The parameters of the evaluator, except ``candidate``.
-    n_features : int
-        Number of features of the surface.
-    number : int
-        Number of this contact among the contacts of both bodies.
+        The parameters of the evaluator, except ``candidate``, ``surface`` and ``size``.
+    name : str
+        Name of the second body.
     """
-
-    search: CandidateSearch
-    values: Mapping[str, Value]
-    n_features: int
-    number: int
-
-    @classmethod
-    def _of_patches(
-        cls,
-        own: Features,
-        patches: Patches,
-        ball: tuple[float, float, float, float],
-        values: Mapping[str, Value],
-    ) -> tuple[Self, ...]:
-        """Return contacts with near patches, one for each patch of the surface, because all patches can be near.
-
-        Parameters
-        ----------
-        own, patches : Features, Patches
-            The surface, and how it is divided.
-        ball : tuple of float
-            Centre, in the second body's frame, and radius of a ball that encloses the second body [m].
-        values : mapping
-            The parameters of the evaluator, except ``candidate``, ``surface`` and ``size``.
-        """
-        surface = surface_numbers(own, patches)
-        x, y, z, extent = ball
-        search = CandidateSearch(
-            _find,
-            {"surface": surface, "extent": extent, "x_b": x, "y_b": y, "z_b": z},
-            {NEAR: (patches.count, 1)},
-        )
-        offered = {**values, "surface": surface, "size": own.size}
-        n = len(own.planes) + len(own.edges) + len(own.corners)
-        return tuple(cls(search, offered, n, number) for number in range(patches.count))
-
-    @property
-    def candidates(self) -> CandidateSearch:
-        """Search for patches near the body."""
-        return self.search
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the parameters of the evaluator.
-
-        The parameter ``candidate`` is a placeholder without a patch; the search assigns the patch during the run.
-        """
-        return {**self.values, "candidate": NO_CANDIDATE}
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """The features of the surface, by number."""
-        return tuple(f"feature {i}" for i in range(self.n_features))
+    surface = surface_numbers(own, patches)
+    names = tuple(f"{part} and {name}" for part in part_names(own))
+    offered = {**values, "surface": surface, "size": own.size}
+    if patches.count <= MOST_EACH:
+        given = [(NEAR, float(patch), 0.0, FAR) for patch in range(patches.count)]
+        return tuple(FeaturePair(evaluator, {**offered, "candidate": one}, names) for one in given)
+    sought: dict[str, Value] = {"surface": surface, "extent": ball[3], "place": ball[:3]}
+    search = CandidateSearch(find_near_patches, sought, {NEAR: (patches.count, 1)})
+    return (FeaturePair(evaluator, {**offered, "candidate": NO_CANDIDATE}, names, search),) * patches.count

@@ -11,7 +11,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...vectors import put, vector_at
+from ...vectors import Vector3, minus, over, put, vector_at
 from ..features.frames import point_in_body, point_in_world, vector_in_world
 from ..features.swept_vertex import END, NEAR, past_star
 from ..features.writing import place_sphere, write_flat, write_principal, write_round
@@ -20,22 +20,18 @@ from .surface_tables import EDGE, EDGES, FACE, FACES, N_EDGES, N_FACES, N_PATCHE
 
 
 @compiled
-def out_of_surface(
-    frame: Floats, surface: Floats, found: Found, past: float, x: float, y: float, z: float
-) -> tuple[float, float, float]:
+def out_of_surface(frame: Floats, surface: Floats, found: Found, past: float, x: float, y: float, z: float) -> Vector3:
     """Return the unit normal, in world axes, at a surface's nearest point to the point (x, y, z) of the body frame.
 
     On a face it is the normal of the face; else it points from the nearest point to (x, y, z).  ``found`` is the result
     of :func:`nearest_in_patch`, and ``past`` the distance past the end of the feature [m].
     """
     distance, _, kind, number, px, py, pz = found
-    if kind == ON_FACE and (past <= 0.0 or distance == 0.0):
-        f = int(surface[FACES]) + FACE * number
-        nx, ny, nz = vector_at(surface, f)
-    else:
-        nx, ny, nz = (x - px) / distance, (y - py) / distance, (z - pz) / distance
-    nx, ny, nz = vector_in_world(frame, (nx, ny, nz))
-    return nx, ny, nz
+    n = vector_at(surface, int(surface[FACES]) + FACE * number)
+    if not (kind == ON_FACE and (past <= 0.0 or distance == 0.0)):
+        n = over(minus((x, y, z), (px, py, pz)), distance)
+    normal: Vector3 = vector_in_world(frame, n)
+    return normal
 
 
 @compiled
@@ -49,8 +45,7 @@ def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: 
         write_flat(out, side)
     elif kind == ON_EDGE:
         e = int(surface[EDGES]) + EDGE * number
-        x, y, z = vector_in_world(frame, vector_at(surface, e + 3))
-        write_principal(out, side, x, y, z, 0.0, 1.0, 1.0, 0.0)
+        write_principal(out, side, *vector_in_world(frame, vector_at(surface, e + 3)), 0.0, 1.0, 1.0, 0.0)
         out[FEATURE] += surface[N_FACES]
     else:
         write_round(out, side, 0.0)
@@ -65,34 +60,32 @@ def write_ball(
     surface: Floats,
     patch: float,
     radius: float,
-    x_b: float,
-    y_b: float,
-    z_b: float,
+    place: Vector3,
     n_star: float,
     star: Floats,
     size: float,
     reach: float,
 ) -> None:
-    """Write the geometry block of a ball of the second body and a patch of the first body.
+    """Write the geometry block of a ball about a ``place`` of the second body and a patch of the first body.
 
     Features of the patch are searched up to the distance ``reach`` from the ball's centre [m].
     """
-    center_x, center_y, center_z = point_in_world(b, (x_b, y_b, z_b))
-    x, y, z = point_in_body(a, (center_x, center_y, center_z))
+    center = point_in_world(b, place)
+    x, y, z = point_in_body(a, center)
     found = nearest_in_patch(surface, patch, x, y, z, reach)
     distance, kind, number = found[0], found[2], found[3]
     # if there is one patch only, it is the whole surface: the contact point can never be past its end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
-    nx, ny, nz = out_of_surface(a, surface, found, past, x, y, z)
+    n = out_of_surface(a, surface, found, past, x, y, z)
     # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
     if n_star > 0.0 and kind != ON_FACE:
-        beyond = past_star(b, star, n_star, distance, nx, ny, nz, size)
+        beyond = past_star(b, star, n_star, distance, *n, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
-    put(out, NORMAL, (nx, ny, nz))
+    put(out, NORMAL, n)
     if past > 0.0:
         apart = max(distance - radius, 0.0)
         distance = math.sqrt(apart * apart + past * past) + radius
-    place_sphere(a, out, center_x, center_y, center_z, distance, radius)
+    place_sphere(a, out, *center, distance, radius)
     out[PAST_END] = past
     write_feature(a, out, SIDE_A, surface, kind, number)
     write_round(out, SIDE_B, radius)

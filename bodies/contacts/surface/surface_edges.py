@@ -8,7 +8,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ..features.bounds import edges_bound
+from ...vectors import ahead, put
 from ..features.edge_crossing import PARALLEL, cross_edges, least_sine
 from ..features.frames import write_tangent
 from ..features.vertex_face import CLOSED
@@ -19,20 +19,6 @@ _NEAR_ENDS = 4.0
 
 Closer to an end, the edges may pass each other without an overlap of the bodies.
 """
-
-
-def evaluate_edges(
-    a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats, radius: float, size: float
-) -> None:
-    """Write the geometry block of two edges, with their rows at index 0; other arguments as in :func:`write_edges`."""
-    write_edges(a, b, out, edge_a, 0, edge_b, 0, radius, size)
-
-
-def bound_of_edges(
-    a: Floats, b: Floats, out: Floats, edge_a: Floats, edge_b: Floats, radius: float, size: float
-) -> None:
-    """Write by how much the bodies must move before two edges touch [m]; arguments as in :func:`evaluate_edges`."""
-    out[0] = edges_bound(a, b, edge_a, 0, edge_b, 0) - radius
 
 
 @compiled
@@ -53,9 +39,9 @@ def write_edges(
     if past > 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    for i in range(3):
-        out[NORMAL + i], out[POINT_A + i] = n[i], p[i]
-        out[POINT_B + i] = p[i] + gap * n[i]
+    put(out, NORMAL, n)
+    put(out, POINT_A, p)
+    put(out, POINT_B, ahead(p, gap, n))
     write_tangent(a, out)
     write_principal(out, SIDE_A, *e, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, *f, 0.0, 1.0, 1.0, radius)

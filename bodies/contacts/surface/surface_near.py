@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
-from nonsmooth.compiled import block_at, compiled
+from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import vector_at
+from ...vectors import Vector3, ahead, dot, minus, put, size_of, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world
-from .surface_search import Point, box_square, in_triangle
+from .surface_search import box_square, corner_at, in_triangle
 from .surface_tables import (
     CORNER,
     CORNERS,
@@ -24,7 +22,6 @@ from .surface_tables import (
     N_TRIANGLES,
     NODE,
     NODES,
-    STARS,
     TRIANGLE,
     TRIANGLES,
 )
@@ -55,20 +52,19 @@ def room_ahead(reach: float, narrow: float, most: int) -> int:
 
 
 @compiled
-def seen_from(frame: Floats, other: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return a point (x, y, z) of the body ``other`` in the axes of the body ``frame`` [m]."""
-    x, y, z = point_in_world(other, (x, y, z))
-    x, y, z = point_in_body(frame, (x, y, z))
-    return x, y, z
+def seen_from(frame: Floats, other: Floats, point: Vector3) -> Vector3:
+    """Return a point of the body ``other`` in the axes of the body ``frame`` [m]."""
+    seen: Vector3 = point_in_body(frame, point_in_world(other, point))
+    return seen
 
 
 @compiled
-def _is_near(surface: Floats, x: float, y: float, z: float, reach: float) -> bool:
-    """Return True if the box of any leaf of the surface's tree is within ``reach`` [m] of the point (x, y, z)."""
+def _is_near(surface: Floats, point: Vector3, reach: float) -> bool:
+    """Return True if the box of any leaf of the surface's tree is within ``reach`` [m] of a point."""
     node = 0
     while node < int(surface[N_NODES]):
         at = int(surface[NODES]) + NODE * node
-        if box_square(surface, at, x, y, z) > reach * reach:
+        if box_square(surface, at, *point) > reach * reach:
             node = int(surface[at + 6])
         elif surface[at + 8] > 0.0:
             return True
@@ -98,7 +94,7 @@ def _add_patch(patch: float, kind: float, third: float, first: int, out: Floats,
     for known in range(first, n):
         if out[2 + 3 * known] == patch:
             return n
-    out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, patch, third
+    put(out, 1 + 3 * n, (kind, patch, third))
     return n + 1
 
 
@@ -150,9 +146,9 @@ def is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, a
 
     The node is at index ``at`` of the other body's numbers ``parts``; ``surface`` belongs to the body ``frame``.
     """
-    dx, dy, dz = parts[at + 3] - parts[at], parts[at + 4] - parts[at + 1], parts[at + 5] - parts[at + 2]
-    x, y, z = seen_from(frame, other, parts[at] + 0.5 * dx, parts[at + 1] + 0.5 * dy, parts[at + 2] + 0.5 * dz)
-    return bool(_is_near(surface, x, y, z, 0.5 * math.sqrt(dx * dx + dy * dy + dz * dz) + reach))
+    diagonal = minus(vector_at(parts, at + 3), vector_at(parts, at))
+    middle = seen_from(frame, other, ahead(vector_at(parts, at), 0.5, diagonal))
+    return bool(_is_near(surface, middle, 0.5 * size_of(diagonal) + reach))
 
 
 @compiled
@@ -160,7 +156,7 @@ def patches_under(
     frame: Floats,
     other: Floats,
     surface: Floats,
-    place: Point,
+    place: Vector3,
     n_star: float,
     star: Floats,
     reach: float,
@@ -178,11 +174,11 @@ def patches_under(
     the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other arguments are those
     of :func:`corners_near` and :func:`patches_near`.
     """
-    x, y, z = seen_from(frame, other, place[0], place[1], place[2])
+    point = seen_from(frame, other, place)
     members, first, node = int(surface[MEMBERS]), n, 0
     while node < int(surface[N_NODES]) and n <= most:
         at = int(surface[NODES]) + NODE * node
-        if box_square(surface, at, x, y, z) > reach * reach:
+        if box_square(surface, at, *point) > reach * reach:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -191,9 +187,9 @@ def patches_under(
                 continue
             t = int(surface[TRIANGLES]) + TRIANGLE * member
             f = int(surface[FACES]) + FACE * int(surface[t + 9])
-            px, py, pz, _ = in_triangle(surface, t, x, y, z)
-            square = (x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz)
-            if square <= reach * reach and leaning(frame, other, surface, f, n_star, star, 0) <= ASTRAY + turn:
+            px, py, pz, _ = in_triangle(surface, t, *point)
+            apart = minus(point, (px, py, pz))
+            if dot(apart, apart) <= reach * reach and leaning(frame, other, surface, f, n_star, star) <= ASTRAY + turn:
                 n = _add_patch(surface[f + 4], kind, third, first, out, n)
         node += 1
     return n
@@ -244,11 +240,8 @@ def corners_near(
             corner = int(corners[members + int(corners[at + 7]) + i]) - first
             if corner < 0:
                 continue
-            c = int(corners[CORNERS]) + CORNER * corner
-            place = vector_at(corners, c)
-            star = block_at(corners, int(corners[STARS]) + int(corners[c + 4]))
             n = patches_under(
-                frame, other, surface, place, corners[c + 5], star, reach, turn, kind, float(corner), out, n, most
+                frame, other, surface, *corner_at(corners, corner), reach, turn, kind, float(corner), out, n, most
             )
         node += 1
     return n

@@ -1,36 +1,42 @@
-"""Contacts of two surfaces with very many features.
-
-As the bodies move, a search finds the near pairs of features and assigns each pair to a contact.
-"""
+"""Contacts of two sharp surfaces: corners over patches, and edges across edges, of all features or of near ones."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import ClassVar, final
+import itertools
+from collections.abc import Iterator
+from types import MappingProxyType
 
 import numpy as np
 
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
-from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.interfaces import CandidateSearch, FeaturePair
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features, features_of
 from ...meshes.patches import patches_for_ball
 from ...shapes.polytope import Polytope
-from ...shapes.triangle_mesh import TriangleMesh
+from ..features.bounds import edges_bound
 from ..features.writing import NO_CANDIDATE, write_apart
 from .edges_near import edges_near
-from .mesh_point import write_over_first, write_over_second
+from .mesh_point import write_over
 from .surface_edges import write_edges
 from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near
-from .surface_tables import CORNER, CORNERS, EDGE, EDGES, STARS, surface_numbers
+from .surface_search import FAR, corner_at, edge_at
+from .surface_tables import surface_numbers
 
 MOST_NEAR = 256
 """Largest number of pairs of features of two bodies that may be near each other at a time."""
+DEPARTURES = MappingProxyType(
+    dict.fromkeys(
+        ("gap rate", "second-order terms"),
+        "two given edges face each other in hardly any random pose; the tests make poses from edges that cross",
+    )
+)
 
 
-def _find(a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Floats, most: float, turning: float) -> None:
+def find_near_features(
+    a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Floats, most: float, turning: float
+) -> None:
     """Write the near pairs of corners and patches, and of edges, to ``out`` as candidates.
 
     On entry ``out[0]`` is the largest distance of a pair [m], on return the number of candidates.  The largest relative
@@ -44,102 +50,87 @@ def _find(a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Float
     out[0] = float(n)
 
 
-def _evaluate(
+def evaluate_surface_features(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface_a: Floats, surface_b: Floats, size: float
 ) -> None:
-    kind, i, j = candidate[0], int(candidate[1]), int(candidate[2])
+    """Write the geometry block of a corner over a patch, or of two edges.
+
+    ``candidate`` holds the kind of the pair, the numbers of its two features, and the distance up to which it is valid
+    [m].  The surfaces are those of :mod:`bodies.contacts.surface.surface_tables`; ``size`` is the size of the larger
+    body [m].
+    """
+    kind, i, j, reach = candidate[0], int(candidate[1]), int(candidate[2]), candidate[3]
     if kind == OVER_FIRST:
-        c = int(surface_b[CORNERS]) + CORNER * j
-        x, y, z, length = surface_b[c], surface_b[c + 1], surface_b[c + 2], surface_b[c + 5]
-        star = int(surface_b[STARS]) + int(surface_b[c + 4])
-        write_over_first(a, b, out, surface_a, float(i), x, y, z, length, surface_b, star, candidate[3])
+        write_over(a, b, out, 0.0, surface_a, float(i), *corner_at(surface_b, j), reach, 0.0)
     elif kind == OVER_SECOND:
-        c = int(surface_a[CORNERS]) + CORNER * j
-        x, y, z, length = surface_a[c], surface_a[c + 1], surface_a[c + 2], surface_a[c + 5]
-        star = int(surface_a[STARS]) + int(surface_a[c + 4])
-        write_over_second(a, b, out, surface_b, float(i), x, y, z, length, surface_a, star, candidate[3], 0.0)
+        write_over(a, b, out, 1.0, surface_b, float(i), *corner_at(surface_a, j), reach, 0.0)
     elif kind == EDGE_ACROSS:
-        one, two = int(surface_a[EDGES]) + EDGE * i, int(surface_b[EDGES]) + EDGE * j
-        write_edges(a, b, out, surface_a, one, surface_b, two, 0.0, size)
+        write_edges(a, b, out, surface_a, edge_at(surface_a, i), surface_b, edge_at(surface_b, j), 0.0, size)
     else:
         write_apart(a, out, size)
 
 
-@final
-@dataclass(frozen=True)
-class SurfacePairs(ContactKinematics):
-    """One contact of two surfaces: a corner of one over a face of the other, or two edges that cross.
+def bound_of_surface_edges(
+    a: Floats, b: Floats, out: Floats, candidate: Floats, surface_a: Floats, surface_b: Floats, size: float
+) -> None:
+    """Write by how much the bodies must move before the two edges of a candidate touch [m]."""
+    one, two = edge_at(surface_a, int(candidate[1])), edge_at(surface_b, int(candidate[2]))
+    out[0] = edges_bound(a, b, surface_a, one, surface_b, two)
 
-    A search chooses the pair of features anew as the bodies move.
 
-    Attributes
+def _values(one: Features, two: Features) -> tuple[dict[str, Value], int, int]:
+    """Return the surfaces and the size by the names of the evaluator's arguments, and the numbers of patches."""
+    divided = [patches_for_ball(features, 0.0) for features in (one, two)]
+    surfaces = surface_numbers(one, divided[0]), surface_numbers(two, divided[1])
+    values: dict[str, Value] = {"surface_a": surfaces[0], "surface_b": surfaces[1], "size": max(one.size, two.size)}
+    return values, divided[0].count, divided[1].count
+
+
+def count_pairs(one: Features, two: Features) -> int:
+    """Return the number of pairs of features of two surfaces."""
+    over = sum(len(own.corners) * patches_for_ball(other, 0.0).count for own, other in ((one, two), (two, one)))
+    return len(one.edges) * len(two.edges) + over
+
+
+def contacts_each(one: Features, two: Features) -> Iterator[FeaturePair]:
+    """Yield the contacts of pairs of edges, then of the second surface's corners, then of the first's corners."""
+    values, *counts = _values(one, two)
+    for i, j in itertools.product(range(len(one.edges)), range(len(two.edges))):
+        numbers = {**values, "candidate": (EDGE_ACROSS, float(i), float(j), FAR)}
+        edges = (f"edge {i} and edge {j}",)
+        yield FeaturePair(evaluate_surface_features, numbers, edges, None, bound_of_surface_edges, DEPARTURES)
+    for kind, own, other, count in ((OVER_FIRST, one, two, counts[0]), (OVER_SECOND, two, one, counts[1])):
+        for j, i in itertools.product(range(len(other.corners)), range(count)):
+            names = tuple(f"face {face} and vertex {j}" for face in range(len(own.planes)))
+            numbers = {**values, "candidate": (kind, float(i), float(j), FAR)}
+            yield FeaturePair(evaluate_surface_features, numbers, names)
+
+
+def contacts_near(one: Features, two: Features, extents: tuple[float, float]) -> tuple[FeaturePair, ...]:
+    """Return contacts to which a search assigns pairs of near features, as the bodies move.
+
+    Parameters
     ----------
-    search : CandidateSearch
-        Search for pairs of features near each other.
-    surfaces : tuple of SharedNumbers
-        The surfaces (:mod:`bodies.contacts.surface.surface_tables`).
-    size : float
-        Size of the larger body [m].
-    n_faces : int
-        Number of faces of the surface with more faces.
-    number : int
-        Number of this contact among the contacts of both surfaces.
+    one, two : Features
+        The surfaces.
+    extents : tuple of float
+        Radii about the frames of the bodies [m].
     """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, TriangleMesh)
-    search: CandidateSearch
-    surfaces: tuple[SharedNumbers, SharedNumbers]
-    size: float
-    n_faces: int
-    number: int
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of two meshes."""
-        assert isinstance(first, TriangleMesh)
-        assert isinstance(second, TriangleMesh)
-        return cls.of_surfaces(first.features, second.features, (first.extent, second.extent))
-
-    @classmethod
-    def of_surfaces(cls, one: Features, two: Features, extents: tuple[float, float]) -> tuple[SurfacePairs, ...]:
-        """Return the contacts of two surfaces, whose extents are radii about the bodies' frames [m]."""
-        divided = [patches_for_ball(features, 0.0) for features in (one, two)]
-        surfaces = surface_numbers(one, divided[0]), surface_numbers(two, divided[1])
-        turning = 0.5 / extents[0] + 0.5 / extents[1]
-        values: dict[str, Value] = {
-            "surface_a": surfaces[0],
-            "surface_b": surfaces[1],
-            "most": float(MOST_NEAR),
-            "turning": turning,
-        }
-        counts = {
-            OVER_FIRST: (divided[0].count, len(two.corners)),
-            OVER_SECOND: (divided[1].count, len(one.corners)),
+    values, *counts = _values(one, two)
+    surfaces = {key: values[key] for key in ("surface_a", "surface_b")}
+    search = CandidateSearch(
+        find_near_features,
+        {**surfaces, "most": float(MOST_NEAR), "turning": 0.5 / extents[0] + 0.5 / extents[1]},
+        {
+            OVER_FIRST: (counts[0], len(two.corners)),
+            OVER_SECOND: (counts[1], len(one.corners)),
             EDGE_ACROSS: (len(one.edges), len(two.edges)),
-        }
-        search, size = CandidateSearch(_find, values, counts), max(one.size, two.size)
-        n_faces = max(len(one.planes), len(two.planes))
-        return tuple(cls(search, surfaces, size, n_faces, number) for number in range(MOST_NEAR))
-
-    @property
-    def candidates(self) -> CandidateSearch:
-        """Search for pairs of features near each other."""
-        return self.search
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the surfaces, the size, and a candidate without features."""
-        first, second = self.surfaces
-        return {"candidate": NO_CANDIDATE, "surface_a": first, "surface_b": second, "size": self.size}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed forms of all kinds of features."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """A face under a corner, by its number in either surface, or two edges."""
-        return tuple(f"face {i}" for i in range(self.n_faces))
+        },
+    )
+    # a face under a corner, by its number in either surface, or two edges
+    names = tuple(f"face {i}" for i in range(max(len(one.planes), len(two.planes))))
+    numbers = {**values, "candidate": NO_CANDIDATE}
+    return (FeaturePair(evaluate_surface_features, numbers, names, search),) * MOST_NEAR
 
 
 def features_of_core(core: Polytope) -> Features:

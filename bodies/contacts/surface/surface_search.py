@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
-from ...vectors import vector_at
+from ...vectors import Vector3, ahead, dot, minus, plus, times, vector_at
 from ..features.vertex_face import REACH
 from .surface_tables import (
     BITS,
@@ -36,7 +36,6 @@ FAR = 1e150
 ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
 """Kinds of features of a surface."""
 
-Point: TypeAlias = tuple[float, float, float]
 Found: TypeAlias = tuple[float, float, int, int, float, float, float]
 """Signed distance [m], distance past the end of the feature [m], kind and number of the feature, its nearest point."""
 
@@ -53,11 +52,11 @@ def box_square(surface: Floats, at: int, x: float, y: float, z: float) -> float:
 @compiled
 def face_height(surface: Floats, face: int, x: float, y: float, z: float) -> float:
     """Return the height of a point over the plane of the face whose row begins at index ``face`` [m]."""
-    return float(surface[face] * x + surface[face + 1] * y + surface[face + 2] * z - surface[face + 3])
+    return float(dot(vector_at(surface, face), (x, y, z)) - surface[face + 3])
 
 
 @compiled
-def over_ends(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float]:
+def over_ends(surface: Floats, triangle: int, point: Vector3) -> tuple[float, float]:
     """Return two distances of a point past edges of a triangle [m]; negative if the point is inside of them.
 
     The first is the largest distance past any of the three edges.  The second is the largest one past the edges on the
@@ -66,7 +65,7 @@ def over_ends(surface: Floats, triangle: int, x: float, y: float, z: float) -> t
     over, ends = -math.inf, -math.inf
     for i in range(3):
         e = triangle + 10 + 4 * i
-        out = surface[e] * x + surface[e + 1] * y + surface[e + 2] * z - surface[e + 3]
+        out = dot(vector_at(surface, e), point) - surface[e + 3]
         over = max(over, out)
         if surface[triangle + 22 + i] > 0.0:
             ends = max(ends, out)
@@ -79,35 +78,30 @@ def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) ->
 
     By the regions of C. Ericson, "Real-Time Collision Detection" (Morgan Kaufmann, 2005), section 5.1.5.
     """
-    t = triangle
-    ax, ay, az = vector_at(surface, t)
-    bx, by, bz = surface[t + 3] - ax, surface[t + 4] - ay, surface[t + 5] - az
-    cx, cy, cz = surface[t + 6] - ax, surface[t + 7] - ay, surface[t + 8] - az
-    px, py, pz = x - ax, y - ay, z - az
-    d1, d2 = bx * px + by * py + bz * pz, cx * px + cy * py + cz * pz
+    a = vector_at(surface, triangle)
+    b, c = minus(vector_at(surface, triangle + 3), a), minus(vector_at(surface, triangle + 6), a)
+    p = minus((x, y, z), a)
+    d1, d2 = dot(b, p), dot(c, p)
     if d1 <= 0.0 and d2 <= 0.0:
-        return ax, ay, az, 4
-    bb, bc, cc = bx * bx + by * by + bz * bz, bx * cx + by * cy + bz * cz, cx * cx + cy * cy + cz * cz
+        return *a, 4
+    bb, bc, cc = dot(b, b), dot(b, c), dot(c, c)
     d3, d4 = d1 - bb, d2 - bc
     if d3 >= 0.0 and d4 <= d3:
-        return ax + bx, ay + by, az + bz, 5
+        return *plus(a, b), 5
     d5, d6 = d1 - bc, d2 - cc
     if d6 >= 0.0 and d5 <= d6:
-        return ax + cx, ay + cy, az + cz, 6
+        return *plus(a, c), 6
     vc = d1 * d4 - d3 * d2
     if vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
-        v = d1 / (d1 - d3)
-        return ax + v * bx, ay + v * by, az + v * bz, 1
+        return *ahead(a, d1 / (d1 - d3), b), 1
     vb = d5 * d2 - d1 * d6
     if vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
-        w = d2 / (d2 - d6)
-        return ax + w * cx, ay + w * cy, az + w * cz, 3
+        return *ahead(a, d2 / (d2 - d6), c), 3
     va = d3 * d6 - d5 * d4
     if va <= 0.0 and d4 >= d3 and d5 >= d6:
         w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
-        return ax + bx + w * (cx - bx), ay + by + w * (cy - by), az + bz + w * (cz - bz), 2
-    v, w = vb / (va + vb + vc), vc / (va + vb + vc)
-    return ax + v * bx + w * cx, ay + v * by + w * cy, az + v * bz + w * cz, 0
+        return *ahead(plus(a, b), w, minus(c, b)), 2
+    return *ahead(ahead(a, vb / (va + vb + vc), b), vc / (va + vb + vc), c), 0
 
 
 @compiled
@@ -157,39 +151,53 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
             if member < int(surface[N_TRIANGLES]):
                 t = triangles + TRIANGLE * member
                 qx, qy, qz, region = in_triangle(surface, t, x, y, z)
-                qx, qy, qz = x - qx, y - qy, z - qz
-                square = qx * qx + qy * qy + qz * qz
+                apart = minus((x, y, z), (qx, qy, qz))
+                square = dot(apart, apart)
                 if square < least:
                     least = square
                     n = t + 22 + 3 * region if region > 0 else int(surface[FACES]) + FACE * int(surface[t + 9])
-                    side = qx * surface[n] + qy * surface[n + 1] + qz * surface[n + 2]
+                    side = dot(apart, vector_at(surface, n))
         node += 1
     return float(least**0.5) if side < 0.0 else 0.0
 
 
 @compiled
-def past_edge(surface: Floats, edge: int, x: float, y: float, z: float) -> tuple[float, float, float, float]:
-    """Return how far a point is past the points and normals of an edge, and the point of it that is nearest."""
-    e = edge
-    wx, wy, wz = x - surface[e], y - surface[e + 1], z - surface[e + 2]
-    s = wx * surface[e + 3] + wy * surface[e + 4] + wz * surface[e + 5]
-    past = max(-s, s - surface[e + 6])
-    s = min(max(s, 0.0), surface[e + 6])
-    wx, wy, wz = wx - s * surface[e + 3], wy - s * surface[e + 4], wz - s * surface[e + 5]
-    past = max(past, wx * surface[e + 7] + wy * surface[e + 8] + wz * surface[e + 9])
-    past = max(past, wx * surface[e + 10] + wy * surface[e + 11] + wz * surface[e + 12])
-    return past, x - wx, y - wy, z - wz
+def past_edge(surface: Floats, edge: int, point: Vector3) -> tuple[float, Vector3]:
+    """Return how far a point is past the points and normals of an edge [m], and the edge's point nearest to it."""
+    w, along = minus(point, vector_at(surface, edge)), vector_at(surface, edge + 3)
+    s = dot(w, along)
+    past = max(-s, s - surface[edge + 6])
+    w = minus(w, times(min(max(s, 0.0), surface[edge + 6]), along))
+    past = max(past, max(dot(w, vector_at(surface, edge + 7)), dot(w, vector_at(surface, edge + 10))))
+    return past, minus(point, w)
 
 
 @compiled
-def past_corner(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
-    """Return how far a point is past the normals of a corner."""
-    wx, wy, wz = x - surface[corner], y - surface[corner + 1], z - surface[corner + 2]
-    past, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
-    for _ in range(int(surface[corner + 5])):
-        past = max(past, wx * surface[star] + wy * surface[star + 1] + wz * surface[star + 2])
-        star += 3
-    return past
+def past_corner(surface: Floats, corner: int, point: Vector3) -> float:
+    """Return how far a point is past the normals of a corner [m]."""
+    return float(steepest(surface, corner, *minus(point, vector_at(surface, corner))))
+
+
+@compiled
+def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
+    """Return the largest component of the vector (x, y, z) along an edge of a corner, in the axes of the surface."""
+    most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
+    for i in range(int(surface[corner + 5])):
+        most = max(most, dot((x, y, z), vector_at(surface, star + 3 * i)))
+    return most
+
+
+@compiled
+def edge_at(surface: Floats, edge: int) -> int:
+    """Return the index at which the row of a convex edge begins."""
+    return int(surface[EDGES]) + EDGE * edge
+
+
+@compiled
+def corner_at(surface: Floats, corner: int) -> tuple[Vector3, float, Floats]:
+    """Return the place of a corner [m], the number of its edges, and the unit vectors along them."""
+    c = int(surface[CORNERS]) + CORNER * corner
+    return vector_at(surface, c), surface[c + 5], block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
 
 
 @compiled
@@ -206,7 +214,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])
     same = 4.0 * margin * margin
     best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
-    qx, qy, qz = x, y, z - reach
+    point, nearest = (x, y, z), (x, y, z - reach)
     under, under_past, under_face = math.inf, 0.0, -1
     first = first_leaf(surface, patch, x, y, z)
     node = -1
@@ -217,7 +225,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
             continue
         for i in range(int(surface[at + 8])):
             member = int(surface[members + int(surface[at + 7]) + i])
-            beyond, px, py, pz, what = 0.0, 0.0, 0.0, 0.0, ON_FACE
+            what = ON_FACE
             if member < n_triangles:
                 t = int(surface[TRIANGLES]) + TRIANGLE * member
                 which = int(surface[t + 9])
@@ -225,38 +233,37 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
                 height = face_height(surface, f, x, y, z)
                 if surface[f + 4] != patch or height * height > best + same:
                     continue
-                over, ends = over_ends(surface, t, x, y, z)
+                over, ends = over_ends(surface, t, point)
                 if over <= margin and height < 0.0 and -height < under:
                     under, under_past, under_face = -height, ends - margin, which
                 if over <= margin and height >= 0.0:
-                    px, py, pz = x - height * surface[f], y - height * surface[f + 1], z - height * surface[f + 2]
+                    p = minus(point, times(height, vector_at(surface, f)))
                     beyond = max(ends, -surface[SIZE])
                 else:
                     px, py, pz, _ = in_triangle(surface, t, x, y, z)
+                    p = px, py, pz
                     beyond = max(over, -height + 2.0 * margin)
             elif member < n_triangles + n_edges:
                 what, which = ON_EDGE, member - n_triangles
                 e = int(surface[EDGES]) + EDGE * which
                 if surface[e + 13] != patch:
                     continue
-                beyond, px, py, pz = past_edge(surface, e, x, y, z)
+                beyond, p = past_edge(surface, e, point)
             else:
                 what, which = ON_CORNER, member - n_triangles - n_edges
                 c = int(surface[CORNERS]) + CORNER * which
                 if surface[c + 3] != patch:
                     continue
-                beyond = past_corner(surface, c, x, y, z)
-                px, py, pz = vector_at(surface, c)
+                beyond, p = past_corner(surface, c, point), vector_at(surface, c)
             beyond -= margin
-            square = (x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz)
+            apart = minus(point, p)
+            square = dot(apart, apart)
             key = square + max(beyond, 0.0) * max(beyond, 0.0)
             alike = key < best + same and beyond <= 0.0
             if key < best - same or (alike and (past > 0.0 or what < kind)):
-                best, distance, past, kind, number = key, square**0.5, beyond, what, which
-                qx, qy, qz = px, py, pz
+                best, distance, past, kind, number, nearest = key, square**0.5, beyond, what, which, p
         node += 1
     if under_face >= 0 and under * under < best and depth_inside(surface, x, y, z) > 0.0:
-        f = int(surface[FACES]) + FACE * under_face
-        px, py, pz = x + under * surface[f], y + under * surface[f + 1], z + under * surface[f + 2]
-        return -under, under_past, ON_FACE, under_face, px, py, pz
-    return distance, past, kind, number, qx, qy, qz
+        normal = vector_at(surface, int(surface[FACES]) + FACE * under_face)
+        return -under, under_past, ON_FACE, under_face, *ahead(point, under, normal)
+    return distance, past, kind, number, *nearest

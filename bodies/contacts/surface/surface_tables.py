@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -109,16 +108,11 @@ def edge_rows(features: Features) -> Vector:
 def edge_row(features: Features, number: int) -> Numbers:
     """Return the row of one convex edge, 13 numbers: the contents of an ``EDGE`` row, but without the patch."""
     one, two, left, right = features.edges[number]
-    start, end = features.vertices[one].tolist(), features.vertices[two].tolist()
-    way = [y - x for x, y in zip(start, end, strict=True)]
+    start, way = features.vertices[one], features.vertices[two] - features.vertices[one]
     length = math.hypot(*way)
-    along = [x / length for x in way]
-    inward = *_cross(features.planes[left].tolist(), along), *_cross(along, features.planes[right].tolist())
-    return *start, *along, length, *inward
-
-
-def _cross(a: Sequence[float], b: Sequence[float]) -> Numbers:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+    along = way / length
+    inward = np.cross(features.planes[left, :3], along), np.cross(along, features.planes[right, :3])
+    return tuple(np.concatenate([start, along, [length], *inward]).tolist())
 
 
 def star_of(features: Features, number: int) -> list[float]:
@@ -131,6 +125,12 @@ def star_lengths(features: Features, number: int) -> list[float]:
     """Return the lengths of the edges of a corner [m], in the order of :func:`star_of`."""
     ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]
     return [float(x) for x in np.linalg.norm(ways, axis=1)]
+
+
+def part_names(features: Features) -> list[str]:
+    """Return the names of all faces, convex edges and corners by number."""
+    counts = ("face", len(features.planes)), ("edge", len(features.edges)), ("corner", len(features.corners))
+    return [f"{kind} {i}" for kind, n in counts for i in range(n)]
 
 
 def _triangles(features: Features) -> Vector:

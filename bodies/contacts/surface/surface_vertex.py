@@ -7,7 +7,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import vector_at
+from ...vectors import Vector3, dot, minus, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex_face import CLOSED, REACH
@@ -35,18 +35,16 @@ from .surface_tables import (
 
 
 @compiled
-def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats, begin: int) -> float:
+def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats) -> float:
     """Return the sine of the angle at which the steepest edge of the other body's vertex descends below a face.
 
-    It is negative if all edges ascend from the face.  The vertex has ``n_star`` edges; unit vectors along them begin at
-    index ``begin`` of ``star``.
+    It is negative if all edges ascend from the face.  The vertex has ``n_star`` edges; ``star`` holds unit vectors
+    along them.
     """
-    nx, ny, nz = vector_in_world(frame, vector_at(surface, face))
-    nx, ny, nz = vector_in_body(other, (nx, ny, nz))
+    n = vector_in_body(other, vector_in_world(frame, vector_at(surface, face)))
     down = -1.0
     for i in range(int(n_star)):
-        s = begin + 3 * i
-        down = max(down, -(nx * star[s] + ny * star[s + 1] + nz * star[s + 2]))
+        down = max(down, -dot(n, vector_at(star, 3 * i)))
     return down
 
 
@@ -71,12 +69,13 @@ def over_face(
     margin : float
         Distance past an edge up to which the vertex is still over the triangle [m].
     """
-    over, ends = over_ends(surface, triangle, x, y, z)
+    over, ends = over_ends(surface, triangle, (x, y, z))
     over, ends = max(over - margin, lean), max(ends - margin, lean)
     past, square = ends, height * height
     if over > 0.0 or height < 0.0:
         qx, qy, qz, _ = in_triangle(surface, triangle, x, y, z)
-        square = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz)
+        apart = minus((x, y, z), (qx, qy, qz))
+        square = dot(apart, apart)
         out = square - height * height if height > 0.0 else square
         past = max(math.sqrt(max(out, 0.0)) - margin, over)
     return over, ends, past, square
@@ -128,25 +127,23 @@ def face_under(
     other: Floats,
     surface: Floats,
     patch: float,
-    vertex_x: float,
-    vertex_y: float,
-    vertex_z: float,
+    place: Vector3,
     n_star: float,
     star: Floats,
-    begin: int,
     reach: float,
 ) -> tuple[int, float, float]:
     """Return face, gap and distance past the end [m] for a vertex of the other body and a patch in ``frame``.
+
+    ``place`` is the vertex in the frame of its body [m].
 
     The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
     face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face.  If
     the vertex may not touch the face, the gap is positive.
 
-    ``star`` holds unit vectors along the vertex's edges, from index ``begin`` on.  If no face is within ``reach`` [m],
+    ``star`` holds unit vectors along the vertex's edges.  If no face is within ``reach`` [m],
     gap and distance past the end are ``reach``.
     """
-    px, py, pz = point_in_world(other, (vertex_x, vertex_y, vertex_z))
-    x, y, z = point_in_body(frame, (px, py, pz))
+    x, y, z = point_in_body(frame, point_in_world(other, place))
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     # a point by itself has no edges beside it
@@ -170,7 +167,7 @@ def face_under(
             height = face_height(surface, f, x, y, z)
             if surface[f + 4] != patch or height * height > best:
                 continue
-            lean = size * (leaning(frame, other, surface, f, n_star, star, begin) - ASTRAY)
+            lean = size * (leaning(frame, other, surface, f, n_star, star) - ASTRAY)
             over, inside, ends, square = over_face(surface, t, height, lean, margin, x, y, z)
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face = -height, inside, face
@@ -178,7 +175,7 @@ def face_under(
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
         node += 1
-    face, gap, past = touched_face(
+    found_face: tuple[int, float, float] = touched_face(
         surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
     )
-    return face, gap, past
+    return found_face

@@ -1,0 +1,104 @@
+"""Points, spheres and the vertices of bodies over a plane: each a ball, whose contact has a closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar, final
+
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.notices import warn
+from nonsmooth.parameters import UnusualValue, Value
+
+from ...shapes.capsule import Capsule
+from ...shapes.ground import Ground
+from ...shapes.point import Point
+from ...shapes.polyhedron import Polyhedron
+from ...shapes.sphere import Sphere
+from ...shapes.triangle_mesh import TriangleMesh
+from .plane_point import evaluate_ball_over_plane
+
+MANY = 200
+"""Number of corners of a mesh above which a warning says what they cost."""
+
+
+def ball_over_plane(plane: Shape, radius: float, center: Sequence[float], name: str) -> FeaturePair:
+    """Return the contact of a plane and a ball, whose centre is in its body frame [m]; a point has radius 0."""
+    assert isinstance(plane, Ground)
+    values: dict[str, Value] = {"radius": radius, "center": tuple(center), "height": plane.height}
+    return FeaturePair(evaluate_ball_over_plane, values, (f"plane-{name}",))
+
+
+@final
+class PlaneSphere(ContactKinematics):
+    """A sphere over a plane: one contact, Eqs. (8)-(13)."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Sphere)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact of a plane and a sphere."""
+        assert isinstance(second, Sphere)
+        return (ball_over_plane(first, second.radius, (second.x, second.y, second.z), "sphere"),)
+
+
+@final
+class PlaneVertex(ContactKinematics):
+    """A point over a plane: one contact."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Point)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact of a plane and a point."""
+        assert isinstance(second, Point)
+        return (ball_over_plane(first, 0.0, (second.x, second.y, second.z), "vertex"),)
+
+
+@final
+class PlaneCapsule(ContactKinematics):
+    """A capsule over a plane: a contact of each end sphere; both hold a capsule that lies."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Capsule)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the contacts of the two end spheres, first the one against the axis."""
+        assert isinstance(second, Capsule)
+        return tuple(ball_over_plane(first, second.radius, end, "end") for end in second.ends)
+
+
+@final
+class PlanePolyhedron(ContactKinematics):
+    """A polyhedron over a plane: a contact of each vertex, which is a ball if the polyhedron is rounded."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Polyhedron)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the contacts of all vertices."""
+        assert isinstance(second, Polyhedron)
+        return tuple(ball_over_plane(first, second.rounding, vertex, "vertex") for vertex in second.core.vertices)
+
+
+@final
+class PlaneMesh(ContactKinematics):
+    """A triangle mesh over a plane: a contact of each corner of its convex hull.
+
+    That is exact for any mesh, convex or not: no other point of the mesh is nearer to a plane.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, TriangleMesh)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the contacts of the corners."""
+        assert isinstance(second, TriangleMesh)
+        corners = second.corners.tolist()
+        if len(corners) > MANY:
+            warn(
+                f"mesh {second.surface.mesh.name}: its hull has {len(corners)} corners, each a contact of its own with "
+                "a plane, and every step looks at all of them. Is it a rounded body? Take a coarser mesh, or a shape "
+                "in closed form (Sphere, Ellipsoid, Cylinder, ...), which is exact and has one contact.",
+                UnusualValue,
+            )
+        return tuple(ball_over_plane(first, 0.0, corner, "vertex") for corner in corners)
