@@ -9,6 +9,7 @@ from typing import Any, ClassVar, final
 
 from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
@@ -154,11 +155,11 @@ def _over_caps(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
         for radius, center, name in rims_and_tips(own, is_sharp):
             # feet of either body carry it on a cap of the other: between rims and caps is the height of both
             numbers = other.frustum if name.startswith("foot") else inner
-            values = {"swap": swap, "first": own.frustum, "radius": radius, "center": center, "second": numbers}
+            values: dict[str, Value] = {"swap": swap, "first": own.frustum, "radius": radius, "center": center}
             for cap, sign in ((LOW_CAP, "-"), (HIGH_CAP, "+"))[: 2 if other.frustum[1] > 0.0 else 1]:
                 yield FeaturePair(
                     evaluate_rim_over_cap,
-                    {**values, "cap": float(cap), "size": size},
+                    {**values, "second": numbers, "cap": float(cap), "size": size},
                     (_names(swap, name, f"cap {sign}"),),
                 )
 
@@ -168,6 +169,7 @@ def _crossing(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
     size, one, two = 2.0 * max(first.extent, second.extent), set_back(first), set_back(second)
     if one[SIDE] > 0.0 and two[SIDE] > 0.0:
         yield FeaturePair(evaluate_sides, {"first": one, "second": two, "size": size}, ("side and side",))
+    values: dict[str, Value]
     for swap, own, other in ((0.0, one, two), (1.0, two, one)):
         halves = [*itertools.product(rims_of(own), (1.0, -1.0))]
         if own[SIDE] > 0.0 and own[1] == 0.0 and one[SWEEP] + two[SWEEP] == 0.0:
@@ -185,6 +187,7 @@ def _of_apices(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
     one, two = without_feet(first.frustum), without_feet(second.frustum)
     for swap, own, other in ((0.0, one, two), (1.0, two, one)) if one[SWEEP] + two[SWEEP] > 0.0 else ():
         if own[1] == 0.0:
-            values = {"swap": swap, "first": own, "second": other, "size": 2.0 * max(first.extent, second.extent)}
+            values: dict[str, Value] = {"swap": swap, "first": own, "second": other}
+            values["size"] = 2.0 * max(first.extent, second.extent)
             names = tuple(_names(swap, "apex", part) for part in part_names(other))
             yield FeaturePair(evaluate_apex_over_frustum, values, names)

@@ -7,6 +7,7 @@ from typing import ClassVar, final
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SWEEP, Frustum, without_feet
@@ -55,6 +56,6 @@ class FrustumSphere(ContactKinematics):
         """Return the single contact: each part of the frustum, from the lower cap upwards, with the sphere."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Sphere)
-        values = {"first": without_feet(first.frustum), **second.parameters()}
+        values: dict[str, Value] = {"first": without_feet(first.frustum), **second.parameters()}
         names = tuple(f"{part} and sphere" for part in part_names(first.frustum))
         return (FeaturePair(evaluate_frustum_sphere, values, names),)

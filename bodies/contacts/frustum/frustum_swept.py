@@ -10,6 +10,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, PAST_END
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SIDE, SWEEP, Frustum
@@ -105,7 +106,7 @@ def _check_number(edges: int) -> None:
 def _of_faces(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
     """Yield the contacts of all rims and feet, and of the apex of two sharp bodies; a segment has no faces."""
     numbers, faces = seen_by(first, second.core), face_table(second.core)
-    values = {"frustum": numbers, "n_faces": float(len(faces) // FACE), "faces": faces}
+    values: dict[str, Value] = {"frustum": numbers, "n_faces": float(len(faces) // FACE), "faces": faces}
     values |= {"sweep": second.sweep, "size": size_of_both(first, second)}
     for radius, center, name in rims_and_tips(first, second.sweep + numbers[SWEEP] == 0.0) if faces else ():
         names = tuple(f"{name} and face {i}" for i in range(len(faces) // FACE))
@@ -115,7 +116,7 @@ def _of_faces(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
 def _of_edges(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
     """Yield the contacts of each edge with the side, which a disc does not have, and with both halves of each rim."""
     numbers, rows, core = seen_by(first, second.core), edge_rows(second.core), ConvexCore.of(second.core).values()
-    values = {"frustum": numbers, "radius": second.sweep, **core, "size": size_of_both(first, second)}
+    values: dict[str, Value] = {"frustum": numbers, "radius": second.sweep, **core, "size": size_of_both(first, second)}
     for i, row in enumerate(rows) if numbers[SIDE] > 0.0 else ():
         yield FeaturePair(evaluate_edge_across_side, {**values, "edge": row}, (f"side and edge {i}",))
     for (i, row), rim, half in itertools.product(enumerate(rows), rims_of(numbers), (1.0, -1.0)):
@@ -129,11 +130,20 @@ def _of_sharp_vertices(first: Frustum, second: SweptPolytope) -> Iterator[Featur
     Rims have names only so that the numbers of the features agree with those of the parts.
     """
     core, numbers, faces = second.core, seen_by(first, second.core), face_table(second.core)
-    values = {"frustum": numbers, "n_vertices": float(len(core.vertices)), "vertices": vertex_table(core)}
+    values: dict[str, Value] = {
+        "frustum": numbers,
+        "n_vertices": float(len(core.vertices)),
+        "vertices": vertex_table(core),
+    }
     values |= {"n_faces": float(len(faces) // FACE), "faces": faces, "size": size_of_both(first, second)}
     for i in range(len(core.vertices)):
         lengths, names = star_lengths(core, i), tuple(f"{part} and vertex {i}" for part in part_names(numbers))
-        star = {"vertex": float(i), "n_star": float(len(lengths)), "star": star_of(core, i), "lengths": lengths}
+        star: dict[str, Value] = {
+            "vertex": float(i),
+            "n_star": float(len(lengths)),
+            "star": star_of(core, i),
+            "lengths": lengths,
+        }
         yield FeaturePair(evaluate_vertex_over_frustum, {**values, **star}, names)
 
 
@@ -157,9 +167,9 @@ def rounded_vertex(
     ``numbers`` are those of the frustum, ``place`` is the vertex [m] and ``radius`` its radius [m]; ``star`` holds the
     unit vectors along its edges.  ``size`` is the size of the bodies [m].
     """
-    values = {"first": numbers, "radius": radius, "place": place, "n_star": float(len(star) // 3), "star": star}
+    values: dict[str, Value] = {"first": numbers, "radius": radius, "place": place, "star": star, "size": size}
     names = tuple(f"{part} and {name}" for part in part_names(numbers))
-    return FeaturePair(evaluate_rounded_vertex, {**values, "size": size}, names)
+    return FeaturePair(evaluate_rounded_vertex, {**values, "n_star": float(len(star) // 3)}, names)
 
 
 def _of_apex(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
@@ -172,7 +182,7 @@ def _of_apex(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
         return
     faces, edges, ends = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
     counts = ("face", len(faces) // FACE), ("edge", len(ends) // 2), ("vertex", int(max(ends)) + 1)
-    values = {
+    values: dict[str, Value] = {
         "first": numbers,
         "n_faces": float(len(faces) // FACE),
         "faces": faces or (0.0,),
