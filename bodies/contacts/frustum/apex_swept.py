@@ -10,8 +10,9 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import COS, HIGH, SIN, SWEEP
 from ...vectors import dot, opposite
 from ..features.frames import point_in_body, vector_in_world
+from ..features.polytope_tables import N_FACES, edges_of
 from ..features.swept_vertex import END, write_vertex_over
-from ..features.vertex_face import nearest_feature
+from ..features.vertex_face import nearest_of_core
 from .frustum import axis_in_world, on_axis_in_world
 
 
@@ -28,21 +29,11 @@ def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> fl
 
 
 def evaluate_apex_over_core(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    first: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_edges: float,
-    edges: Floats,
-    ends: Floats,
-    sweep: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, first: Floats, core: Floats, sweep: float, size: float
 ) -> None:
     """Write the geometry block of a cone's apex and the nearest face or edge of a core, rounded by ``sweep`` [m]."""
     axis, p = axis_in_world(a, first), on_axis_in_world(a, first, first[HIGH])
-    found = nearest_feature(n_faces, faces, n_edges, edges, ends, *point_in_body(b, p))
+    found = nearest_of_core(core, point_in_body(b, p))
     n = vector_in_world(b, (found[2], found[3], found[4]))
     past = past_apex(first, found[1], dot(opposite(n), axis), size)
-    write_vertex_over(a, b, out, 1.0, p, first[SWEEP], found, past, n_faces, n_edges, edges, sweep, size)
+    write_vertex_over(a, b, out, 1.0, p, first[SWEEP], found, past, core[N_FACES], *edges_of(core), sweep, size)

@@ -4,34 +4,34 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP
 from ...vectors import ahead, plus
-from ..features.polytope_tables import LENGTH
+from ..features.polytope_tables import LENGTH, edge_at
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
 from .frustum import FLANK, center_in_world, write_part
 from .frustum_writing import astray_of_edge, edge_in_frustum, past_end, write_crossing
 
 
-def evaluate_edge_across_side(
+@compiled
+def write_edge_across_side(
     a: Floats,
     b: Floats,
     out: Floats,
     frustum: Floats,
     edge: Floats,
     radius: float,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    core: Floats,
+    is_convex: bool,
     size: float,
 ) -> None:
     """Write the geometry block of a frustum's side and an edge, rounded by ``radius`` [m], that crosses the side.
 
-    ``faces`` and ``vertices`` are those of the core with the edge; there are none if it need not be convex.
+    ``edge`` is the row of the edge.  If the body with the edge is convex, it has a ``core``.
     """
     axes, center = axes_in_world(a, frustum), center_in_world(a, frustum)
     start, d = edge_in_frustum(b, edge, axes, center)
@@ -66,9 +66,20 @@ def evaluate_edge_across_side(
         # no normal of the side is perpendicular to the edge, or the edge is parallel to the side: no valid crossing
         over = size
     steep, astray = abs(crossing), astray_of_edge(b, edge, axes, n)
-    past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, steep, astray, size)
+    past = past_end(a, b, frustum, core, is_convex, gap, over, steep, astray, size)
     point = plus(center, forth(axes, ahead(p, -gap, n)))
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, n, point)
     outward = forth(axes, (ex, ey, 0.0))
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), outward, cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])
+
+
+def evaluate_edge_across_side(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, core: Floats, edge: float, radius: float, size: float
+) -> None:
+    """Write the geometry block of a frustum's side and an edge of a core, by number, that crosses the side.
+
+    ``radius`` is the radius about the core [m].
+    """
+    row = block_at(core, edge_at(core, edge))
+    write_edge_across_side(a, b, out, frustum, row, radius, core, True, size)

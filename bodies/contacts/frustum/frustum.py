@@ -34,7 +34,7 @@ from ...shapes.polytope import Polytope
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, vector_at
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import FACE
+from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
 from ..features.vertex_face import plane_height
 from ..features.writing import write_flat, write_principal, write_round
 from ..surface.mesh_point import Corner
@@ -145,36 +145,36 @@ def least_height(frustum: Floats, height: float, axis: Vector3, normal: Vector3)
 
 
 @compiled
-def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float, faces: Floats) -> float:
-    """Return the largest separation of a frustum in ``a`` and a polyhedron in ``b`` along the normals of its faces [m].
+def separation_over_faces(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and a core in ``b`` along the normals of its faces [m].
 
     It is negative if none of the planes of the faces separates the bodies.
     """
     axis, center = vector_in_body(b, axis_in_world(a, frustum)), point_in_body(b, center_in_world(a, frustum))
     best = -math.inf
-    for i in range(int(n_faces)):
-        f = FACE * i
-        best = max(best, least_height(frustum, plane_height(faces, f, *center), axis, vector_at(faces, f)))
+    for i in range(int(core[N_FACES])):
+        f = int(core[FACES]) + FACE * i
+        best = max(best, least_height(frustum, plane_height(core, f, *center), axis, vector_at(core, f)))
     return best
 
 
 @compiled
-def least_over(b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
-    """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
+def least_over(b: Floats, core: Floats, normal: Vector3, place: Vector3) -> float:
+    """Return the least height of the vertices of a core in ``b`` over the plane through ``place`` with a normal [m]."""
     base = dot(normal, minus(vector_at(b, POSITION), place))
     own, least = vector_in_body(b, normal), math.inf
-    for i in range(int(n_vertices)):
-        least = min(least, dot(own, vector_at(vertices, 3 * i)))
+    for i in range(int(core[N_VERTICES])):
+        least = min(least, dot(own, vector_at(core, vertex_at(core, i))))
     return float(base + least)
 
 
 @compiled
-def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: float, vertices: Floats) -> float:
-    """Return the largest separation of a frustum in ``a`` and vertices in ``b`` along the normals of its caps [m]."""
+def separation_over_caps(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and a core in ``b`` along the normals of the caps [m]."""
     axis, place = axis_in_world(a, frustum), center_in_world(a, frustum)
-    best = least_over(b, n_vertices, vertices, opposite(axis), place) + frustum[LOW]
+    best = least_over(b, core, opposite(axis), place) + frustum[LOW]
     if frustum[1] > 0.0:
-        best = max(best, least_over(b, n_vertices, vertices, axis, place) - frustum[HIGH])
+        best = max(best, least_over(b, core, axis, place) - frustum[HIGH])
     return float(best)
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN
 from ...vectors import Vector3, ahead, minus, plus, times, vector_at
 from ..features.frames import across, point_in_world
+from ..features.polytope_tables import faces_of, vertex_at
 from ..features.vertex_face import CLOSED, height_over
 from ..features.writing import write_round
 from .frustum import (
@@ -87,14 +88,9 @@ def evaluate_vertex_over_frustum(
     b: Floats,
     out: Floats,
     frustum: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    core: Floats,
     vertex: float,
-    n_star: float,
-    star: Floats,
     lengths: Floats,
-    n_faces: float,
-    faces: Floats,
     size: float,
 ) -> None:
     """Write the geometry block of a vertex and the cap or side that best separates the bodies.
@@ -105,17 +101,16 @@ def evaluate_vertex_over_frustum(
         Frame blocks of both bodies, and the geometry block.
     frustum : Floats
         The first body, with its rims set back by its feet (:func:`bodies.contacts.frustum.frustum.set_back`).
-    n_vertices, vertices, vertex : float and Floats
-        All vertices of the second body [m], and the number of the vertex of this contact.
-    n_star, star, lengths : float and Floats
-        Unit vectors along its edges, and their lengths [m].
-    n_faces, faces : float and Floats
-        All faces of the second body.
+    core, vertex : Floats, float
+        The second body (:func:`bodies.contacts.features.polytope_tables.core_numbers`), and the number of the vertex.
+    lengths : Floats
+        Lengths of its edges [m].
     size : float
         Size of the bodies [m].
     """
     axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
-    point = point_in_world(b, vector_at(vertices, 3 * int(vertex)))
+    v = vertex_at(core, vertex)
+    point, n_star, star = point_in_world(b, vector_at(core, v)), core[v + 3], block_at(core, int(core[v + 4]))
     around = across(minus(point, center), axis)
     along, away, outward = around
     margin = CLOSED * size
@@ -124,7 +119,7 @@ def evaluate_vertex_over_frustum(
         if has_part(frustum, part):
             height, _, radial, axial = over_part(frustum, part, along, away)
             n = normal_of_part(axis, outward, radial, axial)
-            best = max(best, least_over(b, n_vertices, vertices, n, ahead(point, -height, n)))
+            best = max(best, least_over(b, core, n, ahead(point, -height, n)))
             highest = max(highest, height)
     found, gap, past = LOW_CAP, 0.0, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
@@ -133,14 +128,14 @@ def evaluate_vertex_over_frustum(
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         n = normal_of_part(axis, outward, radial, axial)
         below = ahead(point, -height, n)
-        if least_over(b, n_vertices, vertices, n, below) < best - margin:
+        if least_over(b, core, n, below) < best - margin:
             continue
         if height < 0.0:
             # behind a part only what lies inside of the body can touch it; of a disc, what has the disc inside of it
             inside = highest
             if frustum[SIDE] == 0.0:
                 inside = tip_past_rim(b, n_star, star, lengths, minus(point, center), n, -height, frustum[0])
-                inside = min(inside, height_over(b, n_faces, faces, *below))
+                inside = min(inside, height_over(b, *faces_of(core), *below))
             beyond = max(beyond, inside)
         if beyond - margin < past:
             found, gap, past = part, height, beyond - margin

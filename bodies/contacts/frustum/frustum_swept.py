@@ -16,17 +16,7 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import SIDE, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
 from ...vectors import vector_at
-from ..features.polytope_tables import (
-    EDGE,
-    FACE,
-    ConvexCore,
-    edge_rows,
-    end_table,
-    face_table,
-    star_lengths,
-    star_of,
-    vertex_table,
-)
+from ..features.polytope_tables import core_numbers, star_lengths, star_of
 from ..features.swept_vertex import ended_gap, past_star
 from ..features.writing import place_sphere
 from ..polyhedron.swept_swept import MOST_CONTACTS
@@ -105,23 +95,27 @@ def _check_number(edges: int) -> None:
 
 def _of_faces(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
     """Yield the contacts of all rims and feet, and of the apex of two sharp bodies; a segment has no faces."""
-    numbers, faces = seen_by(first, second.core), face_table(second.core)
-    values: dict[str, Value] = {"frustum": numbers, "n_faces": float(len(faces) // FACE), "faces": faces}
-    values |= {"sweep": second.sweep, "size": size_of_both(first, second)}
-    for radius, center, name in rims_and_tips(first, second.sweep + numbers[SWEEP] == 0.0) if faces else ():
-        names = tuple(f"{name} and face {i}" for i in range(len(faces) // FACE))
+    numbers, n_faces = seen_by(first, second.core), len(second.core.planes)
+    values: dict[str, Value] = {"frustum": numbers, "sweep": second.sweep, **_core_of(first, second)}
+    for radius, center, name in rims_and_tips(first, second.sweep + numbers[SWEEP] == 0.0) if n_faces else ():
+        names = tuple(f"{name} and face {i}" for i in range(n_faces))
         yield FeaturePair(evaluate_rim_over_faces, {**values, "radius": radius, "center": center}, names)
 
 
 def _of_edges(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
     """Yield the contacts of each edge with the side, which a disc does not have, and with both halves of each rim."""
-    numbers, rows, core = seen_by(first, second.core), edge_rows(second.core), ConvexCore.of(second.core).values()
-    values: dict[str, Value] = {"frustum": numbers, "radius": second.sweep, **core, "size": size_of_both(first, second)}
-    for i, row in enumerate(rows) if numbers[SIDE] > 0.0 else ():
-        yield FeaturePair(evaluate_edge_across_side, {**values, "edge": row}, (f"side and edge {i}",))
-    for (i, row), rim, half in itertools.product(enumerate(rows), rims_of(numbers), (1.0, -1.0)):
-        of_rim = {**values, "edge": row, "rim": float(rim), "half": half}
+    numbers, edges = seen_by(first, second.core), range(len(second.core.edges))
+    values: dict[str, Value] = {"frustum": numbers, "radius": second.sweep, **_core_of(first, second)}
+    for i in edges if numbers[SIDE] > 0.0 else ():
+        yield FeaturePair(evaluate_edge_across_side, {**values, "edge": float(i)}, (f"side and edge {i}",))
+    for i, rim, half in itertools.product(edges, rims_of(numbers), (1.0, -1.0)):
+        of_rim = {**values, "edge": float(i), "rim": float(rim), "half": half}
         yield FeaturePair(evaluate_edge_across_rim, of_rim, (f"{RIM_NAMES[rim]} and edge {i}",))
+
+
+def _core_of(first: Frustum, second: SweptPolytope) -> dict[str, Value]:
+    """Return the core of the second body, and the size of the larger body, by the names of the evaluators."""
+    return {"core": core_numbers(second.core), "size": size_of_both(first, second)}
 
 
 def _of_sharp_vertices(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
@@ -129,22 +123,12 @@ def _of_sharp_vertices(first: Frustum, second: SweptPolytope) -> Iterator[Featur
 
     Rims have names only so that the numbers of the features agree with those of the parts.
     """
-    core, numbers, faces = second.core, seen_by(first, second.core), face_table(second.core)
-    values: dict[str, Value] = {
-        "frustum": numbers,
-        "n_vertices": float(len(core.vertices)),
-        "vertices": vertex_table(core),
-    }
-    values |= {"n_faces": float(len(faces) // FACE), "faces": faces, "size": size_of_both(first, second)}
-    for i in range(len(core.vertices)):
-        lengths, names = star_lengths(core, i), tuple(f"{part} and vertex {i}" for part in part_names(numbers))
-        star: dict[str, Value] = {
-            "vertex": float(i),
-            "n_star": float(len(lengths)),
-            "star": star_of(core, i),
-            "lengths": lengths,
-        }
-        yield FeaturePair(evaluate_vertex_over_frustum, {**values, **star}, names)
+    numbers = seen_by(first, second.core)
+    values: dict[str, Value] = {"frustum": numbers, **_core_of(first, second)}
+    for i in range(len(second.core.vertices)):
+        names = tuple(f"{part} and vertex {i}" for part in part_names(numbers))
+        of_vertex = {**values, "vertex": float(i), "lengths": star_lengths(second.core, i)}
+        yield FeaturePair(evaluate_vertex_over_frustum, of_vertex, names)
 
 
 def _of_vertices(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
@@ -177,20 +161,9 @@ def _of_apex(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
 
     Vertices have names only so that the numbers of the features agree with the tables.
     """
-    numbers, core = first.frustum, second.core
-    if numbers[SIDE] == 0.0 or numbers[1] > 0.0:
-        return
-    faces, edges, ends = face_table(core), tuple(itertools.chain(*edge_rows(core))), end_table(core)
-    counts = ("face", len(faces) // FACE), ("edge", len(ends) // 2), ("vertex", int(max(ends)) + 1)
-    values: dict[str, Value] = {
-        "first": numbers,
-        "n_faces": float(len(faces) // FACE),
-        "faces": faces or (0.0,),
-        "n_edges": float(len(edges) // EDGE),
-        "edges": edges,
-        "ends": ends,
-        "sweep": second.sweep,
-        "size": size_of_both(first, second),
-    }
-    names = tuple(f"apex and {name} {i}" for name, n in counts for i in range(n))
-    yield FeaturePair(evaluate_apex_over_core, values, names)
+    numbers = first.frustum
+    if numbers[SIDE] > 0.0 and numbers[1] == 0.0:
+        core, values = second.core, _core_of(first, second)
+        counts = ("face", len(core.planes)), ("edge", len(core.edges)), ("vertex", len(core.vertices))
+        names = tuple(f"apex and {kind} {i}" for kind, n in counts for i in range(n))
+        yield FeaturePair(evaluate_apex_over_core, {"first": numbers, "sweep": second.sweep, **values}, names)

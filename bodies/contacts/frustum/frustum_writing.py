@@ -205,28 +205,25 @@ def past_end(
     a: Floats,
     b: Floats,
     frustum: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    core: Floats,
+    is_convex: bool,
     gap: float,
-    over: float,
+    over_end: float,
     sine: float,
     astray: float,
     size: float,
 ) -> float:
     """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
-    The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over`` the distance past the ends
-    of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.  ``astray`` is
-    the sine of the angle between the contact normal and the fans of normals of the features.  A crossing below zero is
-    not valid if the cores overlap less along the normal of a cap of the frustum or of one of the ``faces`` of the core
-    with the edge.  A core that need not be convex has no vertices here.
+    The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over_end`` the distance past the
+    ends of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.
+    ``astray`` is the sine of the angle between the contact normal and the fans of normals of the features.  If the
+    body with the edge is convex, it has a ``core``.  A crossing below zero is then not valid if the cores overlap less
+    along the normal of a cap of the frustum or of a face of the core.
     """
-    past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
-    if past <= 0.0 and gap < -REACH * size and n_vertices > 0.0:
-        best = separation_over_faces(a, b, frustum, n_faces, faces)
-        best = max(best, separation_over_caps(a, b, frustum, n_vertices, vertices))
+    past = max(over_end - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
+    if past <= 0.0 and gap < -REACH * size and is_convex:
+        best = max(separation_over_faces(a, b, frustum, core), separation_over_caps(a, b, frustum, core))
         past = max(past, best - gap - REACH * size)
     return past
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SIDE, SWEEP
 from ...vectors import ahead, dot, minus, opposite, over, plus, size_of, times
-from ..features.polytope_tables import LENGTH
+from ..features.polytope_tables import LENGTH, edge_at
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
 from .frustum import center_in_world, rim_of, write_part
@@ -72,7 +72,8 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
     return (c if x >= 0.0 else -c), s, none
 
 
-def evaluate_edge_across_rim(
+@compiled
+def write_edge_across_rim(
     a: Floats,
     b: Floats,
     out: Floats,
@@ -81,10 +82,8 @@ def evaluate_edge_across_rim(
     half: float,
     edge: Floats,
     radius: float,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    core: Floats,
+    is_convex: bool,
     size: float,
 ) -> None:
     """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses one half of a rim.
@@ -106,8 +105,8 @@ def evaluate_edge_across_rim(
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
         Radius about the edge [m].
-    n_faces, faces, n_vertices, vertices : float and Floats
-        Faces and vertices of the core with the edge; there are none if it need not be convex.
+    core, is_convex : Floats, bool
+        The core with the edge, which is used if the body is convex.
     size : float
         Size of the bodies [m].
     """
@@ -162,9 +161,29 @@ def evaluate_edge_across_rim(
     over_end = max(-s, s - edge[LENGTH])
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
         over_end = size
-    past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over_end, crossing, astray, size)
+    past = past_end(a, b, frustum, core, is_convex, gap, over_end, crossing, astray, size)
     point = plus(center, forth(axes, p))
     write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, n, point)
     axis, radial = (axes[2], axes[5], axes[8]), e[0] * n[0] + e[1] * n[1]
     write_part(out, SIDE_A, int(rim), axis, forth(axes, e), radial, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])
+
+
+def evaluate_edge_across_rim(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    rim: float,
+    half: float,
+    core: Floats,
+    edge: float,
+    radius: float,
+    size: float,
+) -> None:
+    """Write the geometry block of an edge of a core, by number, that crosses one half of a rim.
+
+    The other parameters are those of :func:`write_edge_across_rim`.
+    """
+    row = block_at(core, edge_at(core, edge))
+    write_edge_across_rim(a, b, out, frustum, rim, half, row, radius, core, True, size)

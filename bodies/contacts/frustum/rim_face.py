@@ -12,7 +12,7 @@ from ...shapes.frustum import SWEEP
 from ...vectors import Vector3, ahead, cross, opposite, plus, times, vector_at
 from ..features.flat_rim import FLATTEST, Touching, touching_point, write_rim
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import FACE
+from ..features.polytope_tables import FACE, faces_of
 from ..features.vertex_face import REACH, past_face, plane_height
 from ..features.writing import write_flat, write_round
 from .frustum import axis_in_world, center_in_world, least_height, separation_over_faces
@@ -77,8 +77,7 @@ def evaluate_rim_over_faces(
     frustum: Floats,
     radius: float,
     center: Floats,
-    n_faces: float,
-    faces: Floats,
+    core: Floats,
     sweep: float,
     size: float,
 ) -> None:
@@ -98,8 +97,8 @@ def evaluate_rim_over_faces(
         Radius of the rim [m].
     center : Floats
         Centre of the rim in the body frame [m].
-    n_faces, faces : float and Floats
-        The faces of the second body's core (:func:`bodies.contacts.features.polytope_tables.face_table`).
+    core : Floats
+        Core of the second body (:func:`bodies.contacts.features.polytope_tables.core_numbers`).
     sweep : float
         Radius about the core of the second body [m].
     size : float
@@ -107,7 +106,8 @@ def evaluate_rim_over_faces(
     """
     axis, place = axis_in_world(a, frustum), point_in_world(a, vector_at(center, 0))
     own_axis, middle = vector_in_body(b, axis), point_in_body(b, center_in_world(a, frustum))
-    margin, best = REACH * size, separation_over_faces(a, b, frustum, n_faces, faces)
+    margin, best = REACH * size, separation_over_faces(a, b, frustum, core)
+    n_faces, faces = faces_of(core)
     found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
         f = FACE * i

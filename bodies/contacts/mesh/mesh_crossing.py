@@ -21,10 +21,10 @@ from ...vectors import Vector3, ahead, minus, put, vector_at
 from ..features.edge_crossing import edge_astray
 from ..features.frames import across, point_in_body
 from ..features.vertex_face import CLOSED
-from ..frustum.flank_edge import evaluate_edge_across_side
+from ..frustum.flank_edge import write_edge_across_side
 from ..frustum.frustum import RIM_NAMES, center_in_world, nearest_part, rims_of
 from ..frustum.frustum_writing import gap_past_end
-from ..frustum.rim_edge import evaluate_edge_across_rim
+from ..frustum.rim_edge import write_edge_across_rim
 from ..smooth.smooth_core import Axes, axes_in_world
 from ..surface.surface_search import depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
@@ -68,14 +68,11 @@ def _judge(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, sur
         put(out, POINT_B, ahead(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
 
 
-_across_side, _across_rim = compiled(evaluate_edge_across_side), compiled(evaluate_edge_across_rim)
-
-
 def evaluate_mesh_edge_across_side(
     a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
 ) -> None:
     """Write the geometry block of an edge of a surface that crosses the side of a frustum."""
-    _across_side(a, b, out, frustum, edge, 0.0, 0.0, edge, 0.0, edge, size)
+    write_edge_across_side(a, b, out, frustum, edge, 0.0, edge, False, size)
     _judge(a, b, out, frustum, edge, surface, size)
 
 
@@ -91,7 +88,7 @@ def evaluate_mesh_edge_across_rim(
     size: float,
 ) -> None:
     """Write the geometry block of an edge of a surface that crosses one half of a rim."""
-    _across_rim(a, b, out, frustum, rim, half, edge, 0.0, 0.0, edge, 0.0, edge, size)
+    write_edge_across_rim(a, b, out, frustum, rim, half, edge, 0.0, edge, False, size)
     _judge(a, b, out, frustum, edge, surface, size)
 
 
