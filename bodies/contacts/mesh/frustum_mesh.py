@@ -22,7 +22,7 @@ from ...shapes.triangle_mesh import TriangleMesh
 from ...vectors import vector_at
 from ..frustum.frustum import apex_of, feet_of, part_names, rims_of, set_back
 from ..frustum.frustum_swept import rounded_vertex
-from ..surface.mesh_point import PointMesh
+from ..surface.mesh_point import vertices_over_surface
 from ..surface.surface_tables import Numbers, star_lengths, star_of, surface_numbers
 from .apex_mesh import evaluate_apex_over_patch
 from .frustum_corner import evaluate_corner_over_frustum
@@ -94,7 +94,7 @@ class FrustumMesh(ContactKinematics):
         return {"first": Cylinder(0.1, 0.2), "second": TriangleMesh(tetrahedron)}
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[Any, ...]:
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
         """Return the contacts of rims, feet and apex over patches, of corners, and of edges with side and rims."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
@@ -103,8 +103,8 @@ class FrustumMesh(ContactKinematics):
         n_crossings = 2 * len(rims_of(numbers)) + (1 if numbers[SIDE] > 0.0 else 0)
         if are_many(len(own.edges) * n_crossings + len(own.corners)):
             return frustum_pairs(first, second)
-        feet = PointMesh.of_vertices(feet_of(first), own, sweep)
-        tips = _of_apex(numbers, own, size) if sweep > 0.0 else PointMesh.of_vertices(apex_of(first), own, 0.0)
+        feet = vertices_over_surface(1.0, feet_of(first), own, sweep)
+        tips = _of_apex(numbers, own, size) if sweep > 0.0 else vertices_over_surface(1.0, apex_of(first), own, 0.0)
         others = _of_corners(numbers, own, size), crossings_of(numbers, own, size)
         return tuple(itertools.chain(_of_rims(first, numbers, own), feet, tips, *others))
 

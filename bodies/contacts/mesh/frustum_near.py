@@ -16,10 +16,9 @@ from ..features.vertex_face import CLOSED
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from ..frustum.frustum_polyhedron import has_part, normal_of_part, over_part
 from ..frustum.frustum_writing import astray_of_rim
-from ..surface.surface_search import in_triangle
+from ..surface.surface_search import in_triangle, steepest
 from ..surface.surface_tables import CORNER, CORNERS, FACE, FACES
 from .surface_rim import lowest_on_rim
-from .swept_pairs import steepest
 
 FrustumPose: TypeAlias = tuple[Vector3, Vector3]
 """Centre [m] and axis of a frustum in the axes of a surface."""

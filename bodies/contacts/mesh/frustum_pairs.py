@@ -16,14 +16,13 @@ from ...vectors import ahead, minus, size_of, vector_at
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
 from ..frustum.frustum_swept import write_rounded_vertex
-from ..surface.mesh_point import write_over_second
+from ..surface.mesh_point import write_over
 from ..surface.surface_near import NARROW, patches_near, patches_under, room_ahead
 from ..surface.surface_pairs import MOST_NEAR
+from ..surface.surface_search import edge_at
 from ..surface.surface_tables import (
     CORNER,
     CORNERS,
-    EDGE,
-    EDGES,
     MEMBERS,
     N_EDGES,
     N_NODES,
@@ -120,9 +119,7 @@ def _member_near(
         return n
     if member < n_triangles + n_edges:
         e = member - n_triangles
-        flank, lower, upper_rim = edge_is_near(
-            surface, int(surface[EDGES]) + EDGE * e, frustum, pose, reach, turn, size
-        )
+        flank, lower, upper_rim = edge_is_near(surface, edge_at(surface, e), frustum, pose, reach, turn, size)
         if flank:
             n = _add(ACROSS_FLANK, float(e), 0.0, out, n, most)
         if lower:
@@ -222,9 +219,8 @@ def evaluate_frustum_and_candidate(
         write_rim(a, b, out, frustum, radius, place, surface, i, gap, past)
     elif kind == POINT:
         v = (POINT_ROW + 3 * int(points[3])) * j
-        star = block_at(points, v + POINT_ROW)
-        place, n = vector_at(points, v), points[v + 3]
-        write_over_second(a, b, out, surface, float(i), *place, n, star, 0, reach, frustum[SWEEP])
+        place, n, star = vector_at(points, v), points[v + 3], block_at(points, v + POINT_ROW)
+        write_over(a, b, out, 1.0, surface, float(i), place, n, star, reach, frustum[SWEEP])
     elif kind == APEX:
         write_apex(a, b, out, frustum, surface, float(i), size, reach)
     elif kind == UNDER:
@@ -241,9 +237,9 @@ def evaluate_frustum_and_candidate(
             own = block_at(lengths, int(surface[c + 4]) // 3 if frustum[SIDE] == 0.0 else 0)
             write_corner(a, b, out, frustum, corner, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
-        write_across_side(a, b, out, frustum, block_at(surface, int(surface[EDGES]) + EDGE * i), surface, size)
+        write_across_side(a, b, out, frustum, block_at(surface, edge_at(surface, i)), surface, size)
     elif kind == ACROSS_BACK or kind == ACROSS_FRONT:
-        edge, half = block_at(surface, int(surface[EDGES]) + EDGE * i), -1.0 if kind == ACROSS_BACK else 1.0
+        edge, half = block_at(surface, edge_at(surface, i)), -1.0 if kind == ACROSS_BACK else 1.0
         write_across_rim(a, b, out, frustum, float(j), half, edge, surface, size)
     else:
         write_apart(a, out, size)
