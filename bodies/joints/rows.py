@@ -116,8 +116,7 @@ def _acceleration(frame: Floats, d: Vector3) -> Vector3:
         a[1] + turn[2] * d[0] - turn[0] * d[2] + w[1] * along,
         a[2] + turn[0] * d[1] - turn[1] * d[0] + w[2] * along,
     )
-    found: Vector3 = ahead(carried, -dot(w, w), d)
-    return found
+    return ahead(carried, -dot(w, w), d)
 
 
 @compiled

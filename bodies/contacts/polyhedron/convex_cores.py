@@ -23,8 +23,7 @@ The face is adjacent to one of the edges.
 @compiled
 def _in_first(a: Floats, b: Floats, edges: Floats, at: int) -> Vector3:
     """Return the components, along the axes of the first body, of a vector of a row of edges of the second body."""
-    vector: Vector3 = vector_in_body(a, vector_in_world(b, vector_at(edges, at)))
-    return vector
+    return vector_in_body(a, vector_in_world(b, vector_at(edges, at)))
 
 
 @compiled

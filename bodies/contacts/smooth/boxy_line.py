@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
+from ...shapes.support_function import Core
 from ...vectors import Vector3, ahead, cross, dot, minus, plus, times
 from .bracket import bracket, narrowed, next_place
 from .smooth_core import Answer, Axes, facing_point, longest, spread
@@ -29,7 +29,7 @@ _ROUND_OFF = 4e-16
 
 @compiled
 def across_line(
-    core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
+    core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> Answer:
     """Return the gap of a line and a core with flat places [m], the core's point [m] and the normal.
 
@@ -115,7 +115,7 @@ def across_line(
 
 @compiled
 def _look(
-    core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
+    core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
 ) -> tuple[Answer, float]:
     """Return gap, core's point and normal, and the gap's derivative by the angle, at an ``angle`` round the line [rad].
 

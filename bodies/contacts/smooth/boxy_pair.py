@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
+from ...shapes.support_function import Core
 from ...vectors import Vector3, dot, minus, over, plus, size_of, times
 from .boxy_newton import place_on
 from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
@@ -31,7 +31,7 @@ _LEAST = 0.05
 
 
 @compiled
-def meet(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3, other: Vector3) -> Answer:
+def meet(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, other: Vector3) -> Answer:
     """Return the gap of two boxy cores [m], the point on the first core and its outward normal.
 
     Point and normal are in the axes of the first core, from its centre.  The gap is nan if no solution was found.

@@ -13,9 +13,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_of
+from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, ahead, cross, dot, minus, plus, size_of, times
 from ..features.frames import tangent_of
 from .newton import CLOSE, RIGHT, ROUND_OFF, has_ended
@@ -34,7 +33,7 @@ _SADDLE = 0.3
 
 @compiled
 def climb(
-    first: Floats, second: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3
+    first: Core, second: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3
 ) -> tuple[float, Vector3]:
     """Return the largest gap g(n) [m] and its direction n, in the axes of the first core; nan if none was found.
 

@@ -27,7 +27,7 @@ from ...shapes.capsule import Capsule
 from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Polytope
 from ...shapes.smooth import SmoothShape
-from ...shapes.support_function import is_round
+from ...shapes.support_function import Core, is_round
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, put, size_of, times, vector_at
 from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world, write_tangent
 from ..features.writing import write_flat, write_principal, write_round
@@ -135,15 +135,13 @@ polytope's nearest point.  Vectors are in the frame of the polytope.  The gap is
 
 @compiled
 def _vertex(hull: Floats, i: int) -> Vector3:
-    found: Vector3 = vector_at(hull, int(hull[VERTICES]) + 3 * i)
-    return found
+    return vector_at(hull, int(hull[VERTICES]) + 3 * i)
 
 
 @compiled
 def _begin_of_edge(hull: Floats, i: int) -> Vector3:
     """Return the first vertex of an edge [m]."""
-    found: Vector3 = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * i]))
-    return found
+    return _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * i]))
 
 
 @compiled
@@ -187,7 +185,7 @@ def _exit(hull: Floats, face: int, near: float, here: Vector3, there: Vector3) -
 
 
 @compiled
-def _over_face(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: int) -> Answer:
+def _over_face(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int) -> Answer:
     """Return the gap between the plane of a face and the smooth body [m], the body's point [m] and the normal."""
     at = int(hull[FACES]) + FACE * number
     n = vector_at(hull, at)
@@ -196,7 +194,7 @@ def _over_face(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: i
 
 
 @compiled
-def _best_face(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> int:
+def _best_face(hull: Floats, core: Core, turn: Axes, place: Vector3) -> int:
     """Return the face whose plane has the largest gap to the smooth body, or -1 if the polytope is a segment."""
     best, widest = -1, -math.inf
     for i in range(int(hull[COUNTS + 2])):
@@ -207,9 +205,7 @@ def _best_face(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> int:
 
 
 @compiled
-def _look_at_face(
-    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, number: int, way: Vector3
-) -> Stop:
+def _look_at_face(hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, number: int, way: Vector3) -> Stop:
     g, p, n = _over_face(hull, core, turn, place, number)
     edge = _exit(hull, number, near, way, ahead(p, -g, n))
     return g, n, _HERE if edge < 0 else _EDGE, edge, way
@@ -217,7 +213,7 @@ def _look_at_face(
 
 @compiled
 def _look_at_edge(
-    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, number: int, begin: Vector3
+    hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, number: int, begin: Vector3
 ) -> Stop:
     at = int(hull[EDGES]) + EDGE * number
     v, (e, length) = _begin_of_edge(hull, number), _edge(hull, number)
@@ -238,7 +234,7 @@ def _look_at_edge(
 
 
 @compiled
-def _look_at_vertex(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: int, begin: Vector3) -> Stop:
+def _look_at_vertex(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int, begin: Vector3) -> Stop:
     v = _vertex(hull, number)
     g, _, n = widest_from(hull, core, turn, minus(place, v), (0.0, 0.0, 0.0), begin)
     steepest, most = -1, _ON_BORDER
@@ -262,7 +258,7 @@ def _middle(hull: Floats, face: int) -> Vector3:
 
 @compiled
 def _look(
-    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, kind: int, number: int, begin: Vector3
+    hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, kind: int, number: int, begin: Vector3
 ) -> Stop:
     """Return the stop of a feature; ``begin`` is a point of a face [m], or the first normal at an edge or vertex."""
     if kind == _FACE:
@@ -275,7 +271,7 @@ def _look(
 
 
 @compiled
-def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
+def _nearest(hull: Floats, core: Core, turn: Axes, place: Vector3) -> Nearest:
     """Return gap, normal, nearest feature and point of a polytope and a smooth body.
 
     ``place`` is the centre of the smooth body's core in the frame of the polytope [m].
@@ -328,7 +324,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
 
 
 @compiled
-def _deep_segment(hull: Floats, core: Floats, turn: Axes, place: Vector3, size: float) -> Nearest:
+def _deep_segment(hull: Floats, core: Core, turn: Axes, place: Vector3, size: float) -> Nearest:
     """Return the result of :func:`_nearest` for a segment deep in the smooth body.
 
     Searches start uphill from both ends, and from ``_ROUND`` directions round the segment.
@@ -353,7 +349,7 @@ def _deep_segment(hull: Floats, core: Floats, turn: Axes, place: Vector3, size: 
 
 
 @compiled
-def _best_of_all(hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float) -> Nearest:
+def _best_of_all(hull: Floats, core: Core, turn: Axes, place: Vector3, near: float) -> Nearest:
     """Return the result of :func:`_nearest` by Newton's method on every feature of the polytope.
 
     It is used for overlaps in which the walk does not lead to a proved solution.  The result is the final stop with the

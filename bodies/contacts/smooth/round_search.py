@@ -17,9 +17,8 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_of
+from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, ahead, dot, minus, plus
 from .bracket import bracket, narrowed, next_place
 from .inscribed import gauge
@@ -65,7 +64,7 @@ A stop is the gap between one point of the circle and the body [m], the body's n
 
 
 @compiled
-def _look(point: Floats, core: Floats, turn: Axes, place: Vector3, radius: float, angle: float) -> Look:
+def _look(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, angle: float) -> Look:
     c, s = math.cos(angle), math.sin(angle)
     rim = radius * c, radius * s, 0.0
     from_rim = minus(place, rim)
@@ -74,7 +73,7 @@ def _look(point: Floats, core: Floats, turn: Axes, place: Vector3, radius: float
 
 
 @compiled
-def round_circle(point: Floats, core: Floats, turn: Axes, place: Vector3, radius: float, start: Vector3) -> Answer:
+def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3) -> Answer:
     """Return gap, smooth body's point and normal at the least distance of a circle from the body.
 
     The centre of the circle is the origin, its axis the third axis.  The normal points out of its disc.  The gap is nan
@@ -133,8 +132,8 @@ def _is_outward(found: Answer) -> bool:
 
 @compiled
 def _between(
-    point: Floats,
-    core: Floats,
+    point: Core,
+    core: Core,
     turn: Axes,
     place: Vector3,
     radius: float,
@@ -166,7 +165,7 @@ def _between(
 
 
 @compiled
-def next_to_axis(core: Floats, turn: Axes, place: Vector3, radius: float, start: Vector3, up: float) -> Answer:
+def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3, up: float) -> Answer:
     """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
 
     The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
@@ -200,7 +199,7 @@ def next_to_axis(core: Floats, turn: Axes, place: Vector3, radius: float, start:
 
 
 @compiled
-def along_segment(core: Floats, turn: Axes, place: Vector3, e: Vector3, length: float) -> tuple[Answer, float]:
+def along_segment(core: Core, turn: Axes, place: Vector3, e: Vector3, length: float) -> tuple[Answer, float]:
     """Return the least distance of a smooth body from a segment: (gap [m], body's point, normal), distance along it.
 
     The last number is the distance of the segment's nearest point from the start of the segment [m].  The segment goes
@@ -231,7 +230,7 @@ def along_segment(core: Floats, turn: Axes, place: Vector3, e: Vector3, length: 
 
 
 @compiled
-def up_hills(circle: Floats, core: Floats, turn: Axes, place: Vector3, up: float, lean: Vector3) -> Answer:
+def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, lean: Vector3) -> Answer:
     """Return gap, smooth body's point and normal for an overlapping circle, along the direction of the largest gap.
 
     Parameters
@@ -280,7 +279,7 @@ def _leans_so(n: Vector3, up: float, lean: Vector3) -> bool:
 
 
 @compiled
-def _along(circle: Floats, top: Start) -> Answer:
+def _along(circle: Core, top: Start) -> Answer:
     """Return gap, body's point and normal for a maximum ``top`` of the gap: the gap and its direction n.
 
     The body's point is the circle's farthest point along n, moved by the gap along n.
@@ -290,7 +289,7 @@ def _along(circle: Floats, top: Start) -> Answer:
 
 
 @compiled
-def _facing(circle: Floats, core: Floats, turn: Axes, place: Vector3, found: Answer) -> tuple[Answer, float]:
+def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: Answer) -> tuple[Answer, float]:
     """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
 
     Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
@@ -334,6 +333,6 @@ def _over_rim(radius: float, angle: float, g: float, n: Vector3) -> Vector3:
 
 
 @compiled
-def _over(core: Floats, turn: Axes, place: Vector3, point: Vector3) -> float:
+def _over(core: Core, turn: Axes, place: Vector3, point: Vector3) -> float:
     """Return abs(gauge - 1) of a point: 0 on the surface of the core, where :func:`gauge` is 1, larger off it."""
     return float(abs(gauge(core, back(turn, minus(point, place))) - 1.0))

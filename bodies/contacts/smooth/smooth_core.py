@@ -14,7 +14,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import Bends, support_of
+from ...shapes.support_function import Bends, Core, support_of
 from ...vectors import Vector3, opposite, over, plus, size_of, vector_at
 from ..features.frames import vector_in_world
 
@@ -34,8 +34,7 @@ POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 @compiled
 def unit(v: Vector3) -> Vector3:
     """Return a vector divided by its length."""
-    found: Vector3 = over(v, size_of(v))
-    return found
+    return over(v, size_of(v))
 
 
 @compiled
@@ -45,7 +44,7 @@ def spread(v: Vector3) -> float:
 
 
 @compiled
-def longest(core: Floats) -> float:
+def longest(core: Core) -> float:
     """Return the largest semi-axis of a core [m]."""
     return max(core[0], core[1], core[2])
 
@@ -67,16 +66,15 @@ def by_columns(x: Vector3, y: Vector3, z: Vector3) -> Axes:
 
 
 @compiled
-def axes_in_world(frame: Floats, core: Floats) -> Axes:
+def axes_in_world(frame: Floats, core: Core) -> Axes:
     """Return the axes of a smooth body's core in the world, as columns."""
     x = vector_in_world(frame, (core[9], core[12], core[15]))
     y = vector_in_world(frame, (core[10], core[13], core[16]))
-    found: Axes = by_columns(x, y, vector_in_world(frame, (core[11], core[14], core[17])))
-    return found
+    return by_columns(x, y, vector_in_world(frame, (core[11], core[14], core[17])))
 
 
 @compiled
-def unit_axes_in_world(frame: Floats, core: Floats) -> Axes:
+def unit_axes_in_world(frame: Floats, core: Core) -> Axes:
     """Return the axes of a smooth body's core in the world, as columns of length 1.
 
     Within a time step, a body's quaternion is not normalised.  If its length is L, the columns of its rotation matrix
@@ -98,8 +96,7 @@ def axes_of(frame: Floats) -> Axes:
 def between_axes(a: Axes, b: Axes) -> Axes:
     """Return the rotation from the axes b to the axes a."""
     x, y, z = back(a, (b[0], b[3], b[6])), back(a, (b[1], b[4], b[7])), back(a, (b[2], b[5], b[8]))
-    found: Axes = by_columns(x, y, z)
-    return found
+    return by_columns(x, y, z)
 
 
 @compiled
@@ -131,7 +128,7 @@ def back(axes: Axes, v: Vector3) -> Vector3:
 
 
 @compiled
-def facing_point(core: Floats, turn: Axes, place: Vector3, n: Vector3) -> tuple[Vector3, Bends]:
+def facing_point(core: Core, turn: Axes, place: Vector3, n: Vector3) -> tuple[Vector3, Bends]:
     """Return the farthest point of a second core in the direction -n [m], and the second derivative of its support.
 
     Point and n are in the axes of the first core; the second derivative is in those of the second [m].

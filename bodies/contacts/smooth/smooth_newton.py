@@ -13,7 +13,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
+from ...shapes.support_function import Core, gauge_of, is_boxy, is_mixed, is_round, support_of
 from ...vectors import Vector3, ahead, dot, minus, opposite, over, plus, size_of, times
 from .boxy_line import across_line
 from .boxy_newton import climb_boxy, write_boxy
@@ -75,7 +75,7 @@ _ON_SURFACE = 1e-12
 
 
 @compiled
-def widest(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Answer:
+def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
     """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
 
     The gap is the largest one over all directions [m].  If it is positive, it is the only maximum.  A negative gap is
@@ -136,13 +136,13 @@ def _axis(turn: Axes, number: int) -> Vector3:
 
 
 @compiled
-def _is_thin(first: Floats, second: Floats) -> bool:
+def _is_thin(first: Core, second: Core) -> bool:
     most = max(max(first[0], first[1], first[2]), max(second[0], second[1], second[2]))
     return bool(most > _THIN * _thickness(first, second))
 
 
 @compiled
-def _share_a_point(first: Floats, second: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
+def _share_a_point(first: Core, second: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
     """Return whether a common point of both bodies is found, which confirms the overlap of a solution.
 
     Candidates are the two points of the solution, points between them, and the line of centres.
@@ -162,24 +162,23 @@ def _share_a_point(first: Floats, second: Floats, turn: Axes, place: Vector3, fo
 
 
 @compiled
-def _thickness(first: Floats, second: Floats) -> float:
+def _thickness(first: Core, second: Core) -> float:
     """Return the least semi-axis of two cores, of which one may be a point [m]."""
     a, b = min(first[0], first[1], first[2]), min(second[0], second[1], second[2])
     return a if b == 0.0 or (a > 0.0 and a < b) else b
 
 
 @compiled
-def _ellipsoid_of(core: Floats) -> Norm:
+def _ellipsoid_of(core: Core) -> Norm:
     """Return the ellipsoid with the semi-axes of a core."""
     return core[0], core[1], core[2], 2.0, 2.0
 
 
 @compiled
-def _first_look(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Answer:
+def _first_look(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
     """Return the largest gap over all directions, second core's point and normal; search from the line of centres."""
     if not (is_mixed(first) or is_mixed(second)):
-        found: Answer = _from_start(first, second, turn, place, place)
-        return found
+        return _from_start(first, second, turn, place, place)
     g, n = climb(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, (0.0, 0.0, 0.0), place)
     found = (g, place, n)
     if g == g:
@@ -189,23 +188,21 @@ def _first_look(first: Floats, second: Floats, turn: Axes, place: Vector3) -> An
 
 
 @compiled
-def _from_start(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from_start(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``."""
     if is_mixed(first) or is_mixed(second):
-        mixed: Answer = _by_parts(first, second, turn, place, start, 0)
-        return mixed
+        return _by_parts(first, second, turn, place, start, 0)
     if is_boxy(first):
         if is_boxy(second):
             g, p, n = _both(first, second, turn, place, start)
         else:
             g, p, n = climb_boxy(first, second, turn, place, start)
         return g, ahead(p, g, n), n
-    found: Answer = widest_of_round(first, second, turn, place, start)
-    return found
+    return widest_of_round(first, second, turn, place, start)
 
 
 @compiled
-def _in_charts(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _in_charts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal, if a core is mixed.
 
     A mixed core has one power below 2 and one above, so that it has flat and sharp places.  The search starts with the
@@ -238,7 +235,7 @@ def _in_charts(first: Floats, second: Floats, turn: Axes, place: Vector3, start:
 
 
 @compiled
-def _by_parts(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3, parts: int) -> Answer:
+def _by_parts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, parts: int) -> Answer:
     """Return gap, second core's point and normal; the search starts in the direction ``start``.
 
     If it fails, it is repeated with ellipsoids whose powers are changed in ``parts`` steps from 2 to the cores' own.
@@ -250,7 +247,7 @@ def _by_parts(first: Floats, second: Floats, turn: Axes, place: Vector3, start: 
 
 
 @compiled
-def widest_of_round(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def widest_of_round(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
 
     The first core is round; it may be a point or a circle.  The second core is of any kind.
@@ -269,7 +266,7 @@ def widest_of_round(first: Floats, second: Floats, turn: Axes, place: Vector3, s
 
 
 @compiled
-def _from_boxy(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from_boxy(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
 
     The second core is boxy: the unknown of Newton's method is the point of its surface.
@@ -280,7 +277,7 @@ def _from_boxy(first: Floats, second: Floats, turn: Axes, place: Vector3, start:
 
 
 @compiled
-def _by_cuts(point: Floats, core: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _by_cuts(point: Core, core: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return gap, point and normal of a core and a point outside of it, for searches in which Newton's method fails.
 
     Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
@@ -298,7 +295,7 @@ def _by_cuts(point: Floats, core: Floats, turn: Axes, place: Vector3, start: Vec
 
 
 @compiled
-def _both(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the gap of two boxy cores (with flat places) [m], the first core's point and the normal.
 
     The search starts with the contact normal for which the second core is replaced by an ellipsoid.  If the search
@@ -320,7 +317,7 @@ def _both(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vect
 
 
 @compiled
-def _from(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the gap of two boxy cores [m], the first core's point and the normal.
 
     Newton's method starts at the support points of the first core along ``start``, and of the second against it.
@@ -328,12 +325,11 @@ def _from(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vect
     n = unit(start)
     _, p, _ = support_of(first, n)
     _, q, _ = support_of(second, back(turn, opposite(n)))
-    found: Answer = meet(first, second, turn, place, p, forth(turn, q))
-    return found
+    return meet(first, second, turn, place, p, forth(turn, q))
 
 
 @compiled
-def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
+def widest_from(hull: Core, core: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
     """Return the gap between the origin and a core of any kind [m], the core's point and the normal.
 
     If ``axis`` is not zero, the gap is measured from the line through the origin along this unit vector.  ``place`` is
@@ -345,18 +341,16 @@ def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Ve
         p, _ = facing_point(core, turn, place, n)
         return g, p, n
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:
-        found: Answer = widest_of_round(POINT, core, turn, place, start)
-        return found
+        return widest_of_round(POINT, core, turn, place, start)
     n = ahead(start, -dot(start, axis), axis)
     length = size_of(n)
     if length == 0.0:
         return math.nan, place, start
-    across: Answer = across_line(core, turn, place, axis, over(n, length), 1.0, 0.0, 0.0)
-    return across
+    return across_line(core, turn, place, axis, over(n, length), 1.0, 0.0, 0.0)
 
 
 @compiled
-def write_core(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3) -> None:
+def write_core(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3) -> None:
     """Write the curvature matrices slide and turn of a smooth body at its outward normal, in the axes of the core.
 
     Slide is the identity.  Turn is the matrix of the radii of curvature [m]: the second derivative of the support
@@ -370,7 +364,7 @@ def write_core(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3
 
 
 @compiled
-def write_surface(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3, p: Vector3) -> None:
+def write_surface(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3, p: Vector3) -> None:
     """Write the curvature matrices of a core of any kind at its surface point p with the outward normal ``normal``.
 
     Point and normal are in the core's axes.  ``side`` is the index of the matrices in the geometry block ``out``;

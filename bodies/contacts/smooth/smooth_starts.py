@@ -10,9 +10,8 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_of
+from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of
 from ..features.frames import tangent_of
 from .smooth_core import Axes, back, facing_point, forth, longest, spread, unit
@@ -32,13 +31,13 @@ Starts: TypeAlias = tuple[Start, Start, Start, Start]
 
 
 @compiled
-def gap_along(first: Floats, second: Floats, turn: Axes, place: Vector3, n: Vector3) -> float:
+def gap_along(first: Core, second: Core, turn: Axes, place: Vector3, n: Vector3) -> float:
     """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
     return float(dot(n, place) - support_of(first, n)[0] - support_of(second, back(turn, opposite(n)))[0])
 
 
 @compiled
-def uphill(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Start, least: float) -> Start:
+def uphill(first: Core, second: Core, turn: Axes, place: Vector3, start: Start, least: float) -> Start:
     """Return a local maximum of the gap [m] and its direction, to about ``least`` [rad], by steps from ``start``."""
     g, n = start
     step = _LONGEST
@@ -61,7 +60,7 @@ def uphill(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Sta
 
 
 @compiled
-def starts_of(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Starts:
+def starts_of(first: Core, second: Core, turn: Axes, place: Vector3) -> Starts:
     """Return four directions that are not close to each other, with the largest gaps of all directions tried.
 
     Parameters
@@ -115,7 +114,7 @@ _HIGHER = 1e-16
 
 
 @compiled
-def _cut_round(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: Start) -> Start:
+def _cut_round(circle: Core, core: Core, turn: Axes, place: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and its direction, by one run of the ellipsoid method.
 
     The method and the arguments are those of :func:`settle`.
@@ -148,7 +147,7 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: 
 
 
 @compiled
-def settle(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: Start) -> Start:
+def settle(circle: Core, core: Core, turn: Axes, place: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
 
     The method also converges on narrow ridges, where the gap changes little along one curve of directions.

@@ -29,8 +29,7 @@ def in_plane(t: Vector3, u: Vector3, v: Vector3) -> Pair:
 @compiled
 def along(v: Pair, t: Vector3, u: Vector3) -> Vector3:
     """Return the vector with these components along two tangents."""
-    found: Vector3 = plus(times(v[0], t), times(v[1], u))
-    return found
+    return plus(times(v[0], t), times(v[1], u))
 
 
 @compiled

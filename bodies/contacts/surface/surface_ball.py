@@ -30,8 +30,7 @@ def out_of_surface(frame: Floats, surface: Floats, found: Found, past: float, x:
     n = vector_at(surface, face_at(surface, number))
     if not (kind == ON_FACE and (past <= 0.0 or distance == 0.0)):
         n = over(minus((x, y, z), (px, py, pz)), distance)
-    normal: Vector3 = vector_in_world(frame, n)
-    return normal
+    return vector_in_world(frame, n)
 
 
 @compiled

@@ -44,8 +44,7 @@ def room_ahead(reach: float, narrow: float, most: int) -> int:
 @compiled
 def seen_from(frame: Floats, other: Floats, point: Vector3) -> Vector3:
     """Return a point of the body ``other`` in the axes of the body ``frame`` [m]."""
-    seen: Vector3 = point_in_body(frame, point_in_world(other, point))
-    return seen
+    return point_in_body(frame, point_in_world(other, point))
 
 
 @compiled

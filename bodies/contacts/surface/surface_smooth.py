@@ -15,7 +15,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import OF_FUNCTION, is_round, support_of
+from ...shapes.support_function import OF_FUNCTION, Core, is_round, support_of
 from ...vectors import Vector3, dot, minus, opposite, over, plus, put, size_of, times, vector_at
 from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
 from ..features.vertex_face import REACH
@@ -56,7 +56,7 @@ The distance of the core is nan if the search failed.
 
 
 @compiled
-def _extent(core: Floats) -> float:
+def _extent(core: Core) -> float:
     """Return an upper bound of the distance of the body's farthest point from its centre [m].
 
     For round cores it is the largest semi-axis plus the radius.  For other cores, and for cores given by a function, it
@@ -68,14 +68,13 @@ def _extent(core: Floats) -> float:
 
 
 @compiled
-def _point_against(core: Floats, turn: Axes, center: Vector3, normal: Vector3) -> Vector3:
+def _point_against(core: Core, turn: Axes, center: Vector3, normal: Vector3) -> Vector3:
     """Return the core's farthest point in the direction opposite to a normal [m], in the axes of the surface."""
-    farthest: Vector3 = plus(center, forth(turn, support_of(core, back(turn, opposite(normal)))[1]))
-    return farthest
+    return plus(center, forth(turn, support_of(core, back(turn, opposite(normal)))[1]))
 
 
 @compiled
-def _least(core: Floats, turn: Axes, way: Vector3) -> float:
+def _least(core: Core, turn: Axes, way: Vector3) -> float:
     """Return a lower bound of the smooth body's distance from a convex feature [m].
 
     The vector ``way`` leads from the feature's nearest point to the centre of the body.
@@ -87,7 +86,7 @@ def _least(core: Floats, turn: Axes, way: Vector3) -> float:
 
 
 @compiled
-def _on_face(surface: Floats, t: int, core: Floats, turn: Axes, center: Vector3) -> Reached:
+def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -> Reached:
     """Return how the core reaches the plane of a triangle.
 
     The distance past the end is positive if the core's nearest point to the plane is past the border of the triangle's
@@ -108,7 +107,7 @@ def _on_face(surface: Floats, t: int, core: Floats, turn: Axes, center: Vector3)
 
 
 @compiled
-def _on_edge(surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, center: Vector3, size: float) -> Reached:
+def _on_edge(surface: Floats, e: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float) -> Reached:
     """Return how the core reaches the line of an edge.
 
     The distance past the end is positive if the nearest point is past an end of the edge, or if the normal, from the
@@ -124,9 +123,7 @@ def _on_edge(surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, c
 
 
 @compiled
-def _on_corner(
-    surface: Floats, c: int, core: Floats, point: Floats, turn: Axes, center: Vector3, size: float
-) -> Reached:
+def _on_corner(surface: Floats, c: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float) -> Reached:
     """Return how the core reaches a corner.
 
     The distance past the end is positive if an edge of the corner is nearer to the core than the corner itself.
@@ -163,8 +160,8 @@ def _look_at(
     surface: Floats,
     patch: float,
     member: int,
-    core: Floats,
-    point: Floats,
+    core: Core,
+    point: Core,
     turn: Axes,
     center: Vector3,
     best: float,
@@ -206,7 +203,7 @@ def _look_at(
 
 
 @compiled
-def _aim(surface: Floats, core: Floats, turn: Axes, center: Vector3, normal: Vector3) -> Aim:
+def _aim(surface: Floats, core: Core, turn: Axes, center: Vector3, normal: Vector3) -> Aim:
     """Return the smooth body's supporting plane across the unit vector ``normal``.
 
     The plane is raised by round-off: features in one plane then get the same bound, and none of them is excluded.
@@ -218,7 +215,7 @@ def _aim(surface: Floats, core: Floats, turn: Axes, center: Vector3, normal: Vec
 
 @compiled
 def _nearest(
-    surface: Floats, patch: float, core: Floats, point: Floats, turn: Axes, center: Vector3, reach: float
+    surface: Floats, patch: float, core: Core, point: Core, turn: Axes, center: Vector3, reach: float
 ) -> tuple[float, float, int, int, Vector3]:
     """Return distance of the core [m], distance past the end [m], kind and number of a patch's feature, and normal.
 

@@ -166,7 +166,4 @@ def face_under(
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
         node += 1
-    found_face: tuple[int, float, float] = touched_face(
-        surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
-    )
-    return found_face
+    return touched_face(surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z)
