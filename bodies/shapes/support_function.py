@@ -40,7 +40,7 @@ def support_of(core: Core, n: Vector3) -> Support:
     The second derivative is infinite at the axes of a core that is not round; it is returned as nan for such cores.
     """
     if core[3] == OF_FUNCTION:
-        found: Support = _by_function(core, n)
+        found = _by_function(core, n)
     else:
         found = support_by((core[0], core[1], core[2]), core[3], core[4], n)
     return found

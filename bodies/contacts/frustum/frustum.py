@@ -13,7 +13,7 @@ import numpy as np
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
-from nonsmooth.types import Floats
+from nonsmooth.types import Floats, ReadFloats
 
 from ...shapes.frustum import (
     AXIS,
@@ -96,7 +96,7 @@ def cap_of(frustum: Floats, cap: float) -> tuple[float, float, float]:
 
 
 @compiled
-def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, float, float, int]:
+def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float, float, float, int]:
     """Return the part nearest to a point: signed distance [m], normal (across and along the axis), and part.
 
     Parameters

@@ -194,7 +194,7 @@ def _nearest(
     _, _, _, guess = nearest_part(frustum, z, away)
     if z > frustum[HIGH] or z < frustum[LOW]:
         part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
-        over: Answer = on_cap(frustum, core, turn, place, part, near)
+        over = on_cap(frustum, core, turn, place, part, near)
         if is_over_cap(frustum, part, place, over):
             return over, part
     best: Answer = (math.nan, place, (0.0, 0.0, 1.0))

@@ -73,7 +73,7 @@ def _on_end_of_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part
     the farther inwards is the lowest point.  Two tilts are bisected, with lowest points inside and outside of the
     border.  Between these two points, a point over the border is interpolated.
     """
-    found: Answer = on_cap(frustum, core, turn, place, part, near)
+    found = on_cap(frustum, core, turn, place, part, near)
     radius, height, up = cap_of(frustum, part)
     cx, cy, _ = found[1]
     if found[0] == found[0] or not 0.0 < radius * radius < cx * cx + cy * cy:
@@ -139,7 +139,7 @@ def on_flank(
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
     if is_round(core):
-        found: Answer = _on_round_flank(frustum, core, turn, place, ex, ey, near)
+        found = _on_round_flank(frustum, core, turn, place, ex, ey, near)
     else:
         found = _along_side(frustum, core, turn, place, ex, ey)
     return _if_on_flank(frustum, near, found)
@@ -235,7 +235,7 @@ def on_rim(
         tilt = abs(tilt)
         cap = math.copysign(1.0, axial) if flat else up
         radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
-    found: Answer = widest_of_round(circle, core, turn, (x, y, z - height), (radial * ex, radial * ey, axial))
+    found = widest_of_round(circle, core, turn, (x, y, z - height), (radial * ex, radial * ey, axial))
     return _if_in_fan(frustum, up, height, -ON_BORDER, found)
 
 

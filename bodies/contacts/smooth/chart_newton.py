@@ -42,7 +42,7 @@ def meet_in_charts(first: Norm, second: Norm, turn: Axes, place: Vector3, start:
         own powers in this number of steps; 0 for no further search.
     """
     n = unit(start)
-    found: Answer = _climb(first, second, turn, place, n)
+    found = _climb(first, second, turn, place, n)
     if found[0] == found[0]:
         return found
     # solve for ellipsoids first and change their powers step by step, each solution as the next start

@@ -94,7 +94,7 @@ def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: fl
     """
     begin = math.atan2(start[1], start[0])
     none: Answer = (math.nan, place, (0.0, 0.0, 1.0))
-    look: Look = _look(point, core, turn, place, radius, begin)
+    look = _look(point, core, turn, place, radius, begin)
     slope, reached = look
     # downhill from the start; if that fails, in every interval of the circle
     way = -math.copysign(1.0, slope)
@@ -104,7 +104,7 @@ def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: fl
             angle = begin + way * step
             slope, _ = _look(point, core, turn, place, radius, angle)
             if way * slope >= 0.0:
-                answer: Answer = _between(point, core, turn, place, radius, low, angle, falling, slope)
+                answer = _between(point, core, turn, place, radius, low, angle, falling, slope)
                 if _is_outward(answer):
                     return answer
                 break
@@ -148,7 +148,7 @@ def _between(
     ``rising`` are the derivatives of the distance at these angles.  ``place`` is the centre of the core [m]; the other
     arguments are those of :func:`round_circle`.
     """
-    look: Look = _look(point, core, turn, place, radius, high)
+    look = _look(point, core, turn, place, radius, high)
     sides = bracket(low, high, falling, rising)
     for _ in range(_STEPS):
         middle, sides = next_place(sides)
@@ -247,7 +247,7 @@ def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, le
     best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
     for start in starts_of(circle, core, turn, place):
         top = uphill(circle, core, turn, place, start, _TOP)
-        found: Answer = widest_of_round(circle, core, turn, place, top[1])
+        found = widest_of_round(circle, core, turn, place, top[1])
         if not found[0] >= top[0] - _TOP * lean[2]:
             settled = settle(circle, core, turn, place, top)
             # if two maxima differ by round-off only, the ellipsoid method may go from one to the other

@@ -90,7 +90,7 @@ def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
         See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
     """
     mixed = is_mixed(first) or is_mixed(second)
-    best: Answer = _first_look(first, second, turn, place)
+    best = _first_look(first, second, turn, place)
     overlap = _share_a_point(first, second, turn, place, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
@@ -106,7 +106,7 @@ def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
             if attempt < axes:
                 continue
         if attempt == axes + 12:
-            found: Answer = _in_charts(first, second, turn, place, place)
+            found = _in_charts(first, second, turn, place, place)
         elif attempt >= axes:
             found = _from_start(first, second, turn, place, _axis(turn, attempt - axes))
         elif attempt >= _TOPS:
@@ -210,7 +210,7 @@ def _in_charts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vec
     ``start``.  If the first core is a circle (the rim of a frustum), a maximum along the circle's axis gives nan: it is
     the gap to the middle of the disc, not to the rim.
     """
-    found: Answer = meet_in_charts(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, start, 0)
+    found = meet_in_charts(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, start, 0)
     if found[0] == found[0]:
         found = _by_parts(first, second, turn, place, found[2], 0)
     if found[0] != found[0] and first[0] > 0.0 and first[2] == 0.0:
@@ -254,7 +254,7 @@ def widest_of_round(first: Core, second: Core, turn: Axes, place: Vector3, start
     """
     if is_mixed(second) or is_boxy(second):
         if is_mixed(second):
-            found: Answer = _in_charts(first, second, turn, place, start)
+            found = _in_charts(first, second, turn, place, start)
         else:
             found = _from_boxy(first, second, turn, place, start)
         if found[0] != found[0] and first[0] == 0.0:
@@ -302,7 +302,7 @@ def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3)
     fails, it starts with the normal for which the first core is replaced instead, and last from ``start``.
     """
     g, _, n = climb_boxy(first, _ellipsoid_of(second), turn, place, start)
-    found: Answer = _from(first, second, turn, place, n)
+    found = _from(first, second, turn, place, n)
     if g == g and found[0] == found[0]:
         return found
     to_first, begin = back(turn, opposite(place)), back(turn, opposite(start))
