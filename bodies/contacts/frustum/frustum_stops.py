@@ -144,8 +144,8 @@ def on_flank(
         found: Answer = _on_round_flank(frustum, core, turn, place, ex, ey, near)
     else:
         found = _along_side(frustum, core, turn, place, ex, ey)
-    found = _if_on_flank(frustum, near, found)
-    return found
+    kept: Answer = _if_on_flank(frustum, near, found)
+    return kept
 
 
 @compiled
@@ -239,8 +239,8 @@ def on_rim(
         cap = math.copysign(1.0, axial) if flat else up
         radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
     found: Answer = widest_of_round(circle, core, turn, (x, y, z - height), (radial * ex, radial * ey, axial))
-    found = _if_in_fan(frustum, up, height, -ON_BORDER, found)
-    return found
+    kept: Answer = _if_in_fan(frustum, up, height, -ON_BORDER, found)
+    return kept
 
 
 @compiled
@@ -263,12 +263,13 @@ def by_search(
     near = _NEAR_BORDER * size
     found: Answer = (math.nan, place, (0.0, 0.0, 1.0))
     if part == LOW_CAP or part == HIGH_CAP:
-        found = _on_end_of_cap(frustum, core, turn, place, part, near)
-        return found
+        over: Answer = _on_end_of_cap(frustum, core, turn, place, part, near)
+        return over
     if part == FLANK:
         length = math.sqrt(sx * sx + sy * sy)
-        found = _if_on_flank(frustum, near, _along_side(frustum, core, turn, place, sx / length, sy / length))
-        return found
+        found = _along_side(frustum, core, turn, place, sx / length, sy / length)
+        beside: Answer = _if_on_flank(frustum, near, found)
+        return beside
     radius, height, up = rim_of(frustum, part)
     side = math.copysign(1.0, z - height) if frustum[SIDE] == 0.0 else up
     px, py, _ = point_against(core, turn, place, (0.0, 0.0, side))
@@ -278,5 +279,5 @@ def by_search(
         found = next_to_axis(core, turn, (x, y, z - height), radius, (px, py, 0.0), side)
     if found[0] != found[0]:
         found = round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0))
-    found = _if_in_fan(frustum, up, height, -_NEAR_BORDER, found)
-    return found
+    kept: Answer = _if_in_fan(frustum, up, height, -_NEAR_BORDER, found)
+    return kept
