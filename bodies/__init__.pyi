@@ -5,7 +5,6 @@ from .compound import Compound as Compound
 from .compound import Part as Part
 from .cone_body import ConeBody as ConeBody
 from .contacts.frustum.frustum_frustum import FrustumFrustum as FrustumFrustum
-from .contacts.frustum.frustum_polyhedron import FrustumPolyhedron as FrustumPolyhedron
 from .contacts.frustum.frustum_smooth import FrustumSmooth as FrustumSmooth
 from .contacts.frustum.frustum_sphere import FrustumSphere as FrustumSphere
 from .contacts.frustum.frustum_swept import FrustumSwept as FrustumSwept

@@ -158,9 +158,9 @@ def test_under_a_cap_no_direction_is_a_shorter_way_out(frustum: Any, kind: str) 
             q = turn @ np.array(support_of(core, (-turn.T @ np.array([0.0, 0.0, up])))[1])
             angle, away = rng.uniform(0.0, 2.0 * np.pi), radius * rng.uniform()
             x = np.array([away * np.cos(angle), away * np.sin(angle), level + up * gap]) - q
-            found = on_cap(numbers, core, tuple(turn.ravel()), *x, part, 1e-14)
+            found = on_cap(numbers, core, tuple(turn.ravel()), tuple(x), part, 1e-14)
             assert found[0] == pytest.approx(gap, abs=1e-15)
-            proved = is_over_cap(numbers, part, *x, found)
+            proved = is_over_cap(numbers, part, tuple(x), found)
             proofs += proved
             ways = _directions(rng, 2000)
             radial = np.hypot(ways[:, 0], ways[:, 1])

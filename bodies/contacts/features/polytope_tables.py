@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 
 import numpy as np
 
 from nonsmooth.compiled import block_at, compiled
-from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.parameters import SharedNumbers
 from nonsmooth.types import Floats
 
 from ...shapes.polytope import Point, Polytope
@@ -29,11 +28,6 @@ START, ALONG, LENGTH, INTO_FIRST, INTO_SECOND = 0, 3, 6, 7, 10
 """Offsets in the row of an edge: first end, unit vector, length, unit vector into the first face, into the second."""
 
 Numbers = tuple[float, ...]
-
-
-def vertex_table(polytope: Polytope) -> Numbers:
-    """Return the coordinates of all vertices [m], three for each vertex."""
-    return tuple(itertools.chain(*polytope.vertices))
 
 
 def face_table(polytope: Polytope) -> Numbers:
@@ -92,45 +86,6 @@ def edge_at(core: Floats, edge: float) -> int:
 def vertex_at(core: Floats, vertex: float) -> int:
     """Return the index at which the row of a vertex begins."""
     return int(core[VERTICES]) + VERTEX * int(vertex)
-
-
-@dataclass(frozen=True)
-class ConvexCore:
-    """Faces, vertices and edges of a convex core; a segment has no faces.
-
-    Attributes
-    ----------
-    faces : SharedNumbers
-        Rows of all faces (:data:`FACE`).
-    vertices : SharedNumbers
-        All vertices [m].
-    edges : SharedNumbers
-        Rows of all edges (:data:`EDGE`).
-    """
-
-    faces: SharedNumbers
-    vertices: SharedNumbers
-    edges: SharedNumbers
-
-    @classmethod
-    def of(cls, polytope: Polytope) -> ConvexCore:
-        """Return the numbers of a polyhedron or a segment."""
-        tables = face_table(polytope), vertex_table(polytope), tuple(itertools.chain(*edge_rows(polytope)))
-        return cls(*map(SharedNumbers, tables))
-
-    @classmethod
-    def of_point(cls, *place: float) -> ConvexCore:
-        """Return the numbers of a point without faces, or of nothing if no place is given."""
-        return cls(SharedNumbers(()), SharedNumbers(place), SharedNumbers(()))
-
-    def values(self, side: str = "") -> dict[str, Value]:
-        """Return faces and vertices by the names of the evaluators' arguments, which end with ``side``."""
-        return {
-            f"n_faces{side}": float(len(self.faces) // FACE),
-            f"faces{side}": self.faces or (0.0,),
-            f"n_vertices{side}": float(len(self.vertices) // 3),
-            f"vertices{side}": self.vertices or (0.0,),
-        }
 
 
 def edge_rows(polytope: Polytope) -> list[Numbers]:

@@ -15,12 +15,26 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers, without_feet
+from ...shapes.frustum import (
+    AXIS,
+    CENTER,
+    COS,
+    HIGH,
+    LOW,
+    SIDE,
+    SIN,
+    SWEEP,
+    Frustum,
+    Point,
+    frustum_numbers,
+    without_feet,
+)
+from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Polytope
-from ...vectors import Vector3, vector_at
+from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, vector_at
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import FACE
+from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
 from ..features.vertex_face import plane_height
 from ..features.writing import write_flat, write_principal, write_round
 from ..surface.mesh_point import Corner
@@ -48,26 +62,40 @@ def part_number(frustum: Floats, part: int) -> float:
 
 
 @compiled
-def center_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
+def center_in_world(frame: Floats, frustum: Floats) -> Vector3:
     """Return the centre of a frustum in the world [m]."""
-    x, y, z = point_in_world(frame, vector_at(frustum, CENTER))
-    return x, y, z
+    center: Vector3 = point_in_world(frame, vector_at(frustum, CENTER))
+    return center
 
 
 @compiled
-def middle_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
-    """Return the point of the axis halfway between the rims in the world [m]."""
-    x, y, z = center_in_world(frame, frustum)
-    ax, ay, az = axis_in_world(frame, frustum)
-    height = 0.5 * (frustum[LOW] + frustum[HIGH])
-    return x + height * ax, y + height * ay, z + height * az
-
-
-@compiled
-def axis_in_world(frame: Floats, frustum: Floats) -> tuple[float, float, float]:
+def axis_in_world(frame: Floats, frustum: Floats) -> Vector3:
     """Return the unit axis of a frustum in world axes."""
-    x, y, z = vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
-    return x, y, z
+    axis: Vector3 = vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
+    return axis
+
+
+@compiled
+def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
+    """Return the point of the axis of a frustum at a height over its centre, in the world [m]."""
+    point: Vector3 = ahead(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
+    return point
+
+
+@compiled
+def rim_of(frustum: Floats, rim: float) -> tuple[float, float, float]:
+    """Return radius [m], height over the centre [m] and side of a rim: 1 for ``HIGH_RIM``, -1 for ``LOW_RIM``."""
+    if rim > LOW_RIM:
+        return frustum[1], frustum[HIGH], 1.0
+    return frustum[0], frustum[LOW], -1.0
+
+
+@compiled
+def cap_of(frustum: Floats, cap: float) -> tuple[float, float, float]:
+    """Return radius [m], height over the centre [m] and side of a cap: 1 for ``HIGH_CAP``, -1 for ``LOW_CAP``."""
+    if cap > LOW_CAP:
+        return frustum[1], frustum[HIGH], 1.0
+    return frustum[0], frustum[LOW], -1.0
 
 
 @compiled
@@ -106,65 +134,56 @@ def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, flo
 
 
 @compiled
-def least_height(frustum: Floats, height: float, cosine: float) -> float:
+def least_height(frustum: Floats, height: float, axis: Vector3, normal: Vector3) -> float:
     """Return the least height of a frustum over a plane [m].
 
-    ``height`` is the height of its centre [m], ``cosine`` the component of its axis along the normal of the plane.
+    ``height`` is the height of its centre [m], ``axis`` its unit axis, ``normal`` the unit normal of the plane.
     """
-    sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
+    # the root of 1 - cosine^2 would be wrong by up to 1e-8 for an axis along the normal
+    cosine, sine = dot(axis, normal), size_of(cross(axis, normal))
     return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
 
 
 @compiled
-def separation_over_faces(a: Floats, b: Floats, frustum: Floats, n_faces: float, faces: Floats) -> float:
-    """Return the largest separation of a frustum in ``a`` and a polyhedron in ``b`` along the normals of its faces [m].
+def separation_over_faces(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and a core in ``b`` along the normals of its faces [m].
 
     It is negative if none of the planes of the faces separates the bodies.
     """
-    x, y, z = axis_in_world(a, frustum)
-    x, y, z = vector_in_body(b, (x, y, z))
-    cx, cy, cz = center_in_world(a, frustum)
-    cx, cy, cz = point_in_body(b, (cx, cy, cz))
+    axis, center = vector_in_body(b, axis_in_world(a, frustum)), point_in_body(b, center_in_world(a, frustum))
     best = -math.inf
-    for i in range(int(n_faces)):
-        f = FACE * i
-        cosine = faces[f] * x + faces[f + 1] * y + faces[f + 2] * z
-        best = max(best, least_height(frustum, plane_height(faces, f, cx, cy, cz), cosine))
+    for i in range(int(core[N_FACES])):
+        f = int(core[FACES]) + FACE * i
+        best = max(best, least_height(frustum, plane_height(core, f, *center), axis, vector_at(core, f)))
     return best
 
 
 @compiled
-def least_over(b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
-    """Return the least height of the second body's vertices over the plane through ``place`` with ``normal`` [m]."""
-    (nx, ny, nz), (x, y, z) = normal, place
-    base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
-    nx, ny, nz = vector_in_body(b, (nx, ny, nz))
-    least = math.inf
-    for i in range(int(n_vertices)):
-        least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
+def least_over(b: Floats, core: Floats, normal: Vector3, place: Vector3) -> float:
+    """Return the least height of the vertices of a core in ``b`` over the plane through ``place`` with a normal [m]."""
+    base = dot(normal, minus(vector_at(b, POSITION), place))
+    own, least = vector_in_body(b, normal), math.inf
+    for i in range(int(core[N_VERTICES])):
+        least = min(least, dot(own, vector_at(core, vertex_at(core, i))))
     return float(base + least)
 
 
 @compiled
-def separation_over_caps(a: Floats, b: Floats, frustum: Floats, n_vertices: float, vertices: Floats) -> float:
-    """Return the largest separation of a frustum in ``a`` and vertices in ``b`` along the normals of its caps [m]."""
-    ax, ay, az = axis_in_world(a, frustum)
-    place = center_in_world(a, frustum)
-    best = least_over(b, n_vertices, vertices, (-ax, -ay, -az), place) + frustum[LOW]
+def separation_over_caps(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
+    """Return the largest separation of a frustum in ``a`` and a core in ``b`` along the normals of the caps [m]."""
+    axis, place = axis_in_world(a, frustum), center_in_world(a, frustum)
+    best = least_over(b, core, opposite(axis), place) + frustum[LOW]
     if frustum[1] > 0.0:
-        best = max(best, least_over(b, n_vertices, vertices, (ax, ay, az), place) - frustum[HIGH])
+        best = max(best, least_over(b, core, axis, place) - frustum[HIGH])
     return float(best)
 
 
 @compiled
 def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vector3) -> float:
     """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m]."""
-    (nx, ny, nz), (cx, cy, cz), (kx, ky, kz) = n, center_in_world(a, first), center_in_world(b, second)
-    ax, ay, az = axis_in_world(a, first)
-    bx, by, bz = axis_in_world(b, second)
-    height = nx * (kx - cx) + ny * (ky - cy) + nz * (kz - cz)
-    height = least_height(first, height, -nx * ax - ny * ay - nz * az)
-    return float(least_height(second, height, nx * bx + ny * by + nz * bz))
+    height = dot(n, minus(center_in_world(b, second), center_in_world(a, first)))
+    height = least_height(first, height, axis_in_world(a, first), opposite(n))
+    return float(least_height(second, height, axis_in_world(b, second), n))
 
 
 @compiled
@@ -173,12 +192,11 @@ def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
 
     Of the side, the normal across the axis that points to the centre of the first is taken.
     """
-    bx, by, bz = axis_in_world(b, second)
-    (cx, cy, cz), (kx, ky, kz) = center_in_world(a, first), center_in_world(b, second)
-    _, _, (ex, ey, ez) = across((kx - cx, ky - cy, kz - cz), (bx, by, bz))
-    best = separation_along(a, first, b, second, (bx, by, bz))
-    best = max(best, separation_along(a, first, b, second, (-bx, -by, -bz)))
-    return float(max(best, separation_along(a, first, b, second, (ex, ey, ez))))
+    axis = axis_in_world(b, second)
+    _, _, sideways = across(minus(center_in_world(b, second), center_in_world(a, first)), axis)
+    best = separation_along(a, first, b, second, axis)
+    best = max(best, separation_along(a, first, b, second, opposite(axis)))
+    return float(max(best, separation_along(a, first, b, second, sideways)))
 
 
 @compiled
@@ -201,7 +219,6 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
     away : float
         Distance of the point from the axis [m].
     """
-    (ax, ay, az), (ex, ey, ez) = axis, outward
     if part == LOW_CAP or part == HIGH_CAP:
         write_flat(out, side)
     elif part != FLANK and away == 0.0:
@@ -209,8 +226,7 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
     else:
         # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
         flank = 1.0 if part == FLANK else 0.0
-        x, y, z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
-        write_principal(out, side, x, y, z, max(radial, FLATTEST), away, 1.0 - flank, flank)
+        write_principal(out, side, *cross(axis, outward), max(radial, FLATTEST), away, 1.0 - flank, flank)
 
 
 @compiled
@@ -225,18 +241,15 @@ def tip_past_rim(
     negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise the edges
     pass the rim from the side.  Edges that cross the plane farther from the vertex than their midpoint are ignored.
     """
-    (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
     for i in range(int(n_star)):
-        ex, ey, ez = vector_in_world(b, vector_at(star, 3 * i))
-        rise = nx * ex + ny * ey + nz * ez
+        edge = vector_in_world(b, vector_at(star, 3 * i))
+        rise = dot(n, edge)
         if rise * lengths[i] <= 2.0 * depth:
             continue
-        way = depth / rise
-        x, y, z = px + way * ex, py + way * ey, pz + way * ez
-        along = nx * x + ny * y + nz * z
-        away = math.sqrt(max(x * x + y * y + z * z - along * along, 0.0))
-        least = min(least, away - radius)
+        at = ahead(p, depth / rise, edge)
+        along = dot(n, at)
+        least = min(least, math.sqrt(max(dot(at, at) - along * along, 0.0)) - radius)
     return least + depth
 
 
@@ -264,6 +277,29 @@ def set_back(first: Frustum) -> Numbers:
     return frustum_numbers(
         [radius for radius, _ in rims], heights, (x, y, z), (axis[0], axis[1], axis[2]), 0.0, own[SWEEP]
     )
+
+
+def size_of_both(first: Frustum, second: SweptPolytope) -> float:
+    """Return the size of the larger body [m]."""
+    return max(second.core.size + 2.0 * second.sweep, 2.0 * first.extent)
+
+
+def rims_of(numbers: Numbers) -> tuple[int, ...]:
+    """Return the numbers of the rims of a frustum; a disc has one rim, an apex is not a rim."""
+    return (LOW_RIM, HIGH_RIM) if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else (LOW_RIM,)
+
+
+def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point, str]]:
+    """Yield radius [m], place [m] and name of each rim, of the apex of sharp bodies and of each foot.
+
+    The apex of rounded bodies is a sphere, which has contacts of its own.
+    """
+    for has_radius in (True, False):
+        for i, (radius, place) in enumerate(first.standing_rims):
+            if (radius > 0.0) == has_radius and (has_radius or is_sharp):
+                yield radius, place, f"rim {i}" if has_radius else "apex"
+    for i, foot in enumerate(first.feet):
+        yield 0.0, foot, f"foot {i}"
 
 
 def seen_by(first: Frustum, core: Polytope) -> Numbers:

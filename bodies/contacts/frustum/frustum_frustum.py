@@ -3,127 +3,121 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
 from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import HIGH, LOW, SIDE, SWEEP, Frustum
+from ...shapes.frustum import SIDE, SWEEP, Frustum, without_feet
+from ...vectors import ahead, minus, opposite, times, vector_at
 from ..features.flat_rim import FLATTEST, common_length, touching_point, write_rim
 from ..features.frames import across, point_in_world
-from ..features.polytope_tables import Numbers
 from ..features.vertex_face import CLOSED, REACH
-from .apex_frustum import ApexFrustum
-from .flank_flank import FlankFlank
+from .apex_frustum import evaluate_apex_over_frustum
+from .flank_flank import evaluate_sides
 from .frustum import (
     HIGH_CAP,
+    HIGH_RIM,
     LOW_CAP,
     LOW_RIM,
+    RIM_NAMES,
     axis_in_world,
+    cap_of,
     center_in_world,
+    part_names,
+    rims_and_tips,
+    rims_of,
     separation_along,
     separation_by,
     set_back,
 )
 from .frustum_writing import past_depth, past_disc, write_side, write_two
-from .rim_flank import RimFlank
-from .rim_rim import RimRim
-
-_OTHERS: tuple[type[ContactKinematics], ...] = (FlankFlank, RimFlank, RimRim, ApexFrustum)
+from .rim_flank import evaluate_rim_over_side
+from .rim_rim import evaluate_rims
 
 
-def _evaluate(
+def evaluate_rim_over_cap(
     a: Floats,
     b: Floats,
     out: Floats,
     swap: float,
     first: Floats,
     radius: float,
-    x: float,
-    y: float,
-    z: float,
+    center: Floats,
     second: Floats,
     cap: float,
     size: float,
 ) -> None:
+    """Write the geometry block of a cap of one body and the point of a rim of the other that is lowest over the cap.
+
+    Feet and apices are rims of radius 0.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of both bodies, and the geometry block.
+    swap : float
+        1 if the rim belongs to the second body, else 0.
+    first, second : Floats
+        The body with the rim, and the body with the cap.
+    radius : float
+        Radius of the rim [m].
+    center : Floats
+        Centre of the rim in the body frame [m].
+    cap : float
+        0 for the lower cap, 4 for the upper one.
+    size : float
+        Size of the bodies [m].
+    """
     own, other = (b, a) if swap == 1.0 else (a, b)
-    ax, ay, az = axis_in_world(own, first)
-    bx, by, bz = axis_in_world(other, second)
-    kx, ky, kz = center_in_world(other, second)
-    part = int(cap)
-    up, height, wide = -1.0, second[LOW], second[0]
-    if part == HIGH_CAP:
-        up, height, wide = 1.0, second[HIGH], second[1]
-    nx, ny, nz = -up * bx, -up * by, -up * bz
-    cx, cy, cz = point_in_world(own, (x, y, z))
-    _, sine, _ = across((nx, ny, nz), (ax, ay, az))
-    is_flat, outside = radius > 0.0 and sine < FLATTEST, -size
+    axis, cap_axis, place = axis_in_world(own, first), axis_in_world(other, second), center_in_world(other, second)
+    wide, height, up = cap_of(second, cap)
+    n, middle = times(-up, cap_axis), point_in_world(own, vector_at(center, 0))
+    _, sine, _ = across(n, axis)
+    is_flat, is_tip, outside = radius > 0.0 and sine < FLATTEST, radius == 0.0, -size
     if is_flat:
-        _, offset, (fx, fy, fz) = across((kx - cx, ky - cy, kz - cz), (bx, by, bz))
-        middle, half = common_length(radius, wide, offset)
+        _, offset, sideways = across(minus(place, middle), cap_axis)
+        along, half = common_length(radius, wide, offset)
         # valid if a part of the rim is over the cap, and if the common area is more than a point
         outside = max(radius - offset - wide, 2.0 * CLOSED * size - half)
         if half > 0.0:
-            radius = half
-            cx, cy, cz = cx + middle * fx, cy + middle * fy, cz + middle * fz
-    at = touching_point(own, other, (-nx, -ny, -nz), (ax, ay, az), radius)
-    reach, (ex, ey, ez), lift, _, _, _ = at
-    px, py, pz = cx + reach * ex + lift * nx, cy + reach * ey + lift * ny, cz + reach * ez + lift * nz
-    along, away, (fx, fy, fz) = across((px - kx, py - ky, pz - kz), (bx, by, bz))
+            radius, middle = half, ahead(middle, along, sideways)
+    at = touching_point(own, other, opposite(n), axis, radius)
+    reach, outward, lift, _, _, _ = at
+    p = ahead(ahead(middle, reach, outward), lift, n)
+    along, away, from_axis = across(minus(p, place), cap_axis)
     gap = up * (along - height)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
     past = max(away - wide, outside) - margin * size
     if second[SIDE] == 0.0:
-        past = max(past, past_disc(own, first, other, second, up, gap, (px, py, pz), size))
+        past = max(past, past_disc(own, first, other, second, up, gap, p, is_tip, size))
     else:
         past = max(past, past_depth(own, first, other, second, gap, size))
         if gap < 0.0:
             # of the body with the cap another part may separate the bodies better
             best = separation_by(own, first, other, second)
-            past = max(past, best - separation_along(own, first, other, second, (nx, ny, nz)) - REACH * size)
-    write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz))
+            past = max(past, best - separation_along(own, first, other, second, n) - REACH * size)
+    write_two(a, out, swap, first, second, gap, past, n, p)
     if is_flat:
-        write_rim(out, SIDE_B if swap == 1.0 else SIDE_A, (ax, ay, az), radius, at, first[SWEEP])
+        write_rim(out, SIDE_B if swap == 1.0 else SIDE_A, axis, radius, at, first[SWEEP])
     else:
-        write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
-    write_side(out, 1.0 - swap, second, part, (bx, by, bz), (fx, fy, fz), (-nx, -ny, -nz), away)
+        write_side(out, swap, first, LOW_RIM, axis, outward, n, radius)
+    write_side(out, 1.0 - swap, second, int(cap), cap_axis, from_axis, opposite(n), away)
 
 
 @final
-@dataclass(frozen=True)
 class FrustumFrustum(ContactKinematics):
-    """Contact of a cap of one body with the point of a rim of the other body that is lowest over the cap's plane.
+    """Contacts of two cylinders, cones or discs.
 
-    Feet and apices are treated as rims of radius 0. :meth:`between` also returns the other contacts of the two bodies:
-    a side with a side, a rim or an apex with a side, and a rim with a rim.  The features of a contact never change; a
-    contact whose features do not face each other is open.  If one of the bodies is rounded, an apex is a sphere, with
-    one contact for all parts of the other body.
-
-    Attributes
-    ----------
-    swap : bool
-        Whether the rim belongs to the second body.
-    first : tuple of float
-        The body with the rim (:func:`bodies.shapes.frustum.frustum_numbers`).
-    radius : float
-        Radius of the rim [m].
-    center : tuple of float
-        Centre of the rim in the body frame [m].
-    second : tuple of float
-        The body with the cap.
-    cap : int
-        0 for the lower cap, 4 for the upper one.
-    size : float
-        Size of the bodies [m].
-    name : str
-        Name of the rim, foot or apex.
+    They are contacts of rims, feet and apices with caps, of the sides, of rims and apices with sides, and of rims with
+    rims.  The features of a contact never change; a contact whose features do not face each other is open.  If one of
+    the bodies is rounded, an apex is a sphere, with one contact for all parts of the other body.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Frustum)
@@ -135,65 +129,65 @@ class FrustumFrustum(ContactKinematics):
         | {"frame invariance": "a rim that lies flat over a cap has no lowest point, and which one is taken may change"}
     )
 
-    swap: bool
-    first: Numbers
-    radius: float
-    center: tuple[float, float, float]
-    second: Numbers
-    cap: int
-    size: float
-    name: str
-
     @classmethod
     def example(cls) -> Mapping[str, Any]:
         """Return two cylinders."""
         return {"first": Cylinder(0.01, 0.02), "second": Cylinder(0.008, 0.02)}
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of rims and feet with caps, of the sides, of rims with sides, and of rims."""
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the contacts of rims and feet with caps, of the sides, of rims with sides, of rims, and of apices."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
-        own = *cls._of(first, second, False), *cls._of(second, first, True)
-        return tuple(itertools.chain(own, *(kind.between(first, second) for kind in _OTHERS)))
+        return tuple(itertools.chain(_over_caps(first, second), _crossing(first, second), _of_apices(first, second)))
 
-    @classmethod
-    def _of(cls, own: Frustum, other: Frustum, swap: bool) -> tuple[FrustumFrustum, ...]:
-        size, inner, outer = 2.0 * max(own.extent, other.extent), set_back(other), other.frustum
-        named = [(inner, *rim, f"rim {i}") for i, rim in enumerate(own.standing_rims) if rim[0] > 0.0]
-        if own.rounding + other.rounding == 0.0:
-            named += [(inner, *rim, "apex") for rim in own.standing_rims if rim[0] == 0.0]
-        # feet of either body carry it on a cap of the other: between rims and caps is the height of both
-        named += [(outer, 0.0, foot, f"foot {i}") for i, foot in enumerate(own.feet)]
-        caps = [LOW_CAP, HIGH_CAP] if outer[1] > 0.0 else [LOW_CAP]
-        return tuple(
-            cls(swap, own.frustum, radius, center, numbers, cap, size, name)
-            for numbers, radius, center, name in named
-            for cap in caps
-        )
 
-    def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both bodies by the names of the evaluator's arguments."""
-        x, y, z = self.center
-        return {
-            "swap": float(self.swap),
-            "first": self.first,
-            "radius": self.radius,
-            "x": x,
-            "y": y,
-            "z": z,
-            "second": self.second,
-            "cap": float(self.cap),
-            "size": self.size,
-        }
+def _names(swap: float, own: str, other: str) -> str:
+    """Return the names of a feature of the body with the rim and of one of the other body, the first body first."""
+    return f"{other} and {own}" if swap else f"{own} and {other}"
 
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate
 
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Name of the only pair of features."""
-        cap = f"cap {'+' if self.cap == HIGH_CAP else '-'}"
-        return (f"{cap} and {self.name}" if self.swap else f"{self.name} and {cap}",)
+def _over_caps(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
+    """Yield the contacts of rims, apices and feet of either body with the caps of the other."""
+    size, is_sharp = 2.0 * max(first.extent, second.extent), first.rounding + second.rounding == 0.0
+    for swap, own, other in ((0.0, first, second), (1.0, second, first)):
+        inner = set_back(other)
+        for radius, center, name in rims_and_tips(own, is_sharp):
+            # feet of either body carry it on a cap of the other: between rims and caps is the height of both
+            numbers = other.frustum if name.startswith("foot") else inner
+            values: dict[str, Value] = {"swap": swap, "first": own.frustum, "radius": radius, "center": center}
+            for cap, sign in ((LOW_CAP, "-"), (HIGH_CAP, "+"))[: 2 if other.frustum[1] > 0.0 else 1]:
+                yield FeaturePair(
+                    evaluate_rim_over_cap,
+                    {**values, "second": numbers, "cap": float(cap), "size": size},
+                    (_names(swap, name, f"cap {sign}"),),
+                )
+
+
+def _crossing(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
+    """Yield the contacts of the sides, of the rims and sharp apices of either body with the side, and of the rims."""
+    size, one, two = 2.0 * max(first.extent, second.extent), set_back(first), set_back(second)
+    if one[SIDE] > 0.0 and two[SIDE] > 0.0:
+        yield FeaturePair(evaluate_sides, {"first": one, "second": two, "size": size}, ("side and side",))
+    values: dict[str, Value]
+    for swap, own, other in ((0.0, one, two), (1.0, two, one)):
+        halves = [*itertools.product(rims_of(own), (1.0, -1.0))]
+        if own[SIDE] > 0.0 and own[1] == 0.0 and one[SWEEP] + two[SWEEP] == 0.0:
+            halves.append((HIGH_RIM, 1.0))
+        for rim, half in halves if other[SIDE] > 0.0 else ():
+            values = {"swap": swap, "first": own, "rim": float(rim), "half": half, "second": other, "size": size}
+            yield FeaturePair(evaluate_rim_over_side, values, (_names(swap, RIM_NAMES[rim], "side"),))
+    for i, j, half in itertools.product(rims_of(one), rims_of(two), (1.0, -1.0)):
+        values = {"first": one, "rim_a": float(i), "second": two, "rim_b": float(j), "half": half, "size": size}
+        yield FeaturePair(evaluate_rims, values, (f"{RIM_NAMES[i]} and {RIM_NAMES[j]}",))
+
+
+def _of_apices(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
+    """Yield the contacts of the apices if a body is rounded."""
+    one, two = without_feet(first.frustum), without_feet(second.frustum)
+    for swap, own, other in ((0.0, one, two), (1.0, two, one)) if one[SWEEP] + two[SWEEP] > 0.0 else ():
+        if own[1] == 0.0:
+            values: dict[str, Value] = {"swap": swap, "first": own, "second": other}
+            values["size"] = 2.0 * max(first.extent, second.extent)
+            names = tuple(_names(swap, "apex", part) for part in part_names(other))
+            yield FeaturePair(evaluate_apex_over_frustum, values, names)

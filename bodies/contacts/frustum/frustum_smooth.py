@@ -10,24 +10,21 @@ translation that separates the bodies.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import ClassVar, TypeAlias, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
+from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
-from ...vectors import put, vector_at
-from ..features.frames import point_in_world, write_tangent
+from ...vectors import Vector3, ahead, dot, minus, opposite, plus, vector_at
+from ..features.frames import point_in_world
 from ..features.writing import write_sweep
 from ..smooth.inscribed import gauge, no_shorter_way
 from ..smooth.round_search import up_hills
-from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
+from ..smooth.smooth_core import CENTER, RADIUS, Answer, Axes, axes_in_world, back, between_axes, forth, longest, spread
 from ..smooth.smooth_newton import widest_of_round, write_surface
 from ..smooth.smooth_starts import starts_of, uphill
 from .frustum import (
@@ -36,19 +33,22 @@ from .frustum import (
     HIGH_RIM,
     LOW_CAP,
     LOW_RIM,
+    cap_of,
     center_in_world,
     nearest_part,
     part_names,
     part_number,
+    rim_of,
     write_part,
 )
-from .frustum_stops import ON_BORDER, Answer, by_search, on_cap, on_flank, on_rim, seven
+from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from .frustum_writing import write_contact
 
-Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, float, float, float, float]
+Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, Vector3, float]
 """Arguments of the searches for both bodies, in the axes of the frustum.
 
 In this order: frustum, lower rim, upper rim and a point (each as a core), core of the smooth body, axes of the smooth
-body, its centre x, y, z [m], size of both bodies [m].
+body, its centre [m], size of both bodies [m].
 """
 
 _SHALLOW, _SLIGHT = 1e-6, 1e-8
@@ -84,18 +84,15 @@ _TURNS = 8
 
 
 @compiled
-def _is_before(core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer) -> bool:
+def _is_before(core: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
     """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there."""
-    g, px, py, pz, nx, ny, nz = found
-    px, py, pz = px - g * nx - x, py - g * ny - y, pz - g * nz - z
-    if nx * px + ny * py + nz * pz >= 0.0:
-        return False
-    px, py, pz = back(turn, (px, py, pz))
-    return bool(gauge(core, (px, py, pz)) < 1.0)
+    g, p, n = found
+    from_centre = minus(ahead(p, -g, n), place)
+    return bool(dot(n, from_centre) < 0.0 and gauge(core, back(turn, from_centre)) < 1.0)
 
 
 @compiled
-def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found: Answer) -> bool:
+def is_over_cap(frustum: Floats, part: int, place: Vector3, found: Answer) -> bool:
     """True if the gap found over a cap is proved to be the largest over all normals.
 
     It always is if the bodies are apart.  At an overlap of depth d, two points of the smooth body prove it.  The first
@@ -103,10 +100,11 @@ def is_over_cap(frustum: Floats, part: int, x: float, y: float, z: float, found:
     the height d above the cap.  If both are at least d inside of the rim, in any direction one of the two is at least d
     behind a point of the rim, so that no translation by less than d separates the bodies.
     """
-    g, px, py, _, _, _, up = found
+    g, (px, py, _), _ = found
     if g >= 0.0:
         return True
-    radius, level = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
+    x, y, z = place
+    radius, level, up = cap_of(frustum, part)
     height, inside = up * (z - level), radius + g
     if g != g or height < -g or inside < 0.0:
         return False
@@ -125,13 +123,15 @@ def _has_room(frustum: Floats, part: int, found: Answer, near: float) -> bool:
     """
     if part == LOW_RIM or part == HIGH_RIM:
         return False
-    outside, _, _, _ = nearest_part(frustum, found[3], math.sqrt(found[1] * found[1] + found[2] * found[2]))
+    x, y, z = found[1]
+    outside, _, _, _ = nearest_part(frustum, z, math.sqrt(x * x + y * y))
     return bool(outside <= found[0] + near)
 
 
 @compiled
-def _into(frustum: Floats, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return the point of the frustum nearest to the point (x, y, z) [m], both in the axes of the frustum."""
+def _into(frustum: Floats, point: Vector3) -> Vector3:
+    """Return the point of the frustum nearest to a point [m], both in the axes of the frustum."""
+    x, y, z = point
     away = math.sqrt(x * x + y * y)
     outside, radial, axial, _ = nearest_part(frustum, z, away)
     if outside <= 0.0:
@@ -141,34 +141,29 @@ def _into(frustum: Floats, x: float, y: float, z: float) -> tuple[float, float, 
 
 
 @compiled
-def _share_a_point(
-    frustum: Floats, point: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, found: Answer
-) -> bool:
+def _share_a_point(frustum: Floats, point: Floats, core: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
     """True if a common point of both bodies is found, which confirms that the bodies overlap as ``found`` says.
 
     Points of the frustum are tried in two series.  The first series has the frustum's points nearest to points of the
     line between the two contact points in ``found``.  The second series alternates: the frustum's point nearest to the
     core's centre, the core's point nearest to this point, the frustum's point nearest to that, and so on.
     """
-    g, qx, qy, qz, nx, ny, nz = found
-    px, py, pz = qx, qy, qz
+    g, q, n = found
+    p = q
     for i in range(_SAMPLES + _PROJECTIONS):
         if i <= _SAMPLES:
-            part = g * i / _SAMPLES
-            px, py, pz = qx - part * nx, qy - part * ny, qz - part * nz
+            p = ahead(q, -(g * i / _SAMPLES), n)
         elif i == _SAMPLES + 1:
-            px, py, pz = x, y, z
+            p = place
         else:
             # p is outside of the core: behind its surface, farther each time
-            wx, wy, wz = x - px, y - py, z - pz
-            off, (wx, wy, wz), _ = widest_of_round(point, core, turn, (wx, wy, wz), (wx, wy, wz))
+            way = minus(place, p)
+            off, way, _ = widest_of_round(point, core, turn, way, way)
             if not off > 0.0:
                 return False
-            part = float(i - _SAMPLES)
-            px, py, pz = px + part * wx, py + part * wy, pz + part * wz
-        px, py, pz = _into(frustum, px, py, pz)
-        bx, by, bz = back(turn, (px - x, py - y, pz - z))
-        if gauge(core, (bx, by, bz)) <= 1.0 + _ON_SURFACE:
+            p = ahead(p, float(i - _SAMPLES), way)
+        p = _into(frustum, p)
+        if gauge(core, back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE:
             return True
     return False
 
@@ -181,9 +176,7 @@ def _nearest(
     point: Floats,
     core: Floats,
     turn: Axes,
-    x: float,
-    y: float,
-    z: float,
+    place: Vector3,
 ) -> tuple[Answer, int]:
     """Return the largest gap found over all normals, with point and normal, and the part of the frustum it belongs to.
 
@@ -191,24 +184,25 @@ def _nearest(
     frustum.  The part is a cap, the side or a rim, such as ``LOW_CAP``.  The gap is nan if no local maximum was found.
     A negative gap needs a common point of both bodies as a proof.
     """
-    size = abs(x) + abs(y) + abs(z) + max(core[0], core[1], core[2]) + frustum[0] + frustum[HIGH] - frustum[LOW]
-    bodies = frustum, low, high, point, core, turn, x, y, z, size
+    x, y, z = place
+    size = spread(place) + longest(core) + frustum[0] + frustum[HIGH] - frustum[LOW]
+    bodies = frustum, low, high, point, core, turn, place, size
     near = ON_BORDER * size
     away = math.sqrt(x * x + y * y)
     sx, sy = (x, y) if away > _CLOSE * size else (1.0, 0.0)
     _, _, _, guess = nearest_part(frustum, z, away)
     if z > frustum[HIGH] or z < frustum[LOW]:
         part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
-        over: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
-        if is_over_cap(frustum, part, x, y, z, over):
+        over: Answer = on_cap(frustum, core, turn, place, part, near)
+        if is_over_cap(frustum, part, place, over):
             return over, part
-    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
     where = LOW_CAP
     is_deep, is_sharp = False, max(core[3], core[4]) > 2.0
     shallow = _SLIGHT * size if is_sharp else _SHALLOW * size
     for start in range(_TURNS + 4):
         if start == 1:
-            is_deep = _is_deep(frustum, core, turn, x, y, z)
+            is_deep = _is_deep(frustum, core, turn, place)
         # start 0: normals towards the centre; 1: the searches of `by_search`; 2, 3: normals near the side's, near the
         # cap's; from 4 on: directions all around the axis
         tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
@@ -227,31 +221,31 @@ def _nearest(
                 if is_deep:
                     # at a deep overlap the gap has several maxima, of which this search may find a smaller one
                     continue
-                found = by_search(frustum, point, core, turn, (x, y, z), (sx, sy), part, size)
+                found = by_search(frustum, point, core, turn, place, (sx, sy), part, size)
             elif part == LOW_CAP or part == HIGH_CAP:
-                found = on_cap(frustum, core, turn, x, y, z, part, near)
+                found = on_cap(frustum, core, turn, place, part, near)
             elif part == FLANK:
-                found = on_flank(frustum, core, turn, x, y, z, sx, sy, near)
+                found = on_flank(frustum, core, turn, place, (sx, sy), near)
             else:
                 circle = low if part == LOW_RIM else high
-                found = on_rim(frustum, circle, core, turn, (x, y, z), (sx, sy), part, tilt)
+                found = on_rim(frustum, circle, core, turn, place, (sx, sy), part, tilt)
             if found[0] == found[0] and not found[0] <= best[0]:
                 best, where = found, part
                 if found[0] >= -shallow or _has_room(frustum, part, found, near):
                     return best, where
-                if not is_sharp and _is_before(core, turn, x, y, z, found):
+                if not is_sharp and _is_before(core, turn, place, found):
                     return best, where
-        if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, x, y, z, best)):
+        if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, place, best)):
             # a tip or ridge next to an edge or apex: another local maximum of the gap may have a smaller depth
             rim = where == LOW_RIM or where == HIGH_RIM
-            if rim and (is_deep or _is_deep(frustum, core, turn, x, y, z)):
+            if rim and (is_deep or _is_deep(frustum, core, turn, place)):
                 return best, where
             best, where = _higher(bodies, best, where)
             return best, where
     if is_sharp and not is_deep and best[0] < 0.0:
         # the local maximum with the smallest depth may have been missed: seek larger gaps
         best, where = _higher(bodies, best, where)
-    if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, x, y, z, best):
+    if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, place, best):
         best, where = _on_hills(bodies)
         if is_sharp and best[0] != best[0] and frustum[SIDE] > 0.0:
             best, where = _beside_apex(bodies), FLANK
@@ -259,11 +253,9 @@ def _nearest(
 
 
 @compiled
-def _is_deep(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float) -> bool:
+def _is_deep(frustum: Floats, core: Floats, turn: Axes, place: Vector3) -> bool:
     """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
-    px, py, pz = _into(frustum, x, y, z)
-    px, py, pz = back(turn, (px - x, py - y, pz - z))
-    return bool(gauge(core, (px, py, pz)) < _DEEP)
+    return bool(gauge(core, back(turn, minus(_into(frustum, place), place))) < _DEEP)
 
 
 @compiled
@@ -273,9 +265,8 @@ def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
     No further search is made if a ball inside of the smooth body proves that ``best`` is the largest
     (:func:`bodies.contacts.smooth.inscribed.no_shorter_way`).
     """
-    frustum, _, _, point, core, turn, x, y, z, size = bodies
-    g, px, py, pz, nx, ny, nz = best
-    if not no_shorter_way(point, core, turn, (x, y, z), (g, (px, py, pz), (nx, ny, nz))):
+    frustum, _, _, point, core, turn, place, size = bodies
+    if not no_shorter_way(point, core, turn, place, best):
         found, part = _on_hills(bodies)
         if found[0] > best[0] + _HIGHER * size:
             best, where = found, part
@@ -292,12 +283,13 @@ def _beside_apex(bodies: Bodies) -> Answer:
 
     Searches start at the normals with a maximal gap over the apex.  The gap is nan if no maximum was found.
     """
-    frustum, _, high, _, core, turn, x, y, z, size = bodies
-    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
-    for start in starts_of(high, core, turn, (x, y, z - frustum[HIGH])):
-        _, (nx, ny, _) = uphill(high, core, turn, (x, y, z - frustum[HIGH]), start, _NEARBY)
+    frustum, _, high, _, core, turn, place, size = bodies
+    from_apex = (place[0], place[1], place[2] - frustum[HIGH])
+    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    for start in starts_of(high, core, turn, from_apex):
+        _, (nx, ny, _) = uphill(high, core, turn, from_apex, start, _NEARBY)
         if nx != 0.0 or ny != 0.0:
-            found = on_flank(frustum, core, turn, x, y, z, nx, ny, ON_BORDER * size)
+            found = on_flank(frustum, core, turn, place, (nx, ny), ON_BORDER * size)
             if found[0] == found[0] and not found[0] <= best[0]:
                 best = found
     return best
@@ -311,25 +303,26 @@ def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
     A rim of radius 0 is an apex.  The gap is nan if no maximum was found, or if the gap is negative and no common point
     of both bodies proves the overlap.
     """
-    frustum, low, high, point, core, turn, x, y, z, size = bodies
-    best: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    frustum, low, high, point, core, turn, place, size = bodies
+    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
     where = LOW_RIM
     for part in (LOW_RIM, HIGH_RIM):
         if part == HIGH_RIM and frustum[SIDE] == 0.0:
             continue
-        circle, height = (low, frustum[LOW]) if part == LOW_RIM else (high, frustum[HIGH])
-        up = 0.0 if frustum[SIDE] == 0.0 else 1.0 if part == HIGH_RIM else -1.0
+        _, height, up = rim_of(frustum, part)
         lean = frustum[COS], frustum[SIN], size
-        found: Answer = seven(up_hills(circle, core, turn, (x, y, z - height), up, lean))
-        if found[0] == found[0] and not found[0] <= best[0]:
-            best = found[0], found[1], found[2], found[3] + height, found[4], found[5], found[6]
-            where = part
-    if not best[0] >= 0.0 and not _share_a_point(frustum, point, core, turn, x, y, z, best):
-        best = math.nan, best[1], best[2], best[3], best[4], best[5], best[6]
+        from_rim = (place[0], place[1], place[2] - height)
+        g, p, n = up_hills(
+            low if part == LOW_RIM else high, core, turn, from_rim, up if frustum[SIDE] > 0.0 else 0.0, lean
+        )
+        if g == g and not g <= best[0]:
+            best, where = (g, (p[0], p[1], p[2] + height), n), part
+    if not best[0] >= 0.0 and not _share_a_point(frustum, point, core, turn, place, best):
+        best = math.nan, best[1], best[2]
     return best, where
 
 
-def _evaluate(
+def evaluate_frustum_smooth(
     a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, high: Floats, point: Floats, second: Floats
 ) -> None:
     """Write the geometry block of a frustum, whose rims are the cores ``low`` and ``high``, and a core.
@@ -337,77 +330,37 @@ def _evaluate(
     The gap is nan where no part can be proved to be the nearest.
     """
     axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
-    ax, ay, az = center_in_world(a, first)
-    bx, by, bz = point_in_world(b, vector_at(second, 6))
-    x, y, z = back(axes_a, (bx - ax, by - ay, bz - az))
+    center = center_in_world(a, first)
+    place = back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
     turn = between_axes(axes_a, axes_b)
-    (g, px, py, pz, nx, ny, nz), part = _nearest(first, low, high, point, second, turn, x, y, z)
-    out[GAP] = g - second[RADIUS] - first[SWEEP]
-    put(out, NORMAL, forth(axes_a, (nx, ny, nz)))
-    qx, qy, qz = forth(axes_a, (px, py, pz))
-    put(out, POINT_B, (ax + qx, ay + qy, az + qz))
-    for i in range(3):
-        out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
-        out[POINT_A + i] = out[POINT_B + i] - out[GAP] * out[NORMAL + i]
-    out[FEATURE] = part_number(first, part)
-    write_tangent(a, out)
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    qx, qy, qz = back(turn, (px - x, py - y, pz - z))
-    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
-    radial = math.sqrt(nx * nx + ny * ny)
-    ex, ey = (nx / radial, ny / radial) if radial > 0.0 else (1.0, 0.0)
-    ux, uy, uz = forth(axes_a, (ex, ey, 0.0))
-    away = max(ex * px + ey * py - g * radial, 0.0)
+    (g, p, n), part = _nearest(first, low, high, point, second, turn, place)
+    gap, normal = g - second[RADIUS] - first[SWEEP], forth(axes_a, n)
+    point_b = ahead(plus(center, forth(axes_a, p)), -second[RADIUS], normal)
+    write_contact(a, out, gap, 0.0, part_number(first, part), normal, point_b, True)
+    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(p, place)))
+    radial = math.sqrt(n[0] * n[0] + n[1] * n[1])
+    ex, ey = (n[0] / radial, n[1] / radial) if radial > 0.0 else (1.0, 0.0)
+    away = max(ex * p[0] + ey * p[1] - g * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
-        away = first[0] if part == LOW_RIM else first[1]
-    write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), (ux, uy, uz), radial, away)
+        away, _, _ = rim_of(first, part)
+    write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), forth(axes_a, (ex, ey, 0.0)), radial, away)
     write_sweep(out, SIDE_A, first[SWEEP])
 
 
 @final
-@dataclass(frozen=True)
 class FrustumSmooth(ContactKinematics):
-    """One contact of a smooth body with a cap, a rim or the side of a cylinder, a cone or a disc, not with the feet.
-
-    Attributes
-    ----------
-    first : Frustum
-        The cylinder, cone or disc.
-    second : SmoothShape
-        The smooth body.
-    """
+    """One contact of a smooth body with a cap, a rim or the side of a cylinder, a cone or a disc, not with the feet."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SmoothShape)
 
-    first: Frustum
-    second: SmoothShape
-
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[FrustumSmooth, ...]:
-        """Return the single contact of the two."""
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the single contact of the two: each part of the frustum, from the lower cap to the upper one."""
         assert isinstance(first, Frustum)
         assert isinstance(second, SmoothShape)
-        return (cls(first, second),)
-
-    def parameters(self) -> Mapping[str, Value]:
-        """Return the numbers of the frustum, of its rims as flat cores, of a point, and of the support function."""
-        frustum = self.first.frustum
+        frustum = first.frustum
         # a flat ellipsoid, or a point
         low, high = ((radius, radius, 0.0, 2.0, 2.0, 0.0) for radius in frustum[:2])
-        return {
-            "first": frustum,
-            "low": low,
-            "high": high,
-            "point": (0.0, 0.0, 0.0, 2.0, 2.0, 0.0),
-            "second": self.second.core,
-        }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """A trial of the parts, with Newton's method on the support function."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the frustum's parts and the smooth body, from the lower cap to the upper one."""
-        return tuple(f"{part} and smooth" for part in part_names(self.first.frustum))
+        values = {"first": frustum, "low": low, "high": high, "point": (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)}
+        names = tuple(f"{part} and smooth" for part in part_names(frustum))
+        return (FeaturePair(evaluate_frustum_smooth, {**values, "second": second.core}, names),)

@@ -10,20 +10,18 @@ the body is boxy.  A rim is searched as a flat ellipsoid, an apex as a point.
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN
+from ...shapes.frustum import COS, LOW, SIDE, SIN
 from ...shapes.support_function import is_round, support_of
-from ...vectors import Vector3
+from ...vectors import Vector3, dot, opposite, plus
 from ..smooth.boxy_line import across_line
 from ..smooth.round_search import next_to_axis, round_circle
-from ..smooth.smooth_core import Answer as Found
-from ..smooth.smooth_core import Axes, back, bend, forth
+from ..smooth.smooth_core import Answer, Axes, back, bend, forth
 from ..smooth.smooth_newton import widest_of_round
-from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, cap_of, rim_of
 
 ON_BORDER = 1e-14
 """Round-off allowed in two checks of a local maximum of the gap.
@@ -45,67 +43,50 @@ They are those of :mod:`bodies.contacts.smooth.dual_newton`.  A search ends at a
 result needs a residual below ``_RIGHT``.
 """
 
-Answer: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""Gap [m], point (3) [m] and unit normal (3), the result of a search."""
+
+@compiled
+def point_against(core: Floats, turn: Axes, place: Vector3, n: Vector3) -> Vector3:
+    """Return the smooth body's farthest point in the direction -n [m], in the axes of the frustum."""
+    point: Vector3 = plus(place, forth(turn, support_of(core, back(turn, opposite(n)))[1]))
+    return point
 
 
 @compiled
-def seven(found: Found) -> Answer:
-    """Return the result of a search over a smooth body by its seven numbers."""
-    g, (px, py, pz), (nx, ny, nz) = found
-    return g, px, py, pz, nx, ny, nz
-
-
-@compiled
-def point_against(
-    core: Floats, turn: Axes, x: float, y: float, z: float, nx: float, ny: float, nz: float
-) -> tuple[float, float, float]:
-    """Return the smooth body's farthest point in the direction -(nx, ny, nz) [m], in the axes of the frustum."""
-    mx, my, mz = back(turn, (-nx, -ny, -nz))
-    px, py, pz = forth(turn, support_of(core, (mx, my, mz))[1])
-    return x + px, y + py, z + pz
-
-
-@compiled
-def on_cap(frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float) -> Answer:
+def on_cap(frustum: Floats, core: Floats, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
     """Return gap, smooth body's point [m] and normal at the point that is lowest over a cap.
 
     ``part`` is ``LOW_CAP`` or ``HIGH_CAP``.  The gap is nan if the point lies more than ``near`` [m] outside of the
     cap's border.
     """
-    up = 1.0 if part == HIGH_CAP else -1.0
-    radius = frustum[1] if part == HIGH_CAP else frustum[0]
-    px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, up)
-    g = pz - frustum[HIGH] if part == HIGH_CAP else frustum[LOW] - pz
-    if radius == 0.0 or px * px + py * py > (radius + near) * (radius + near):
+    radius, level, up = cap_of(frustum, part)
+    p = point_against(core, turn, place, (0.0, 0.0, up))
+    g = up * (p[2] - level)
+    if radius == 0.0 or p[0] * p[0] + p[1] * p[1] > (radius + near) * (radius + near):
         g = math.nan
-    return g, px, py, pz, 0.0, 0.0, up
+    return g, p, (0.0, 0.0, up)
 
 
 @compiled
-def _on_end_of_cap(
-    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, part: int, near: float
-) -> Answer:
+def _on_end_of_cap(frustum: Floats, core: Floats, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
     """Return gap, point and normal as :func:`on_cap`, for a body so flat that round-off moves its lowest point.
 
     If round-off moved the lowest point past the border of the cap, the normal is tilted outwards: the larger the tilt,
     the farther inwards is the lowest point.  Two tilts are bisected, with lowest points inside and outside of the
     border.  Between these two points, a point over the border is interpolated.
     """
-    found: Answer = on_cap(frustum, core, turn, x, y, z, part, near)
-    radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_CAP else (frustum[0], frustum[LOW])
-    up = found[6]
-    cx, cy = found[1], found[2]
+    found: Answer = on_cap(frustum, core, turn, place, part, near)
+    radius, height, up = cap_of(frustum, part)
+    cx, cy, _ = found[1]
     if found[0] == found[0] or not 0.0 < radius * radius < cx * cx + cy * cy:
         return found
     for _ in range(_TURNS):
         away = math.sqrt(cx * cx + cy * cy)
         ex, ey = cx / away, cy / away
-        px, py, pz = found[1], found[2], found[3]
+        px, py, pz = found[1]
         low, high, lean = 0.0, 0.0, _LEAST_LEAN
         gap, below = 0.0, -math.inf
         for _ in range(_HALVINGS):
-            qx, qy, qz = point_against(core, turn, x, y, z, lean * ex, lean * ey, up)
+            qx, qy, qz = point_against(core, turn, place, (lean * ex, lean * ey, up))
             inside = radius * radius - qx * qx - qy * qy
             if inside > 0.0:
                 high = lean
@@ -117,7 +98,7 @@ def _on_end_of_cap(
                 cz = qz + share * (pz - qz)
                 gap, below = up * (cz - height), lean * (ex * qx + ey * qy - radius) + up * (qz - height)
                 if gap - below <= near:
-                    return gap, cx, cy, cz, lean * ex, lean * ey, up
+                    return gap, (cx, cy, cz), (lean * ex, lean * ey, up)
             else:
                 low, px, py, pz = lean, qx, qy, qz
             lean = 0.5 * (low + high) if high > 0.0 else 10.0 * lean
@@ -127,43 +108,49 @@ def _on_end_of_cap(
 
 
 @compiled
-def _before_flank(frustum: Floats, near: float, found: Answer) -> bool:
-    """True if a local maximum of the gap over the side, continued beyond its rims, lies between the rims.
+def _if_on_flank(frustum: Floats, near: float, found: Answer) -> Answer:
+    """Return a maximum of the gap over the side, continued beyond its rims; the gap is nan if it is not on the side.
 
     Its point on the side must not have crossed the axis.  ``near`` is the tolerance at the rims [m].
     """
-    g, px, py, pz, nx, ny, _ = found
+    g, p, n = found
     cosine, sine = frustum[COS], frustum[SIN]
-    away = (nx * px + ny * py) / cosine
-    up = cosine * (pz - frustum[LOW]) - sine * (away - frustum[0])
-    return bool(away >= g * cosine and -near <= up <= frustum[SIDE] + near)
+    away = (n[0] * p[0] + n[1] * p[1]) / cosine
+    up = cosine * (p[2] - frustum[LOW]) - sine * (away - frustum[0])
+    return (g, p, n) if away >= g * cosine and -near <= up <= frustum[SIDE] + near else (math.nan, p, n)
+
+
+@compiled
+def _along_side(frustum: Floats, core: Floats, turn: Axes, place: Vector3, ex: float, ey: float) -> Answer:
+    """Return the maximum of the gap over the side, continued beyond its rims, by halving."""
+    cosine, sine = frustum[COS], frustum[SIN]
+    reach = cosine * frustum[0] + sine * frustum[LOW]
+    found: Answer = across_line(core, turn, place, (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach)
+    return found
 
 
 @compiled
 def on_flank(
-    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, sx: float, sy: float, near: float
+    frustum: Floats, core: Floats, turn: Axes, place: Vector3, direction: tuple[float, float], near: float
 ) -> Answer:
     """Return gap, smooth body's point [m] and normal of a local maximum of the gap over the side.
 
-    The gap is nan if there is no maximum.  The search starts at the normal in the direction (sx, sy) from the axis.
+    The gap is nan if there is no maximum.  The search starts at the normal in ``direction`` from the axis.
     """
-    cosine, sine = frustum[COS], frustum[SIN]
-    reach = cosine * frustum[0] + sine * frustum[LOW]
+    sx, sy = direction
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
-    if not is_round(core):
-        found: Answer = seven(across_line(core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach))
-        g, px, py, pz, nx, ny, nz = found
+    if is_round(core):
+        found: Answer = _on_round_flank(frustum, core, turn, place, ex, ey, near)
     else:
-        g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
-    if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):
-        g = math.nan
-    return g, px, py, pz, nx, ny, nz
+        found = _along_side(frustum, core, turn, place, ex, ey)
+    stop: Answer = _if_on_flank(frustum, near, found)
+    return stop
 
 
 @compiled
 def _on_round_flank(
-    frustum: Floats, core: Floats, turn: Axes, x: float, y: float, z: float, ex: float, ey: float, near: float
+    frustum: Floats, core: Floats, turn: Axes, place: Vector3, ex: float, ey: float, near: float
 ) -> Answer:
     """Return the maximum of the gap over the side, continued beyond its rims, by Newton's method for one angle.
 
@@ -172,30 +159,27 @@ def _on_round_flank(
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
     size = near / ON_BORDER
-    lx, ly, step = ex, ey, 0.0
-    px, py, pz = x, y, z
+    lx, ly, step, p = ex, ey, 0.0, place
     g, before, halvings = -math.inf, math.inf, 0
     for _ in range(_STEPS):
-        nx, ny = cosine * ex, cosine * ey
-        mx, my, mz = back(turn, (-nx, -ny, -sine))
-        s = support_of(core, (mx, my, mz))
-        px, py, pz = forth(turn, s[1])
-        px, py, pz = x + px, y + py, z + pz
-        found = nx * px + ny * py + sine * pz - reach
+        n = (cosine * ex, cosine * ey, sine)
+        s = support_of(core, back(turn, opposite(n)))
+        p = plus(place, forth(turn, s[1]))
+        found = dot(n, p) - reach
         if found < g - _SEEN * size and halvings < _HALVINGS:
             halvings += 1
             step *= 0.5
         else:
             g, halvings = found, 0
             lx, ly = ex, ey
-            rate = cosine * (ex * py - ey * px)
+            rate = cosine * (ex * p[1] - ey * p[0])
             t = back(turn, (-ey, ex, 0.0))
-            second = -cosine * (ex * px + ey * py) - cosine * cosine * bend(s[2], t, t)
+            second = -cosine * (ex * p[0] + ey * p[1]) - cosine * cosine * bend(s[2], t, t)
             residual = abs(rate)
             if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
                 if residual > _RIGHT * size or second > 0.0:
                     break
-                return g, px, py, pz, nx, ny, sine
+                return g, p, n
             before = residual
             step = rate / max(abs(second), _ROUND_OFF * size)
             step = min(max(step, -1.0), 1.0)
@@ -203,7 +187,20 @@ def _on_round_flank(
         ex, ey = lx - step * ly, ly + step * lx
         length = math.sqrt(ex * ex + ey * ey)
         ex, ey = ex / length, ey / length
-    return math.nan, px, py, pz, cosine * lx, cosine * ly, sine
+    return math.nan, p, (cosine * lx, cosine * ly, sine)
+
+
+@compiled
+def _if_in_fan(frustum: Floats, up: float, height: float, least: float, found: Answer) -> Answer:
+    """Return a maximum of the gap over the circle of a rim, from the centre of the frustum.
+
+    The gap is nan if the sine of the angle of its normal over the side is below ``least``; a disc has no side.
+    ``height`` is the height of the rim [m], ``up`` is 1 for the upper rim and -1 for the lower one.
+    """
+    g, p, n = found
+    lean = frustum[COS] * n[2] - frustum[SIN] * math.sqrt(n[0] * n[0] + n[1] * n[1])
+    is_outside = frustum[SIDE] > 0.0 and up * lean < least
+    return math.nan if is_outside else g, (p[0], p[1], p[2] + height), n
 
 
 @compiled
@@ -225,16 +222,14 @@ def on_rim(
     negative and the direction from the rim to the core's centre lies between these two normals, the search starts with
     this direction.
     """
-    sx, sy = direction
-    x, y, z = place
-    up = 1.0 if part == HIGH_RIM else -1.0
-    radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_RIM else (frustum[0], frustum[LOW])
+    (sx, sy), (x, y, z) = direction, place
+    radius, height, up = rim_of(frustum, part)
     if radius > 0.0:
         # where the centre of the cap is nearest, the normal of the circle is the axis
         for sign in (-1.0, 1.0):
-            px, py, pz = point_against(core, turn, x, y, z, 0.0, 0.0, sign)
-            if sign * (pz - height) >= 0.0 and px * px + py * py <= radius * radius:
-                return math.nan, px, py, pz, 0.0, 0.0, sign
+            p = point_against(core, turn, place, (0.0, 0.0, sign))
+            if sign * (p[2] - height) >= 0.0 and p[0] * p[0] + p[1] * p[1] <= radius * radius:
+                return math.nan, p, (0.0, 0.0, sign)
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
     flat = frustum[SIDE] == 0.0
@@ -243,12 +238,9 @@ def on_rim(
         tilt = abs(tilt)
         cap = math.copysign(1.0, axial) if flat else up
         radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
-    start = radial * ex, radial * ey, axial
-    g, px, py, pz, nx, ny, nz = seven(widest_of_round(circle, core, turn, (x, y, z - height), start))
-    lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
-    if not flat and up * lean < -ON_BORDER:
-        g = math.nan
-    return g, px, py, pz + height, nx, ny, nz
+    found = widest_of_round(circle, core, turn, (x, y, z - height), (radial * ex, radial * ey, axial))
+    stop: Answer = _if_in_fan(frustum, up, height, -ON_BORDER, found)
+    return stop
 
 
 @compiled
@@ -267,35 +259,24 @@ def by_search(
     It serves if `on_cap`, `on_flank` and `on_rim` found no maximum.  The tolerance at the border of a part is larger
     here, because the gaps of both parts there differ only by the square of the distance to the border.
     """
-    sx, sy = direction
-    x, y, z = place
+    (sx, sy), (x, y, z) = direction, place
     near = _NEAR_BORDER * size
-    found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
+    found: Answer = (math.nan, place, (0.0, 0.0, 1.0))
     if part == LOW_CAP or part == HIGH_CAP:
-        found = _on_end_of_cap(frustum, core, turn, x, y, z, part, near)
-    elif part == FLANK:
-        cosine, sine = frustum[COS], frustum[SIN]
-        reach, length = cosine * frustum[0] + sine * frustum[LOW], math.sqrt(sx * sx + sy * sy)
-        ex, ey = sx / length, sy / length
-        found = seven(across_line(core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach))
-        if not _before_flank(frustum, near, found):
-            found = math.nan, x, y, z, 0.0, 0.0, 1.0
-    else:
-        up = 1.0 if part == HIGH_RIM else -1.0
-        radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_RIM else (frustum[0], frustum[LOW])
-        flat = frustum[SIDE] == 0.0
-        over = math.copysign(1.0, z - height) if flat else up
-        px, py, _ = point_against(core, turn, x, y, z, 0.0, 0.0, over)
-        if px * px + py * py == 0.0:
-            px, py = sx, sy
-        found = math.nan, x, y, z, 0.0, 0.0, 1.0
-        if is_round(core) and radius > 0.0:
-            found = seven(next_to_axis(core, turn, (x, y, z - height), radius, (px, py, 0.0), over))
-        if found[0] != found[0]:
-            found = seven(round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0)))
-        g, px, py, pz, nx, ny, nz = found
-        lean = frustum[COS] * nz - frustum[SIN] * math.sqrt(nx * nx + ny * ny)
-        if not flat and up * lean < -_NEAR_BORDER:
-            g = math.nan
-        found = g, px, py, pz + height, nx, ny, nz
-    return found
+        stop: Answer = _on_end_of_cap(frustum, core, turn, place, part, near)
+        return stop
+    if part == FLANK:
+        length = math.sqrt(sx * sx + sy * sy)
+        stop = _if_on_flank(frustum, near, _along_side(frustum, core, turn, place, sx / length, sy / length))
+        return stop
+    radius, height, up = rim_of(frustum, part)
+    side = math.copysign(1.0, z - height) if frustum[SIDE] == 0.0 else up
+    px, py, _ = point_against(core, turn, place, (0.0, 0.0, side))
+    if px * px + py * py == 0.0:
+        px, py = sx, sy
+    if is_round(core) and radius > 0.0:
+        found = next_to_axis(core, turn, (x, y, z - height), radius, (px, py, 0.0), side)
+    if found[0] != found[0]:
+        found = round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0))
+    stop = _if_in_fan(frustum, up, height, -_NEAR_BORDER, found)
+    return stop

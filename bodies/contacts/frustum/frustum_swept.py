@@ -1,61 +1,88 @@
-"""Contacts of a cylinder, cone or disc and a polyhedron or capsule, if at least one of the two is rounded."""
+"""Contacts of a cylinder, cone or disc and a polyhedron or capsule, sharp or rounded."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Iterator
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
+from nonsmooth.engine.memory.blocks import GAP, PAST_END
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ContactKinematics, Shape
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import Frustum
+from ...shapes.frustum import SIDE, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
-from ..features.polytope_tables import Numbers, star_of
+from ...vectors import vector_at
+from ..features.polytope_tables import core_numbers, star_lengths, star_of
 from ..features.swept_vertex import ended_gap, past_star
 from ..features.writing import place_sphere
 from ..polyhedron.swept_swept import MOST_CONTACTS
-from .apex_swept import ApexSwept
-from .flank_edge import FlankEdge
-from .frustum import HIGH_CAP, LOW_CAP, part_names, seen_by
+from .apex_swept import evaluate_apex_over_core
+from .flank_edge import evaluate_edge_across_side
+from .frustum import HIGH_CAP, LOW_CAP, RIM_NAMES, part_names, rims_and_tips, rims_of, seen_by, size_of_both
+from .frustum_polyhedron import evaluate_vertex_over_frustum
 from .frustum_sphere import write_frustum_ball
-from .frustum_writing import size_of_both
-from .rim_edge import RimEdge
-from .rim_face import RimFace
+from .rim_edge import evaluate_edge_across_rim
+from .rim_face import evaluate_rim_over_faces
 
 
-def _evaluate(
+def evaluate_rounded_vertex(
     a: Floats,
     b: Floats,
     out: Floats,
     first: Floats,
     radius: float,
-    x: float,
-    y: float,
-    z: float,
+    place: Floats,
     n_star: float,
     star: Floats,
     size: float,
 ) -> None:
-    """Write the geometry block of a vertex, with a radius; parameters as the attributes of :class:`FrustumSwept`."""
-    x, y, z, distance, part = write_frustum_ball(a, b, out, first, radius, x, y, z)
+    """Write the geometry block of a vertex, with a radius [m], and a frustum's nearest cap, rim, side or apex.
+
+    ``place`` is the vertex in the frame of the second body [m].  ``star`` holds the unit vectors along its edges.
+    """
+    point, distance, part = write_frustum_ball(a, b, out, first, radius, vector_at(place, 0))
     # over a cap the contact does not end at the vertex: an edge over the cap touches with both ends, also if it tilts
     is_flat = part in (LOW_CAP, HIGH_CAP)
-    past = past_star(b, star, 0.0 if is_flat else n_star, distance, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2], size)
+    past = past_star(b, star, 0.0 if is_flat else n_star, distance, out[1], out[2], out[3], size)
     gap, out[PAST_END] = ended_gap(out[GAP], past, size)
-    place_sphere(a, out, x, y, z, gap + radius, radius)
+    place_sphere(a, out, *point, gap + radius, radius)
 
 
-write_vertex_ball = compiled(_evaluate)
+write_rounded_vertex = compiled(evaluate_rounded_vertex)
 """Compiled function that writes the geometry block of a frustum and a rounded vertex; other contacts call it, too."""
 
 
-def check_number(edges: int) -> None:
+@final
+class FrustumSwept(ContactKinematics):
+    """Contacts of a cylinder, cone or disc and a polyhedron or capsule.
+
+    They are contacts of vertices with the frustum, of edges with side and rims, and of rims and feet with faces.  The
+    features of a contact never change.  A contact whose features do not face each other is open.  A body that lies on
+    its side has contacts of its two rims, a standing body has contacts of its feet.
+
+    If one of the bodies is rounded, a vertex and the apex are spheres, or points.  The two bodies touch if the distance
+    of their cores is the sum of their radii.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return the contacts of all vertices, of all edges with side and rims, and of rims, feet and apex."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SweptPolytope)
+        _check_number(len(second.core.edges))
+        edges, faces = _of_edges(first, second), _of_faces(first, second)
+        if first.frustum[SWEEP] == 0.0 and second.sweep == 0.0:
+            return tuple(itertools.chain(faces, _of_sharp_vertices(first, second), edges))
+        return tuple(itertools.chain(_of_vertices(first, second), edges, faces, _of_apex(first, second)))
+
+
+def _check_number(edges: int) -> None:
     """Raise InvalidInput if there are too many contacts."""
     if 5 * edges > MOST_CONTACTS:
         raise InvalidInput(
@@ -66,76 +93,77 @@ def check_number(edges: int) -> None:
         )
 
 
-@final
-@dataclass(frozen=True)
-class FrustumSwept(ContactKinematics):
-    """Contact of a vertex of a polyhedron, or an end of a capsule, with a frustum's nearest cap, rim, side or apex.
+def _of_faces(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
+    """Yield the contacts of all rims and feet, and of the apex of two sharp bodies; a segment has no faces."""
+    numbers, n_faces = seen_by(first, second.core), len(second.core.planes)
+    values: dict[str, Value] = {"frustum": numbers, "sweep": second.sweep, **_core_of(first, second)}
+    for radius, center, name in rims_and_tips(first, second.sweep + numbers[SWEEP] == 0.0) if n_faces else ():
+        names = tuple(f"{name} and face {i}" for i in range(n_faces))
+        yield FeaturePair(evaluate_rim_over_faces, {**values, "radius": radius, "center": center}, names)
 
-    The vertex is a sphere with the radius of rounding, or a point.  The two bodies touch if the distance of their cores
-    is the sum of their radii.  :meth:`between` also returns the other contacts of the two bodies: edges with side and
-    rims, rims and feet with faces, and the apex, as a sphere.  The features of a contact never change.  A contact whose
-    features are not the nearest ones is open: its distance past the feature's boundary is positive.  Corners of meshes
-    have these contacts, too (:class:`bodies.FrustumMesh`).
 
-    Attributes
-    ----------
-    first : tuple of float
-        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
-    radius : float
-        Radius about the core of the second body [m].
-    place : tuple of float
-        The vertex of its core in the body frame [m].
-    star : tuple of float
-        Unit vectors along the edges of the vertex.
-    size : float
-        Size of the bodies [m].
-    name : str
-        Name of the vertex.
+def _of_edges(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
+    """Yield the contacts of each edge with the side, which a disc does not have, and with both halves of each rim."""
+    numbers, edges = seen_by(first, second.core), range(len(second.core.edges))
+    values: dict[str, Value] = {"frustum": numbers, "radius": second.sweep, **_core_of(first, second)}
+    for i in edges if numbers[SIDE] > 0.0 else ():
+        yield FeaturePair(evaluate_edge_across_side, {**values, "edge": float(i)}, (f"side and edge {i}",))
+    for i, rim, half in itertools.product(edges, rims_of(numbers), (1.0, -1.0)):
+        of_rim = {**values, "edge": float(i), "rim": float(rim), "half": half}
+        yield FeaturePair(evaluate_edge_across_rim, of_rim, (f"{RIM_NAMES[rim]} and edge {i}",))
+
+
+def _core_of(first: Frustum, second: SweptPolytope) -> dict[str, Value]:
+    """Return the core of the second body, and the size of the larger body, by the names of the evaluators."""
+    return {"core": core_numbers(second.core), "size": size_of_both(first, second)}
+
+
+def _of_sharp_vertices(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
+    """Yield the contacts of all vertices of a sharp polyhedron with the caps and the side of a sharp frustum.
+
+    Rims have names only so that the numbers of the features agree with those of the parts.
     """
+    numbers = seen_by(first, second.core)
+    values: dict[str, Value] = {"frustum": numbers, **_core_of(first, second)}
+    for i in range(len(second.core.vertices)):
+        names = tuple(f"{part} and vertex {i}" for part in part_names(numbers))
+        of_vertex = {**values, "vertex": float(i), "lengths": star_lengths(second.core, i)}
+        yield FeaturePair(evaluate_vertex_over_frustum, of_vertex, names)
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
 
-    first: Numbers
-    radius: float
-    place: tuple[float, float, float]
-    star: Numbers
-    size: float
-    name: str
+def _of_vertices(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
+    """Yield the contacts of all vertices of a core as spheres or points."""
+    core, numbers, size = second.core, seen_by(first, second.core), size_of_both(first, second)
+    for i, place in enumerate(core.vertices):
+        yield rounded_vertex(numbers, second.sweep, place, star_of(core, i), size, f"vertex {i}")
 
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of all vertices, of all edges with side and rims, and of rims, feet and apex."""
-        assert isinstance(first, Frustum)
-        assert isinstance(second, SweptPolytope)
-        core, size, numbers = second.core, size_of_both(first, second), seen_by(first, second.core)
-        check_number(len(core.edges))
-        vertices = (
-            cls(numbers, second.sweep, place, star_of(core, i), size, f"vertex {i}")
-            for i, place in enumerate(core.vertices)
-        )
-        others = (kind.between(first, second) for kind in (FlankEdge, RimEdge, RimFace, ApexSwept))
-        return tuple(itertools.chain(vertices, *others))
 
-    def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both bodies by the names of the evaluator's arguments."""
-        x, y, z = self.place
-        return {
-            "first": self.first,
-            "radius": self.radius,
-            "x": x,
-            "y": y,
-            "z": z,
-            "n_star": float(len(self.star) // 3),
-            "star": self.star,
-            "size": self.size,
-        }
+def rounded_vertex(
+    numbers: tuple[float, ...],
+    radius: float,
+    place: tuple[float, ...],
+    star: tuple[float, ...],
+    size: float,
+    name: str,
+) -> FeaturePair:
+    """Return the contact of a vertex with a frustum.
 
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate
+    ``numbers`` are those of the frustum, ``place`` is the vertex [m] and ``radius`` its radius [m]; ``star`` holds the
+    unit vectors along its edges.  ``size`` is the size of the bodies [m].
+    """
+    values: dict[str, Value] = {"first": numbers, "radius": radius, "place": place, "star": star, "size": size}
+    names = tuple(f"{part} and {name}" for part in part_names(numbers))
+    return FeaturePair(evaluate_rounded_vertex, {**values, "n_star": float(len(star) // 3)}, names)
 
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the frustum's parts, from the lower cap to the upper one, with the other feature."""
-        return tuple(f"{part} and {self.name}" for part in part_names(self.first))
+
+def _of_apex(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
+    """Yield the contact of a cone's apex with the nearest face or edge; a vertex has a contact of its own.
+
+    Vertices have names only so that the numbers of the features agree with the tables.
+    """
+    numbers = first.frustum
+    if numbers[SIDE] > 0.0 and numbers[1] == 0.0:
+        core, values = second.core, _core_of(first, second)
+        counts = ("face", len(core.planes)), ("edge", len(core.edges)), ("vertex", len(core.vertices))
+        names = tuple(f"apex and {kind} {i}" for kind, n in counts for i in range(n))
+        yield FeaturePair(evaluate_apex_over_core, {"first": numbers, "sweep": second.sweep, **values}, names)

@@ -8,15 +8,13 @@ capsule.
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, SIN, SWEEP, Frustum
-from ...shapes.polyhedron import SweptPolytope
-from ...vectors import Vector3, put, vector_at
+from ...shapes.frustum import COS, HIGH, LOW, SIN, SWEEP
+from ...vectors import Vector3, ahead, dot, minus, over, put, size_of, times, vector_at
 from ..features.edge_crossing import ASTRAY, PARALLEL, edge_astray
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG, START
@@ -26,14 +24,12 @@ from ..smooth.smooth_core import Axes, back, forth
 from .frustum import (
     axis_in_world,
     center_in_world,
-    middle_in_world,
+    on_axis_in_world,
     separation_by,
     separation_over_caps,
     separation_over_faces,
     write_part,
 )
-
-Point: TypeAlias = tuple[float, float, float]
 
 
 @compiled
@@ -60,30 +56,38 @@ def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, 
 
 @compiled
 def past_disc(
-    one: Floats, first: Floats, other: Floats, second: Floats, up: float, gap: float, p: Point, size: float
+    one: Floats,
+    first: Floats,
+    other: Floats,
+    second: Floats,
+    up: float,
+    gap: float,
+    p: Vector3,
+    is_tip: bool,
+    size: float,
 ) -> float:
     """Return the distance of a contact of a disc's face past its boundary [m]; negative if it is valid.
 
     The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
-    the frustum ``one`` that is lowest over the face, ``gap`` its height [m].  A foot on the far side of a disc is not
-    its lowest point.  If the gap is negative, the line from p to the middle of the frustum must lead back through the
-    disc.
+    the frustum ``one`` that is lowest over the face, or the tip of a foot or cone (``is_tip``); ``gap`` is its height
+    [m].  If p lies below the face, the line from p to the middle of the frustum must lead back through the disc, and
+    the rim of the disc must lie below that line.  Discs in one plane touch with the faces of both sides; the engine
+    takes those that met.
     """
-    ax, ay, az = axis_in_world(other, second)
-    kx, ky, kz = center_in_world(other, second)
-    x, y, z = middle_in_world(one, first)
-    height = up * (ax * (x - kx) + ay * (y - ky) + az * (z - kz))
-    if height < gap - REACH * size:
+    axis, own_axis = axis_in_world(other, second), axis_in_world(one, first)
+    center, middle = center_in_world(other, second), on_axis_in_world(one, first, 0.5 * (first[LOW] + first[HIGH]))
+    height, to_middle = up * dot(axis, minus(middle, center)), minus(middle, p)
+    # the middle of a frustum is above its lowest point; the end of a frustum with a tip must face the disc
+    if height < gap - REACH * size or (is_tip and up * dot(to_middle, own_axis) * dot(own_axis, axis) < 0.0):
         return size
-    if gap > 0.0:
+    if gap >= -REACH * size:
         return -size
     # rounded bodies on the other side of the plane are apart
-    if height <= 0.0 or first[SWEEP] + second[SWEEP] > 0.0:
+    if height <= REACH * size or first[SWEEP] + second[SWEEP] > 0.0:
         return size
-    back = gap / (gap - height)
-    x, y, z = p[0] + back * (x - p[0]) - kx, p[1] + back * (y - p[1]) - ky, p[2] + back * (z - p[2]) - kz
-    _, away, _ = across((x, y, z), (ax, ay, az))
-    return float(past_border(away - second[0], 0.0, size))
+    _, away, _ = across(minus(ahead(p, gap / (gap - height), to_middle), center), axis)
+    # the rim of a disc that only touches the frustum lies below its surface by round-off
+    return float(REACH * size - (second[0] - away) * (height - gap) / size_of(to_middle))
 
 
 @compiled
@@ -97,6 +101,42 @@ def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat:
     if flat:
         return -radial
     return float(max(-radial, -up * (frustum[COS] * axial - frustum[SIN] * radial)))
+
+
+@compiled
+def gap_past_end(gap: float, past: float) -> float:
+    """Return the gap of a contact [m], or its substitute ``past`` [m] past the end of its features: a positive number.
+
+    A contact past its end is not valid, so that it must be open.  The substitute is continuous if the end is crossed at
+    a gap that is not negative.
+    """
+    return math.hypot(gap, past) if past > 0.0 else gap
+
+
+@compiled
+def write_contact(
+    a: Floats, out: Floats, gap: float, past: float, feature: float, normal: Vector3, point: Vector3, of_second: bool
+) -> None:
+    """Write the geometry block of a contact, except the curvature matrices.
+
+    Parameters
+    ----------
+    a, out : Floats
+        Frame block of the first body, and the geometry block.
+    gap, past : float
+        Gap (:func:`gap_past_end`), and distance past the end of the features [m].
+    feature : float
+        Number of the pair of features.
+    normal, point : Vector3
+        Normal from the first to the second body, and the contact point of one of them, in the world [m].
+    of_second : bool
+        Whether the contact point is that of the second body.
+    """
+    out[GAP], out[FEATURE], out[PAST_END] = gap, feature, past
+    put(out, NORMAL, normal)
+    put(out, POINT_B if of_second else POINT_A, point)
+    put(out, POINT_A if of_second else POINT_B, ahead(point, -gap if of_second else gap, normal))
+    write_tangent(a, out)
 
 
 @compiled
@@ -115,21 +155,11 @@ def write_two(
 
     ``distance`` is the distance of the cores [m] along ``normal``, from the point p on the core of ``one`` to the core
     of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  ``past`` is the distance past the boundary
-    of the features [m].  A contact with a positive ``past`` is not valid, so it gets a positive gap.
+    of the features [m].
     """
-    (nx, ny, nz), (px, py, pz) = normal, p
     sweep = one[SWEEP]
-    gap = distance - sweep - two[SWEEP]
-    if past > 0.0:
-        gap = math.sqrt(gap * gap + past * past)
-    px, py, pz = px + sweep * nx, py + sweep * ny, pz + sweep * nz
-    sign = 1.0 - 2.0 * swap
-    own, other = 7 + int(3.0 * swap), 10 - int(3.0 * swap)
-    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    put(out, NORMAL, (sign * nx, sign * ny, sign * nz))
-    put(out, own, (px, py, pz))
-    put(out, other, (px + gap * nx, py + gap * ny, pz + gap * nz))
-    write_tangent(a, out)
+    gap, point = gap_past_end(distance - sweep - two[SWEEP], past), ahead(p, sweep, normal)
+    write_contact(a, out, gap, past, 0.0, times(1.0 - 2.0 * swap, normal), point, swap == 1.0)
 
 
 @compiled
@@ -142,45 +172,32 @@ def write_side(
     the contact point, of any length.  ``normal`` is the outward normal there, ``away`` the distance of the point from
     the axis [m].
     """
-    (ax, ay, az), (x, y, z), (nx, ny, nz) = axis, place, normal
-    along = x * ax + y * ay + z * az
-    x, y, z = x - along * ax, y - along * ay, z - along * az
-    length = math.sqrt(x * x + y * y + z * z)
+    outward = ahead(place, -dot(place, axis), axis)
+    length = size_of(outward)
     radial = 0.0
     if length > 0.0:
-        x, y, z = x / length, y / length, z / length
-        radial = nx * x + ny * y + nz * z
+        outward = over(outward, length)
+        radial = dot(normal, outward)
     side = SIDE_B if second == 1.0 else SIDE_A
-    write_part(out, side, part, axis, (x, y, z), radial, away)
+    write_part(out, side, part, axis, outward, radial, away)
     write_sweep(out, side, frustum[SWEEP])
 
 
-def size_of_both(first: Frustum, second: SweptPolytope) -> float:
-    """Return the size of the larger body [m]."""
-    return max(second.core.size + 2.0 * second.sweep, 2.0 * first.extent)
-
-
 @compiled
-def edge_in_frustum(
-    b: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float
-) -> tuple[float, float, float, float, float, float]:
+def edge_in_frustum(b: Floats, edge: Floats, axes: Axes, center: Vector3) -> tuple[Vector3, Vector3]:
     """Return the start of an edge [m] and its unit vector, from the centre and in the axes of the frustum."""
-    x, y, z = point_in_world(b, vector_at(edge, START))
-    x, y, z = back(axes, (x - cx, y - cy, z - cz))
-    dx, dy, dz = vector_in_world(b, vector_at(edge, ALONG))
-    dx, dy, dz = back(axes, (dx, dy, dz))
-    return x, y, z, dx, dy, dz
+    start = minus(point_in_world(b, vector_at(edge, START)), center)
+    return back(axes, start), back(axes, vector_in_world(b, vector_at(edge, ALONG)))
 
 
 @compiled
-def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz: float) -> float:
+def astray_of_edge(b: Floats, edge: Floats, axes: Axes, normal: Vector3) -> float:
     """Return the sine of the angle between a contact normal and an edge's fan of normals; negative inside the fan.
 
-    The contact normal (nx, ny, nz), in the axes of the frustum, points from the frustum to the edge.  The fan lies
-    between the normals of the two faces of the edge.
+    The contact normal, in the axes of the frustum, points from the frustum to the edge.  The fan lies between the
+    normals of the two faces of the edge.
     """
-    nx, ny, nz = forth(axes, (nx, ny, nz))
-    return float(edge_astray(b, edge, 0, -1.0, nx, ny, nz))
+    return float(edge_astray(b, edge, 0, -1.0, *forth(axes, normal)))
 
 
 @compiled
@@ -188,28 +205,25 @@ def past_end(
     a: Floats,
     b: Floats,
     frustum: Floats,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    core: Floats,
+    is_convex: bool,
     gap: float,
-    over: float,
+    over_end: float,
     sine: float,
     astray: float,
     size: float,
 ) -> float:
     """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
-    The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over`` the distance past the ends
-    of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.  ``astray`` is
-    the sine of the angle between the contact normal and the fans of normals of the features.  A crossing below zero is
-    not valid if the cores overlap less along the normal of a cap of the frustum or of one of the ``faces`` of the core
-    with the edge.  A core that need not be convex has no vertices here.
+    The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over_end`` the distance past the
+    ends of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.
+    ``astray`` is the sine of the angle between the contact normal and the fans of normals of the features.  If the
+    body with the edge is convex, it has a ``core``.  A crossing below zero is then not valid if the cores overlap less
+    along the normal of a cap of the frustum or of a face of the core.
     """
-    past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
-    if past <= 0.0 and gap < -REACH * size and n_vertices > 0.0:
-        best = separation_over_faces(a, b, frustum, n_faces, faces)
-        best = max(best, separation_over_caps(a, b, frustum, n_vertices, vertices))
+    past = max(over_end - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
+    if past <= 0.0 and gap < -REACH * size and is_convex:
+        best = max(separation_over_faces(a, b, frustum, core), separation_over_caps(a, b, frustum, core))
         past = max(past, best - gap - REACH * size)
     return past
 
@@ -236,16 +250,7 @@ def write_crossing(
     If it is small, the point of crossing moves 1 / sine times as fast as the bodies.  Past the boundary, the gap is
     therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.
     """
-    (nx, ny, nz), (px, py, pz) = normal, p
-    sweep = frustum[SWEEP]
-    gap = distance - radius - sweep
-    if past > 0.0:
-        gap = math.hypot(gap, max(PARALLEL, sine) * past)
-    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    put(out, NORMAL, forth(axes, (nx, ny, nz)))
-    put(out, POINT_A, (px + sweep * out[NORMAL], py + sweep * out[NORMAL + 1], pz + sweep * out[NORMAL + 2]))
-    for i in range(3):
-        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
-    write_tangent(a, out)
-    ex, ey, ez = vector_in_world(b, vector_at(edge, ALONG))
-    write_principal(out, SIDE_B, ex, ey, ez, 0.0, 1.0, 1.0, radius)
+    sweep, outward = frustum[SWEEP], forth(axes, normal)
+    gap = gap_past_end(distance - radius - sweep, max(PARALLEL, sine) * past)
+    write_contact(a, out, gap, past, 0.0, outward, ahead(p, sweep, outward), False)
+    write_principal(out, SIDE_B, *vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

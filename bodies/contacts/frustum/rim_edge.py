@@ -7,29 +7,18 @@ of a normal to the ellipse through that point.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import ClassVar, final
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import SIDE_A
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from ...shapes.polyhedron import SweptPolytope
-from ..features.polytope_tables import LENGTH, ConvexCore, Numbers, edge_rows
+from ...shapes.frustum import SIDE, SWEEP
+from ...vectors import ahead, dot, minus, opposite, over, plus, size_of, times
+from ..features.polytope_tables import LENGTH, edge_at
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, forth
-from .frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, seen_by, write_part
-from .frustum_writing import (
-    astray_of_edge,
-    edge_in_frustum,
-    past_end,
-    size_of_both,
-    write_crossing,
-)
+from .frustum import center_in_world, rim_of, write_part
+from .frustum_writing import astray_of_edge, astray_of_rim, edge_in_frustum, past_end, write_crossing
 
 _STEEP = 0.5
 """Cosine of the angle between edge and axis, above which contacts are sought on the rim's half nearer to the edge.
@@ -83,7 +72,8 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
     return (c if x >= 0.0 else -c), s, none
 
 
-def evaluate_rim_edge(
+@compiled
+def write_edge_across_rim(
     a: Floats,
     b: Floats,
     out: Floats,
@@ -92,158 +82,108 @@ def evaluate_rim_edge(
     half: float,
     edge: Floats,
     radius: float,
-    n_faces: float,
-    faces: Floats,
-    n_vertices: float,
-    vertices: Floats,
+    core: Floats,
+    is_convex: bool,
     size: float,
 ) -> None:
-    """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses one half of a rim."""
-    axes = axes_in_world(a, frustum)
-    cx, cy, cz = center_in_world(a, frustum)
-    vx, vy, vz, dx, dy, dz = edge_in_frustum(b, edge, axes, cx, cy, cz)
-    part = int(rim)
-    wide, height, up = frustum[0], frustum[LOW], -1.0
-    if part == HIGH_RIM:
-        wide, height, up = frustum[1], frustum[HIGH], 1.0
+    """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses one half of a rim.
+
+    An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of both bodies, and the geometry block.
+    frustum : Floats
+        The first body, with its rims set back by its feet (:func:`bodies.contacts.frustum.frustum.set_back`).
+    rim : float
+        1 for the lower rim, 3 for the upper one.
+    half : float
+        1 for the half circle towards which the edge points, seen along the axis; -1 for the opposite half circle.  For
+        an edge at less than 60 degrees to the axis, 1 is the half circle nearer to the edge, and -1 has no contact.
+    edge : Floats
+        Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
+    radius : float
+        Radius about the edge [m].
+    core, is_convex : Floats, bool
+        The core with the edge, which is used if the body is convex.
+    size : float
+        Size of the bodies [m].
+    """
+    axes, center = axes_in_world(a, frustum), center_in_world(a, frustum)
+    start, d = edge_in_frustum(b, edge, axes, center)
+    wide, height, up = rim_of(frustum, rim)
     # g: perpendicular to the edge, in the rim's plane; f: the edge's projection; h: perpendicular to g and the edge
-    across = math.sqrt(dx * dx + dy * dy)
-    fx, fy = (dx / across, dy / across) if across > 0.0 else (1.0, 0.0)
+    across = math.sqrt(d[0] * d[0] + d[1] * d[1])
+    fx, fy = (d[0] / across, d[1] / across) if across > 0.0 else (1.0, 0.0)
     gx, gy = -fy, fx
-    hx, hy, hz = -dz * gy, dz * gx, dx * gy - dy * gx
-    short = hx * fx + hy * fy
+    h = (-d[2] * gy, d[2] * gx, d[0] * gy - d[1] * gx)
+    short = h[0] * fx + h[1] * fy
     if short < 0.0:
-        hx, hy, hz, short = -hx, -hy, -hz, -short
-    along = vx * gx + vy * gy
-    over_rim = vx * hx + vy * hy + (vz - height) * hz
+        h, short = opposite(h), -short
+    along = start[0] * gx + start[1] * gy
+    over_rim = start[0] * h[0] + start[1] * h[1] + (start[2] - height) * h[2]
     # an edge nearly in the plane of the rim can cross both half circles: this contact takes the one given by ``half``
     side = half
     if short > _STEEP:
         side = half * (1.0 if over_rim >= 0.0 else -1.0)
     cosine, sine, none = foot_on_ellipse(wide, wide * short, along, side * over_rim)
     sine *= side
-    ex, ey = cosine * gx + sine * fx, cosine * gy + sine * fy
-    tx, ty = -ey, ex
+    e = (cosine * gx + sine * fx, cosine * gy + sine * fy, 0.0)
     # the normal is perpendicular to the rim's tangent and to the edge
-    nx, ny, nz = ty * dz, -tx * dz, tx * dy - ty * dx
-    crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
-    px, py, pz = wide * ex, wide * ey, height
-    s = (px - vx) * dx + (py - vy) * dy + (pz - vz) * dz
-    wx, wy, wz = vx + s * dx - px, vy + s * dy - py, vz + s * dz - pz
+    n = (e[0] * d[2], e[1] * d[2], -e[1] * d[1] - e[0] * d[0])
+    crossing, p = size_of(n), (wide * e[0], wide * e[1], height)
+    s = dot(minus(p, start), d)
+    w = minus(ahead(start, s, d), p)
     total = radius + frustum[SWEEP]
     if total == 0.0 and crossing > 1e-6:
-        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
+        n = over(n, crossing)
     else:
         # rounded bodies, or an edge along the rim's tangent: the normal is along the line between both points, or
         # radial if the points coincide
-        apart = math.sqrt(wx * wx + wy * wy + wz * wz)
-        nx, ny, nz = (wx / apart, wy / apart, wz / apart) if apart > 1e-9 * size else (ex, ey, 0.0)
+        apart = size_of(w)
+        n = over(w, apart) if apart > 1e-9 * size else e
     if total > 0.0:
         # a rounded edge along the tangent touches the rim at a single point, so the crossing is well defined
         crossing = 1.0
-    ahead = nx * wx + ny * wy + nz * wz
+    height_over = dot(n, w)
     astray, flip = 2.0, 1.0
     for sign in (-1.0, 1.0):
-        if total > 0.0 and sign * ahead < 0.0:
+        if total > 0.0 and sign * height_over < 0.0:
             # rounded bodies: the normal must point from the rim to the edge, so skip the opposite sign
             continue
-        radial, axial = sign * (ex * nx + ey * ny), sign * nz
-        off = max(-radial, astray_of_edge(b, edge, axes, sign * nx, sign * ny, sign * nz))
-        if frustum[SIDE] > 0.0:
-            off = max(off, -up * (frustum[COS] * axial - frustum[SIN] * radial))
+        radial = sign * (e[0] * n[0] + e[1] * n[1])
+        off = astray_of_rim(frustum, up, radial, sign * n[2], frustum[SIDE] == 0.0)
+        off = max(off, astray_of_edge(b, edge, axes, times(sign, n)))
         if off < astray:
             astray, flip = off, sign
-    nx, ny, nz = flip * nx, flip * ny, flip * nz
-    gap = flip * ahead
-    over = max(-s, s - edge[LENGTH])
+    n, gap = times(flip, n), flip * height_over
+    over_end = max(-s, s - edge[LENGTH])
     if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
-        over = size
-    qx, qy, qz = forth(axes, (px, py, pz))
-    past = past_end(a, b, frustum, n_faces, faces, n_vertices, vertices, gap, over, crossing, astray, size)
-    qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, (nx, ny, nz), (qx, qy, qz))
-    ux, uy, uz = forth(axes, (ex, ey, 0.0))
-    write_part(out, SIDE_A, part, (axes[2], axes[5], axes[8]), (ux, uy, uz), ex * nx + ey * ny, wide)
+        over_end = size
+    past = past_end(a, b, frustum, core, is_convex, gap, over_end, crossing, astray, size)
+    point = plus(center, forth(axes, p))
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, n, point)
+    axis, radial = (axes[2], axes[5], axes[8]), e[0] * n[0] + e[1] * n[1]
+    write_part(out, SIDE_A, int(rim), axis, forth(axes, e), radial, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])
 
 
-@final
-@dataclass(frozen=True)
-class RimEdge(ContactKinematics):
-    """Contact of an edge of the second body that crosses one half of a rim of the first.
+def evaluate_edge_across_rim(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    rim: float,
+    half: float,
+    core: Floats,
+    edge: float,
+    radius: float,
+    size: float,
+) -> None:
+    """Write the geometry block of an edge of a core, by number, that crosses one half of a rim.
 
-    An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.
-
-    Attributes
-    ----------
-    frustum : tuple of float
-        The first body, with its rims set back by its feet (:func:`bodies.contacts.frustum.frustum.set_back`).
-    rim : int
-        1 for the lower rim, 3 for the upper one.
-    half : float
-        1 for the half circle towards which the edge points, seen along the axis; -1 for the opposite half circle.  For
-        an edge at less than 60 degrees to the axis, 1 is the half circle nearer to the edge, and -1 has no contact.
-    edge : tuple of float
-        Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
-    radius : float
-        Radius about the edge [m].
-    core : ConvexCore
-        Faces and vertices of the second body's core; empty for a surface that need not be convex.
-    size : float
-        Size of the bodies [m].
-    name : str
-        Name of the edge.
+    The other parameters are those of :func:`write_edge_across_rim`.
     """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SweptPolytope)
-
-    frustum: Numbers
-    rim: int
-    half: float
-    edge: Numbers
-    radius: float
-    core: ConvexCore
-    size: float
-    name: str
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of both halves of each rim with each edge."""
-        assert isinstance(first, Frustum)
-        assert isinstance(second, SweptPolytope)
-        numbers, core, size = seen_by(first, second.core), ConvexCore.of(second.core), size_of_both(first, second)
-        return tuple(
-            contact
-            for i, row in enumerate(edge_rows(second.core))
-            for contact in cls.of_rims(numbers, row, second.sweep, core, size, f"edge {i}")
-        )
-
-    @classmethod
-    def of_rims(
-        cls, frustum: Numbers, edge: Numbers, radius: float, core: ConvexCore, size: float, name: str
-    ) -> tuple[RimEdge, ...]:
-        """Return the contacts of both halves of each rim with one edge; a disc has one rim, an apex is not a rim."""
-        rims = [LOW_RIM, HIGH_RIM] if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else [LOW_RIM]
-        return tuple(cls(frustum, rim, half, edge, radius, core, size, name) for rim in rims for half in (1.0, -1.0))
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both bodies by the names of the evaluator's arguments."""
-        return {
-            "frustum": self.frustum,
-            "rim": float(self.rim),
-            "half": self.half,
-            "edge": self.edge,
-            "radius": self.radius,
-            **self.core.values(),
-            "size": self.size,
-        }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Newton's method for one angle, between bounds."""
-        return evaluate_rim_edge
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Name of the only pair of features."""
-        return (f"{RIM_NAMES[self.rim]} and {self.name}",)
+    row = block_at(core, edge_at(core, edge))
+    write_edge_across_rim(a, b, out, frustum, rim, half, row, radius, core, True, size)

@@ -8,24 +8,18 @@ point, then Newton's method between bounds finds it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from ...vectors import Vector3
+from ...shapes.frustum import COS, SIDE, SIN, SWEEP
+from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, size_of, times
 from ..features.edge_crossing import PARALLEL
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across
-from ..features.polytope_tables import Numbers
 from ..features.vertex_face import CLOSED, REACH
 from ..smooth.smooth_core import axes_in_world, back, forth
-from .frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, set_back
+from .frustum import FLANK, LOW_RIM, center_in_world, rim_of
 from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
 
 _BOTH = 1e-9
@@ -42,6 +36,13 @@ _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 
 
 @compiled
+def _round(g: Vector3, h: Vector3, angle: float) -> tuple[Vector3, Vector3]:
+    """Return the unit vector g cos(angle) + h sin(angle), and its derivative by the angle."""
+    c, s = math.cos(angle), math.sin(angle)
+    return plus(times(c, g), times(s, h)), minus(times(c, h), times(s, g))
+
+
+@compiled
 def _slope(
     wide: float, radius: float, middle: Vector3, g: Vector3, h: Vector3, angle: float
 ) -> tuple[float, float, float]:
@@ -52,17 +53,14 @@ def _slope(
     with the radius ``wide`` [m].  The slope [m] is the derivative of the squared distance by the angle, over 2
     ``radius``.  The curvature [m] is the derivative of the slope by the angle.
     """
-    (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
-    c, s = math.cos(angle), math.sin(angle)
-    ux, uy, uz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
-    tx, ty, tz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
-    x, y, z = cx + radius * ux, cy + radius * uy, cz + radius * uz
+    u, (tx, ty, tz) = _round(g, h, angle)
+    x, y, z = ahead(middle, radius, u)
     away = max(math.sqrt(x * x + y * y), 1e-300)
     square = (away - wide) * (away - wide) + z * z
     part = 1.0 - wide / away
     around = x * tx + y * ty
     slope = part * around + z * tz
-    bend = part * (radius * (tx * tx + ty * ty) - x * ux - y * uy) + radius * tz * tz - z * uz
+    bend = part * (radius * (tx * tx + ty * ty) - x * u[0] - y * u[1]) + radius * tz * tz - z * u[2]
     return square, slope, bend + wide / (away * away * away) * radius * around * around
 
 
@@ -75,49 +73,32 @@ def _link_depth(wide: float, radius: float, center: Vector3, g: Vector3, h: Vect
     circle has the radius ``wide`` [m], about the origin in the plane z = 0.  The first has the given centre [m] and
     ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
     """
-    (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = center, g, h
-    size = radius * math.sqrt(gz * gz + hz * hz)
-    if abs(cz) >= size:
+    size = radius * math.sqrt(g[2] * g[2] + h[2] * h[2])
+    if abs(center[2]) >= size:
         return 0.0
-    middle, turn = math.atan2(hz, gz), math.acos(-cz / size)
+    middle, turn = math.atan2(h[2], g[2]), math.acos(-center[2] / size)
     least, most = math.inf, -math.inf
     for sign in (-1.0, 1.0):
         c, s = radius * math.cos(middle + sign * turn), radius * math.sin(middle + sign * turn)
-        depth = wide - math.hypot(cx + c * gx + s * hx, cy + c * gy + s * hy)
+        x, y, _ = ahead(ahead(center, c, g), s, h)
+        depth = wide - math.hypot(x, y)
         least, most = min(least, depth), max(most, depth)
     return most if least < 0.0 < most else 0.0
 
 
-def _evaluate(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    first: Floats,
-    rim_a: float,
-    second: Floats,
-    rim_b: float,
-    half: float,
-    size: float,
-) -> None:
-    own_axes, axes = axes_in_world(a, first), axes_in_world(b, second)
-    ox, oy, oz = center_in_world(a, first)
-    kx, ky, kz = center_in_world(b, second)
-    up_a, up_b = (1.0 if rim_a > 2.0 else -1.0), (1.0 if rim_b > 2.0 else -1.0)
-    radius, height = (first[1], first[HIGH]) if rim_a > 2.0 else (first[0], first[LOW])
-    wide, level = (second[1], second[HIGH]) if rim_b > 2.0 else (second[0], second[LOW])
-    # centre of the first rim, from the centre of the second, and axis of the first, in the axes of the second body
-    cx, cy, cz = back(axes, (ox - kx, oy - ky, oz - kz))
-    ax, ay, az = back(axes, (own_axes[2], own_axes[5], own_axes[8]))
-    cx, cy, cz = cx + height * ax, cy + height * ay, cz + height * az - level
-    # g: unit vector in the plane of the first rim, towards the second rim's centre; h: perpendicular to it
-    _, _, (gx, gy, gz) = across((-cx, -cy, -cz), (ax, ay, az))
-    hx, hy, hz = half * (ay * gz - az * gy), half * (az * gx - ax * gz), half * (ax * gy - ay * gx)
+@compiled
+def _nearest_angle(wide: float, radius: float, middle: Vector3, g: Vector3, h: Vector3) -> float:
+    """Return the angle round half of the first circle at the least distance from the other circle [rad].
+
+    The arguments are those of :func:`_slope`.  The half begins and ends at the line of centres.  The result may lie
+    outside of the half, or may be no minimum.
+    """
     low, high = -_BOTH, math.pi + _BOTH
     begin, step, angle = low, (high - low) / _SAMPLES, low
     for _ in range(_LEVELS):
         best, curved, chosen = math.inf, 0.0, 0
         for i in range(_SAMPLES + 1):
-            square, _, bend = _slope(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz), begin + i * step)
+            square, _, bend = _slope(wide, radius, middle, g, h, begin + i * step)
             if square < best:
                 best, curved, chosen = square, bend, i
         angle = begin + chosen * step
@@ -128,7 +109,7 @@ def _evaluate(
         step /= _SAMPLES
     least, most = angle - step, angle + step
     for _ in range(_STEPS):
-        _, slope, bend = _slope(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz), angle)
+        _, slope, bend = _slope(wide, radius, middle, g, h, angle)
         if slope > 0.0:
             most = angle
         else:
@@ -139,49 +120,86 @@ def _evaluate(
         if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):
             break
         angle = after
+    return angle
+
+
+def evaluate_rims(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    first: Floats,
+    rim_a: float,
+    second: Floats,
+    rim_b: float,
+    half: float,
+    size: float,
+) -> None:
+    """Write the geometry block of a rim of each body that cross, on one side of the line of the rims' centres.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of both bodies, and the geometry block.
+    first, second : Floats
+        The bodies (:func:`bodies.shapes.frustum.frustum_numbers`).
+    rim_a, rim_b : float
+        1 for the lower rim, 3 for the upper one.
+    half : float
+        1 or -1, for the half circle of the first rim on one side or the other of the line of centres.
+    size : float
+        Size of the bodies [m].
+    """
+    own_axes, axes = axes_in_world(a, first), axes_in_world(b, second)
+    own_axis, place = (own_axes[2], own_axes[5], own_axes[8]), center_in_world(b, second)
+    (radius, height, up_a), (wide, level, up_b) = rim_of(first, rim_a), rim_of(second, rim_b)
+    # centre of the first rim, from the centre of the second, and axis of the first, in the axes of the second body
+    axis = back(axes, own_axis)
+    cx, cy, cz = ahead(back(axes, minus(center_in_world(a, first), place)), height, axis)
+    middle = (cx, cy, cz - level)
+    # g: unit vector in the plane of the first rim, towards the second rim's centre; h: perpendicular to it
+    _, _, g = across(opposite(middle), axis)
+    h = times(half, cross(axis, g))
+    angle = _nearest_angle(wide, radius, middle, g, h)
     total = first[SWEEP] + second[SWEEP]
     are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
     # discs in one plane touch on the line of centres, where their rims are parallel; other discs cross or pass by
-    is_edge_to_edge = are_discs and ax * ax + ay * ay <= CLOSED and abs(cz + radius * gz) <= CLOSED * size
+    is_parallel = axis[0] * axis[0] + axis[1] * axis[1] <= CLOSED
+    is_edge_to_edge = are_discs and is_parallel and abs(middle[2] + radius * g[2]) <= CLOSED * size
     if is_edge_to_edge:
         angle = 0.0
-    c, s = math.cos(angle), math.sin(angle)
-    ux, uy, uz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
-    tx, ty, tz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
-    x, y, z = cx + radius * ux, cy + radius * uy, cz + radius * uz
-    away = math.sqrt(x * x + y * y)
-    ex, ey = (x / away, y / away) if away > 0.0 else (1.0, 0.0)
-    wx, wy, wz = wide * ex - x, wide * ey - y, -z
+    u, t = _round(g, h, angle)
+    point = ahead(middle, radius, u)
+    away = math.sqrt(point[0] * point[0] + point[1] * point[1])
+    e = (point[0] / away, point[1] / away, 0.0) if away > 0.0 else (1.0, 0.0, 0.0)
+    w = (wide * e[0] - point[0], wide * e[1] - point[1], -point[2])
     # normal: cross product of both tangents; the tangent of the second circle is (-ey, ex, 0)
-    nx, ny, nz = -tz * ex, -tz * ey, tx * ex + ty * ey
-    crossing = math.sqrt(nx * nx + ny * ny + nz * nz)
-    apart = math.sqrt(wx * wx + wy * wy + wz * wz)
+    n = (-t[2] * e[0], -t[2] * e[1], t[0] * e[0] + t[1] * e[1])
+    crossing, apart = size_of(n), size_of(w)
     # rounded rims that lie on each other along the whole circle are left to the contacts of rims over caps
-    is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(wx * wx + wy * wy) < FLATTEST * apart
+    is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(w[0] * w[0] + w[1] * w[1]) < FLATTEST * apart
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
-        nx, ny, nz, crossing = wx / apart, wy / apart, wz / apart, 1.0
+        n, crossing = over(w, apart), 1.0
     elif is_edge_to_edge or crossing <= PARALLEL:
-        nx, ny, nz, crossing = ux, uy, uz, 1.0 if is_edge_to_edge else 0.0
+        n, crossing = u, 1.0 if is_edge_to_edge else 0.0
     else:
-        nx, ny, nz = nx / crossing, ny / crossing, nz / crossing
+        n = over(n, crossing)
     astray, flip = 3.0, 1.0
     for sign in (-1.0, 1.0):
-        if total > 0.0 and sign * (nx * wx + ny * wy + nz * wz) < 0.0:
+        if total > 0.0 and sign * dot(n, w) < 0.0:
             continue
-        radial, axial = sign * (nx * ux + ny * uy + nz * uz), sign * (nx * ax + ny * ay + nz * az)
-        off = astray_of_rim(first, up_a, radial, axial, first[SIDE] == 0.0)
-        radial = -sign * (nx * ex + ny * ey)
-        off = max(off, astray_of_rim(second, up_b, radial, -sign * nz, second[SIDE] == 0.0))
+        off = astray_of_rim(first, up_a, sign * dot(n, u), sign * dot(n, axis), first[SIDE] == 0.0)
+        radial = -sign * (n[0] * e[0] + n[1] * e[1])
+        off = max(off, astray_of_rim(second, up_b, radial, -sign * n[2], second[SIDE] == 0.0))
         if off < astray:
             astray, flip = off, sign
-    nx, ny, nz = flip * nx, flip * ny, flip * nz
-    gap = nx * wx + ny * wy + nz * wz
+    n = times(flip, n)
+    gap = dot(n, w)
     past = past_border(-size, astray, size)
     # sines of the angles between the contact normal and the normals of the two sides; a disc has no side
-    radial, axial = nx * ux + ny * uy + nz * uz, nx * ax + ny * ay + nz * az
-    lean = up_a * (first[COS] * axial - first[SIN] * radial) if first[SIDE] > 0.0 else 1.0
-    other = -up_b * (second[COS] * nz - second[SIN] * (nx * ex + ny * ey)) if second[SIDE] > 0.0 else 1.0
+    lean = up_a * (first[COS] * dot(n, axis) - first[SIN] * dot(n, u)) if first[SIDE] > 0.0 else 1.0
+    radial = n[0] * e[0] + n[1] * e[1]
+    other = -up_b * (second[COS] * n[2] - second[SIN] * radial) if second[SIDE] > 0.0 else 1.0
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(lean, other))
@@ -189,9 +207,8 @@ def _evaluate(
         # the normal of nearly parallel rims has an error; if it may be the normal of both sides, the sides touch
         past = max(past, size)
     # there is no minimum within this half of the rim, or Newton's method did not find it
-    none = angle < low or angle > high or abs(wx * tx + wy * ty + wz * tz) > 1e-12 * size or crossing <= PARALLEL
-    none = none or is_ring
-    if none or (is_edge_to_edge and half < 0.0):
+    is_outside = angle < -_BOTH or angle > math.pi + _BOTH or abs(dot(w, t)) > 1e-12 * size
+    if is_outside or crossing <= PARALLEL or is_ring or (is_edge_to_edge and half < 0.0):
         past = max(past, size)
     if gap < 0.0:
         past = max(past, size * (astray - PARALLEL))
@@ -199,77 +216,11 @@ def _evaluate(
         past = max(past, past_depth(a, first, b, second, gap, size))
     if are_discs and gap < 0.0 and not is_edge_to_edge:
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
-        linked = _link_depth(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
-        past = max(past, crossing * (-0.5 * gap - REACH * size) - linked)
-    wx, wy, wz = forth(axes, (nx, ny, nz))
-    px, py, pz = forth(axes, (x, y, z + level))
-    ux, uy, uz = forth(axes, (ux, uy, uz))
-    vx, vy, vz = forth(axes, (ex, ey, 0.0))
-    px, py, pz = kx + px, ky + py, kz + pz
-    write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz))
-    write_side(out, 0.0, first, LOW_RIM, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
+        past = max(past, crossing * (-0.5 * gap - REACH * size) - _link_depth(wide, radius, middle, g, h))
+    normal, from_center = forth(axes, n), forth(axes, (point[0], point[1], point[2] + level))
+    write_two(a, out, 0.0, first, second, gap, past, normal, plus(place, from_center))
+    write_side(out, 0.0, first, LOW_RIM, own_axis, forth(axes, u), normal, radius)
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side: so the normal stays radial while
     # one edge slips over the other
     part = FLANK if is_edge_to_edge else LOW_RIM
-    write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
-
-
-@final
-@dataclass(frozen=True)
-class RimRim(ContactKinematics):
-    """Contact at the crossing of a rim of each body, on one side of the line of the rims' centres.
-
-    Attributes
-    ----------
-    first, second : tuple of float
-        The bodies (:func:`bodies.shapes.frustum.frustum_numbers`).
-    rim_a, rim_b : int
-        1 for the lower rim, 3 for the upper one.
-    half : float
-        1 or -1, for the half circle of the first rim on one side or the other of the line of centres.
-    size : float
-        Size of the bodies [m].
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, Frustum)
-
-    first: Numbers
-    rim_a: int
-    second: Numbers
-    rim_b: int
-    half: float
-    size: float
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
-        """Return the contacts of all rims of one body with all rims of the other; an apex is not a rim."""
-        assert isinstance(first, Frustum)
-        assert isinstance(second, Frustum)
-        # flat faces stand on their feet, not on rims in the same plane
-        one, two = set_back(first), set_back(second)
-        rims = [
-            [LOW_RIM, HIGH_RIM] if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else [LOW_RIM] for numbers in (one, two)
-        ]
-        size = 2.0 * max(first.extent, second.extent)
-        return tuple(cls(one, i, two, j, half, size) for i in rims[0] for j in rims[1] for half in (1.0, -1.0))
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the numbers of both frustums, the rim of each, and the half circle of the first rim to search."""
-        return {
-            "first": self.first,
-            "rim_a": float(self.rim_a),
-            "second": self.second,
-            "rim_b": float(self.rim_b),
-            "half": self.half,
-            "size": self.size,
-        }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Newton's method for one angle, between bounds."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Name of the only pair of features, a rim of each body."""
-        return (f"{RIM_NAMES[self.rim_a]} and {RIM_NAMES[self.rim_b]}",)
+    write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), forth(axes, e), opposite(normal), wide)

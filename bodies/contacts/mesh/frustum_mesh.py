@@ -6,61 +6,73 @@ The mesh need not be convex.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, final
 
-from nonsmooth.interfaces import ContactKinematics, Shape
-from nonsmooth.parameters import SharedNumbers, Value
+from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
-from ...meshes.patches import patches_for_body
+from ...meshes.patches import patches_for_ball, patches_for_body
 from ...meshes.triangles import Triangles
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import SIDE, SWEEP, Frustum, Point
+from ...shapes.frustum import SIDE, SWEEP, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
-from ..frustum.frustum import apex_of, feet_of, set_back
-from ..frustum.frustum_swept import FrustumSwept
-from ..surface.mesh_point import PointMesh
-from ..surface.surface_tables import Numbers, star_of, surface_numbers
-from .apex_mesh import ApexMesh
-from .flank_mesh import FlankMesh
-from .frustum_corner import FrustumCorner
-from .frustum_pairs import FrustumPairs
+from ...vectors import vector_at
+from ..frustum.frustum import apex_of, feet_of, part_names, rims_of, set_back
+from ..frustum.frustum_swept import rounded_vertex
+from ..surface.mesh_point import vertices_over_surface
+from ..surface.surface_tables import Numbers, star_lengths, star_of, surface_numbers
+from .apex_mesh import evaluate_apex_over_patch
+from .frustum_corner import evaluate_corner_over_frustum
+from .frustum_pairs import frustum_pairs
+from .mesh_crossing import crossings_of
 from .mesh_mesh import are_many
-from .rim_mesh import RimMesh
 from .surface_rim import rim_in_surface, rim_under, write_rim
 
 
-def _evaluate(
+def evaluate_rim_over_patch(
     a: Floats,
     b: Floats,
     out: Floats,
     frustum: Floats,
     radius: float,
     up: float,
-    x: float,
-    y: float,
-    z: float,
+    center: Floats,
     surface: Floats,
     patch: float,
 ) -> None:
-    pose = rim_in_surface(a, b, frustum, x, y, z)
-    face, gap, past = rim_under(surface, patch, frustum, radius, up, pose)
-    write_rim(a, b, out, frustum, radius, x, y, z, surface, face, gap, past)
+    """Write the geometry block of a rim, at its lowest point, and a patch of a mesh.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of both bodies, and the geometry block.
+    frustum : Floats
+        Dimensions of the first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    radius : float
+        Radius of the rim [m].
+    up : float
+        1 for the upper rim, else -1.
+    center : Floats
+        Centre of the rim in the body frame [m].
+    surface, patch : Floats, float
+        Tables of the mesh (:mod:`bodies.contacts.surface.surface_tables`), and number of the patch.
+    """
+    place = vector_at(center, 0)
+    face, gap, past = rim_under(surface, patch, frustum, radius, up, rim_in_surface(a, b, frustum, place))
+    write_rim(a, b, out, frustum, radius, place, surface, face, gap, past)
 
 
 @final
-@dataclass(frozen=True)
 class FrustumMesh(ContactKinematics):
-    """The contact of a rim, at its lowest point, with a patch of a mesh.
+    """Contacts of a cylinder, cone or disc with a triangle mesh.
 
     A patch is a group of faces of which the body can touch only one at a time (:mod:`bodies.meshes.patches`).  A
-    cylinder, cone or disc has flat faces, the caps, with small feet.  :meth:`between` returns this contact for each rim
-    and patch, and further contacts of the two bodies:
+    cylinder, cone or disc has flat faces, the caps, with small feet.  The contacts are:
 
-    - feet, and the apex of a cone, over the patches;
+    - rims, at their lowest points, feet, and the apex of a cone, over the patches;
     - corners of the mesh over the caps and the side;
     - convex edges of the mesh across the side and the rims.
 
@@ -68,36 +80,11 @@ class FrustumMesh(ContactKinematics):
     of a rounded body is at a constant distance, the radius of rounding, from a smaller core.  Its apex is a sphere,
     and corners of the mesh also touch its rims and its apex.
 
-    If these contacts are too many, :meth:`between` returns :class:`bodies.contacts.mesh.frustum_pairs.FrustumPairs`
-    instead: only features that are near each other become contacts.
-
-    Attributes
-    ----------
-    frustum : tuple of float
-        Dimensions of the first body (:func:`bodies.shapes.frustum.frustum_numbers`).
-    radius : float
-        Radius of the rim [m].
-    center : tuple of float
-        Centre of the rim in the body frame [m].
-    up : float
-        1 for the upper rim, else -1.
-    surface : SharedNumbers
-        Tables of the mesh (:mod:`bodies.contacts.surface.surface_tables`).
-    patch : int
-        Index of the patch.
-    n_faces : int
-        Number of the faces of the mesh.
+    If these contacts are too many, only features that are near each other become contacts
+    (:mod:`bodies.contacts.mesh.frustum_pairs`).
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
-
-    frustum: Numbers
-    radius: float
-    center: Point
-    up: float
-    surface: SharedNumbers
-    patch: int
-    n_faces: int
 
     @classmethod
     def example(cls) -> Mapping[str, Any]:
@@ -107,80 +94,64 @@ class FrustumMesh(ContactKinematics):
         return {"first": Cylinder(0.1, 0.2), "second": TriangleMesh(tetrahedron)}
 
     @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[ContactKinematics, ...]:
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
         """Return the contacts of rims, feet and apex over patches, of corners, and of edges with side and rims."""
         assert isinstance(first, Frustum)
         assert isinstance(second, TriangleMesh)
         own, numbers = second.features, set_back(first)
         sweep, size = first.frustum[SWEEP], max(own.size, 2.0 * first.extent)
-        if are_many(len(own.edges) * _crossings(numbers) + len(own.corners)):
-            return FrustumPairs.between(first, second)
-        rims = tuple(itertools.chain(*(cls._of_rim(first, numbers, i, own) for i in range(len(first.standing_rims)))))
-        feet = PointMesh.of_vertices(feet_of(first), own, sweep)
-        crossings = *FlankMesh.of_edges(numbers, own, size), *RimMesh.of_edges(numbers, own, size)
-        vertices = _rounded_vertices if sweep > 0.0 else _sharp_vertices
-        return *rims, *feet, *vertices(first, numbers, own, size), *crossings
+        n_crossings = 2 * len(rims_of(numbers)) + (1 if numbers[SIDE] > 0.0 else 0)
+        if are_many(len(own.edges) * n_crossings + len(own.corners)):
+            return frustum_pairs(first, second)
+        feet = vertices_over_surface(1.0, feet_of(first), own, sweep)
+        tips = _of_apex(numbers, own, size) if sweep > 0.0 else vertices_over_surface(1.0, apex_of(first), own, 0.0)
+        others = _of_corners(numbers, own, size), crossings_of(numbers, own, size)
+        return tuple(itertools.chain(_of_rims(first, numbers, own), feet, tips, *others))
 
-    @classmethod
-    def _of_rim(cls, first: Frustum, numbers: Numbers, number: int, second: Features) -> Iterator[FrustumMesh]:
-        radius, center = first.standing_rims[number]
+
+def _of_rims(first: Frustum, numbers: Numbers, second: Features) -> Iterator[FeaturePair]:
+    """Yield the contacts of rims with patches.
+
+    A rim touches faces here; edges and corners have contacts of their own, so patches without faces are left out.
+    """
+    for number, (radius, center) in enumerate(first.standing_rims):
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
-            surface = surface_numbers(second, patches)
-            # a rim touches faces here; edges and corners have contacts of their own, so skip patches without faces
+            values: dict[str, Value] = {"frustum": numbers, "radius": radius, "center": center}
+            values |= {"up": 2.0 * number - 1.0, "surface": surface_numbers(second, patches)}
+            names = tuple(f"{'upper rim' if number else 'rim'} and face {i}" for i in range(len(second.planes)))
             for patch in sorted(set(patches.of_faces)):
-                yield cls(numbers, radius, center, 2.0 * number - 1.0, surface, patch, len(second.planes))
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the dimensions of the frustum and its rim, and the tables of the mesh."""
-        x, y, z = self.center
-        return {
-            "frustum": self.frustum,
-            "radius": self.radius,
-            "up": self.up,
-            "x": x,
-            "y": y,
-            "z": z,
-            "surface": self.surface,
-            "patch": float(self.patch),
-        }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The closed form."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the pairs of features: the rim with each face."""
-        rim = "rim" if self.up < 0.0 else "upper rim"
-        return tuple(f"{rim} and face {i}" for i in range(self.n_faces))
+                yield FeaturePair(evaluate_rim_over_patch, {**values, "patch": float(patch)}, names)
 
 
-def _sharp_vertices(
-    first: Frustum, numbers: Numbers, second: Features, size: float
-) -> tuple[PointMesh | FrustumCorner, ...]:
-    """Return the contacts of a sharp apex and of the corners of the mesh."""
-    return *PointMesh.of_vertices(apex_of(first), second, 0.0), *FrustumCorner.of_corners(numbers, second, size)
+def _of_apex(numbers: Numbers, second: Features, size: float) -> Iterator[FeaturePair]:
+    """Yield the contacts of the round apex of a cone with the nearest face or edge of each patch of a mesh.
 
-
-def _rounded_vertices(
-    _: Frustum, numbers: Numbers, second: Features, size: float
-) -> tuple[ApexMesh | FrustumSwept, ...]:
-    """Return the contacts of a rounded apex, a sphere, and of the corners of the mesh."""
-    places = second.vertices[list(second.corners)].tolist()
-    corners = (
-        FrustumSwept(numbers, 0.0, (x, y, z), tuple(star_of(second, i)), size, f"corner {i}")
-        for i, (x, y, z) in enumerate(places)
-    )
-    return *ApexMesh.of_patches(numbers, second, size), *corners
-
-
-def _crossings(numbers: Numbers) -> int:
-    """Return the number of contacts of one edge of a mesh with the side and the half rims of a frustum.
-
-    ``numbers`` are those of the frustum (:func:`bodies.shapes.frustum.frustum_numbers`).
+    Corners of the mesh have contacts of their own.  They have names only so that the numbers of the features agree with
+    the tables.
     """
-    if numbers[SIDE] == 0.0:
-        return 2
-    return 5 if numbers[1] > 0.0 else 3
+    if numbers[SIDE] > 0.0 and numbers[1] == 0.0:
+        patches = patches_for_ball(second, numbers[SWEEP])
+        values: dict[str, Value] = {"first": numbers, "surface": surface_numbers(second, patches), "size": size}
+        counts = ("face", len(second.planes)), ("edge", len(second.edges)), ("corner", len(second.corners))
+        names = tuple(f"apex and {part} {i}" for part, n in counts for i in range(n))
+        for patch in range(patches.count):
+            yield FeaturePair(evaluate_apex_over_patch, {**values, "patch": float(patch)}, names)
+
+
+def _of_corners(numbers: Numbers, second: Features, size: float) -> Iterator[FeaturePair]:
+    """Yield the contacts of the corners of a mesh with a frustum.
+
+    A corner never touches a rim of a sharp frustum.  Rims have names only so that the numbers of the features agree
+    with those of the parts.
+    """
+    surface = surface_numbers(second, patches_for_body(second, 0.0))
+    for i, place in enumerate(second.vertices[list(second.corners)].tolist()):
+        star, name = tuple(star_of(second, i)), f"corner {i}"
+        if numbers[SWEEP] > 0.0:
+            yield rounded_vertex(numbers, 0.0, tuple(place), star, size, name)
+            continue
+        values: dict[str, Value] = {"frustum": numbers, "place": tuple(place), "n_star": float(len(star) // 3)}
+        values |= {"star": star, "lengths": tuple(star_lengths(second, i)), "surface": surface, "size": size}
+        names = tuple(f"{part} and {name}" for part in part_names(numbers))
+        yield FeaturePair(evaluate_corner_over_frustum, values, names)

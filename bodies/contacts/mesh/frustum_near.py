@@ -9,19 +9,18 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import LOW, SIDE, SIN, SWEEP
-from ...vectors import Vector3, vector_at
+from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, size_of, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import across, point_in_body, vector_in_body
 from ..features.vertex_face import CLOSED
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
+from ..frustum.frustum_polyhedron import has_part, normal_of_part, over_part
 from ..frustum.frustum_writing import astray_of_rim
-from ..surface.surface_search import in_triangle
+from ..surface.surface_search import in_triangle, steepest
 from ..surface.surface_tables import CORNER, CORNERS, FACE, FACES
-from .frustum_corner import over_part
 from .surface_rim import lowest_on_rim
-from .swept_pairs import steepest
 
-FrustumPose: TypeAlias = tuple[float, float, float, float, float, float]
+FrustumPose: TypeAlias = tuple[Vector3, Vector3]
 """Centre [m] and axis of a frustum in the axes of a surface."""
 _HALVINGS = 40
 _PIECES = 16
@@ -33,26 +32,20 @@ _SHARP = 1e-3
 @compiled
 def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
     """Return centre [m] and axis of the first body's frustum in the axes of the second body."""
-    ax, ay, az = axis_in_world(a, frustum)
-    cx, cy, cz = center_in_world(a, frustum)
-    ax, ay, az = vector_in_body(b, (ax, ay, az))
-    cx, cy, cz = point_in_body(b, (cx, cy, cz))
-    return cx, cy, cz, ax, ay, az
+    return point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum))
 
 
 @compiled
-def from_core(frustum: Floats, pose: FrustumPose, x: float, y: float, z: float) -> float:
-    """Return the signed distance of the point (x, y, z) from the frustum [m], without its rounding."""
-    cx, cy, cz, ax, ay, az = pose
-    along, away, _ = across((x - cx, y - cy, z - cz), (ax, ay, az))
+def from_core(frustum: Floats, pose: FrustumPose, point: Vector3) -> float:
+    """Return the signed distance of a point from the frustum [m], without its rounding."""
+    along, away, _ = across(minus(point, pose[0]), pose[1])
     return float(nearest_part(frustum, along, away)[0])
 
 
 @compiled
-def _from_rim(frustum: Floats, upper: int, pose: FrustumPose, x: float, y: float, z: float) -> float:
+def _from_rim(frustum: Floats, upper: int, pose: FrustumPose, point: Vector3) -> float:
     """Return the distance of a point from the lower or the upper rim [m]."""
-    cx, cy, cz, ax, ay, az = pose
-    along, away, _ = across((x - cx, y - cy, z - cz), (ax, ay, az))
+    along, away, _ = across(minus(point, pose[0]), pose[1])
     return math.hypot(along - frustum[LOW + upper], away - frustum[upper])
 
 
@@ -67,19 +60,15 @@ def _swing(radial: float, turn: float) -> float:
 
 
 @compiled
-def _lowest(
-    frustum: Floats, upper: int, pose: FrustumPose, nx: float, ny: float, nz: float
-) -> tuple[float, float, float, float, float]:
+def _lowest(frustum: Floats, upper: int, pose: FrustumPose, n: Vector3) -> tuple[Vector3, float, float]:
     """Return a rim's farthest point along a normal [m], the normal's radial component, and a sine.
 
     The sine is that of the angle between the normal and the fan of normals of the rim, negative inside this fan.
     """
-    cx, cy, cz, ax, ay, az = pose
-    axial, radial, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, 1.0, 0.0, 0.0)
-    height, radius = frustum[LOW + upper], frustum[upper]
+    center, axis = pose
+    axial, radial, outward = lowest_on_rim(n, axis, (1.0, 0.0, 0.0))
     astray = astray_of_rim(frustum, 2.0 * upper - 1.0, radial, axial, frustum[SIDE] == 0.0)
-    x, y, z = cx + height * ax + radius * ex, cy + height * ay + radius * ey, cz + height * az + radius * ez
-    return x, y, z, radial, astray
+    return ahead(ahead(center, frustum[LOW + upper], axis), frustum[upper], outward), radial, astray
 
 
 @compiled
@@ -98,22 +87,18 @@ def rim_is_near(
         Distance from the frustum's core up to which features are near [m], and largest relative rotation of the bodies
         until the next search [rad].
     """
-    t, f = triangle, int(surface[FACES]) + FACE * int(surface[triangle + 9])
-    x, y, z, radial, astray = _lowest(frustum, upper, pose, -surface[f], -surface[f + 1], -surface[f + 2])
+    t, n = triangle, opposite(vector_at(surface, int(surface[FACES]) + FACE * int(surface[triangle + 9])))
+    lowest, radial, astray = _lowest(frustum, upper, pose, n)
     if astray > ASTRAY + turn:
         return False
-    px = (surface[t] + surface[t + 3] + surface[t + 6]) / 3.0
-    py = (surface[t + 1] + surface[t + 4] + surface[t + 7]) / 3.0
-    pz = (surface[t + 2] + surface[t + 5] + surface[t + 8]) / 3.0
-    wide = 0.0
-    for i in range(3):
-        dx, dy, dz = surface[t + 3 * i] - px, surface[t + 3 * i + 1] - py, surface[t + 3 * i + 2] - pz
-        wide = max(wide, math.sqrt(dx * dx + dy * dy + dz * dz))
-    if _from_rim(frustum, upper, pose, px, py, pz) > reach + wide:
+    one, two, three = vector_at(surface, t), vector_at(surface, t + 3), vector_at(surface, t + 6)
+    middle = over(plus(plus(one, two), three), 3.0)
+    wide = max(size_of(minus(one, middle)), size_of(minus(two, middle)), size_of(minus(three, middle)))
+    if _from_rim(frustum, upper, pose, middle) > reach + wide:
         return False
-    px, py, pz, _ = in_triangle(surface, t, x, y, z)
-    way = reach + frustum[upper] * _swing(radial, turn)
-    return bool((x - px) * (x - px) + (y - py) * (y - py) + (z - pz) * (z - pz) <= way * way)
+    x, y, z, _ = in_triangle(surface, t, *lowest)
+    off, way = minus(lowest, (x, y, z)), reach + frustum[upper] * _swing(radial, turn)
+    return bool(dot(off, off) <= way * way)
 
 
 @compiled
@@ -125,19 +110,17 @@ def _edge_comes_near(
     ``reach`` may be negative.  The distance from a convex body is a convex function along a line, so that halvings find
     its minimum.
     """
-    (x, y, z), (dx, dy, dz) = start, direction
-    cx, cy, cz, ax, ay, az = pose
+    center, axis = pose
     low, high = 0.0, length
     for _ in range(_HALVINGS):
         s, half = 0.5 * (low + high), 0.5 * (high - low)
-        along, away, (ex, ey, ez) = across((x + s * dx - cx, y + s * dy - cy, z + s * dz - cz), (ax, ay, az))
+        along, away, outward = across(minus(ahead(start, s, direction), center), axis)
         distance, radial, axial, _ = nearest_part(frustum, along, away)
         if distance <= reach:
             return True
         if distance - half > reach:
             return False
-        slope = radial * (ex * dx + ey * dy + ez * dz) + axial * (ax * dx + ay * dy + az * dz)
-        if slope > 0.0:
+        if radial * dot(outward, direction) + axial * dot(axis, direction) > 0.0:
             high = s
         else:
             low = s
@@ -145,18 +128,15 @@ def _edge_comes_near(
 
 
 @compiled
-def edge_normal(surface: Floats, edge: int) -> tuple[float, float, float, float]:
+def edge_normal(surface: Floats, edge: int) -> tuple[Vector3, float]:
     """Return the unit vector opposite to the mean normal of an edge's two faces, and half of the angle between them."""
-    dx, dy, dz = vector_at(surface, edge + 3)
-    ux, uy, uz = vector_at(surface, edge + 7)
-    vx, vy, vz = vector_at(surface, edge + 10)
-    lx, ly, lz = dy * uz - dz * uy, dz * ux - dx * uz, dx * uy - dy * ux
-    rx, ry, rz = vy * dz - vz * dy, vz * dx - vx * dz, vx * dy - vy * dx
-    nx, ny, nz = lx + rx, ly + ry, lz + rz
-    norm = math.sqrt(nx * nx + ny * ny + nz * nz)
+    along = vector_at(surface, edge + 3)
+    left, right = cross(along, vector_at(surface, edge + 7)), cross(vector_at(surface, edge + 10), along)
+    n = plus(left, right)
+    norm = size_of(n)
     if norm <= _SHARP:
-        return -lx, -ly, -lz, math.pi
-    return -nx / norm, -ny / norm, -nz / norm, math.acos(min(0.5 * norm, 1.0))
+        return opposite(left), math.pi
+    return over(opposite(n), norm), math.acos(min(0.5 * norm, 1.0))
 
 
 @compiled
@@ -169,28 +149,18 @@ def edge_is_near(
     through the frustum may touch each part that the frustum has, at any angle between the normals, because the bodies
     overlap.
     """
-    e = edge
-    x, y, z, dx, dy, dz, length = (
-        surface[e],
-        surface[e + 1],
-        surface[e + 2],
-        surface[e + 3],
-        surface[e + 4],
-        surface[e + 5],
-        surface[e + 6],
-    )
+    start, along, length = vector_at(surface, edge), vector_at(surface, edge + 3), surface[edge + 6]
     has_upper = frustum[SIDE] > 0.0 and frustum[1] > 0.0
-    if not _edge_comes_near(frustum, pose, (x, y, z), (dx, dy, dz), length, reach):
+    if not _edge_comes_near(frustum, pose, start, along, length, reach):
         return False, False, False
     deep = 0.0 if frustum[SIDE] == 0.0 else -CLOSED * size
-    if _edge_comes_near(frustum, pose, (x, y, z), (dx, dy, dz), length, deep):
+    if _edge_comes_near(frustum, pose, start, along, length, deep):
         return frustum[SIDE] > 0.0, True, has_upper
-    nx, ny, nz, half = edge_normal(surface, e)
+    n, half = edge_normal(surface, edge)
     off = half + turn + _SHARP
-    axial = nx * pose[3] + ny * pose[4] + nz * pose[5]
-    flank = frustum[SIDE] > 0.0 and abs(axial - frustum[SIN]) <= off
-    lower = _rim_crosses(frustum, 0, pose, (nx, ny, nz), off, (x, y, z), (dx, dy, dz), length, reach)
-    upper = has_upper and _rim_crosses(frustum, 1, pose, (nx, ny, nz), off, (x, y, z), (dx, dy, dz), length, reach)
+    flank = frustum[SIDE] > 0.0 and abs(dot(n, pose[1]) - frustum[SIN]) <= off
+    lower = _rim_crosses(frustum, 0, pose, n, off, start, along, length, reach)
+    upper = has_upper and _rim_crosses(frustum, 1, pose, n, off, start, along, length, reach)
     return flank, lower, upper
 
 
@@ -211,20 +181,18 @@ def _rim_crosses(
     All normals within the angle ``off`` [rad] of ``normal`` are considered.  The edge is given by its start [m], its
     direction and its length [m].  ``reach`` is the distance from the core up to which features are near [m].
     """
-    (nx, ny, nz), (x, y, z), (dx, dy, dz) = normal, start, along
-    px, py, pz, radial, astray = _lowest(frustum, upper, pose, nx, ny, nz)
+    lowest, radial, astray = _lowest(frustum, upper, pose, normal)
     if astray > off:
         return False
     way = reach + frustum[upper] * _swing(radial, off)
-    s = min(max((px - x) * dx + (py - y) * dy + (pz - z) * dz, 0.0), length)
-    px, py, pz = x + s * dx - px, y + s * dy - py, z + s * dz - pz
-    if px * px + py * py + pz * pz > way * way:
+    s = min(max(dot(minus(lowest, start), along), 0.0), length)
+    apart = minus(ahead(start, s, along), lowest)
+    if dot(apart, apart) > way * way:
         return False
     pieces = min(_PIECES, 1 + int(4.0 * length / frustum[upper]))
     half = 0.5 * length / pieces
     for i in range(pieces):
-        s = (2 * i + 1) * half
-        if _from_rim(frustum, upper, pose, x + s * dx, y + s * dy, z + s * dz) <= reach + half:
+        if _from_rim(frustum, upper, pose, ahead(start, (2 * i + 1) * half, along)) <= reach + half:
             return True
     return False
 
@@ -239,26 +207,25 @@ def corner_is_near(
     nearest to the corner.  The vector from the corner to this point changes by at most the displacement of the corner.
     """
     c = int(surface[CORNERS]) + CORNER * corner
-    cx, cy, cz, ax, ay, az = pose
-    along, away, (ex, ey, ez) = across((surface[c] - cx, surface[c + 1] - cy, surface[c + 2] - cz), (ax, ay, az))
+    center, axis = pose
+    along, away, outward = across(minus(vector_at(surface, c), center), axis)
     distance, radial, axial, _ = nearest_part(frustum, along, away)
     if distance > reach:
         return False
     if distance < -CLOSED * size:
         return True
     if frustum[SWEEP] > 0.0:
-        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
-        way = reach - frustum[SWEEP]
-        return bool(distance <= 0.0 or distance * steepest(surface, c, -nx, -ny, -nz) <= way + turn * distance)
+        down, way = opposite(normal_of_part(axis, outward, radial, axial)), reach - frustum[SWEEP]
+        return bool(distance <= 0.0 or distance * steepest(surface, c, *down) <= way + turn * distance)
     for part in (LOW_CAP, FLANK, HIGH_CAP):
-        if (part == FLANK and frustum[SIDE] == 0.0) or (part == HIGH_CAP and frustum[1] == 0.0):
+        if not has_part(frustum, part):
             continue
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         slack = turn
         if part == FLANK:
             # as the corner moves by up to ``reach``, the side's normal turns round the axis: add a bound of the angle
             slack += 2.0 if reach >= away else 0.5 * math.pi * reach / away
-        nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
-        if abs(height) <= reach and beyond <= reach and steepest(surface, c, -nx, -ny, -nz) <= ASTRAY + slack:
+        down = opposite(normal_of_part(axis, outward, radial, axial))
+        if abs(height) <= reach and beyond <= reach and steepest(surface, c, *down) <= ASTRAY + slack:
             return True
     return False

@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 import itertools
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import ClassVar, final
 
 from nonsmooth.compiled import block_at, compiled
-from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
+from nonsmooth.interfaces import CandidateSearch, FeaturePair
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 from ...meshes.patches import patches_for_ball
 from ...shapes.frustum import HIGH, SIDE, SWEEP, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
-from ...vectors import vector_at
+from ...vectors import ahead, minus, size_of, vector_at
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
-from ..frustum.frustum_swept import write_vertex_ball
-from ..surface.mesh_point import write_over_second
+from ..frustum.frustum_swept import write_rounded_vertex
+from ..surface.mesh_point import write_over
 from ..surface.surface_near import NARROW, patches_near, patches_under, room_ahead
 from ..surface.surface_pairs import MOST_NEAR
+from ..surface.surface_search import edge_at
 from ..surface.surface_tables import (
     CORNER,
     CORNERS,
-    EDGE,
-    EDGES,
     MEMBERS,
     N_EDGES,
     N_NODES,
@@ -37,12 +32,10 @@ from ..surface.surface_tables import (
     STARS,
     TRIANGLE,
     TRIANGLES,
-    Numbers,
     star_lengths,
     surface_numbers,
 )
 from .apex_mesh import write_apex
-from .flank_mesh import write_flank
 from .frustum_corner import write_corner
 from .frustum_near import (
     FrustumPose,
@@ -52,7 +45,7 @@ from .frustum_near import (
     frustum_in_surface,
     rim_is_near,
 )
-from .rim_mesh import write_half_rim
+from .mesh_crossing import write_across_rim, write_across_side
 from .surface_rim import rim_in_surface, rim_over, write_rim
 
 RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
@@ -126,9 +119,7 @@ def _member_near(
         return n
     if member < n_triangles + n_edges:
         e = member - n_triangles
-        flank, lower, upper_rim = edge_is_near(
-            surface, int(surface[EDGES]) + EDGE * e, frustum, pose, reach, turn, size
-        )
+        flank, lower, upper_rim = edge_is_near(surface, edge_at(surface, e), frustum, pose, reach, turn, size)
         if flank:
             n = _add(ACROSS_FLANK, float(e), 0.0, out, n, most)
         if lower:
@@ -168,9 +159,9 @@ def find_near_frustum(
     pose = frustum_in_surface(a, b, frustum)
     while node < int(surface[N_NODES]) and n <= limit:
         at = int(surface[NODES]) + NODE * node
-        dx, dy, dz = surface[at + 3] - surface[at], surface[at + 4] - surface[at + 1], surface[at + 5] - surface[at + 2]
-        x, y, z = surface[at] + 0.5 * dx, surface[at + 1] + 0.5 * dy, surface[at + 2] + 0.5 * dz
-        if from_core(frustum, pose, x, y, z) > sweep + reach + 0.5 * math.sqrt(dx * dx + dy * dy + dz * dz):
+        corner = vector_at(surface, at)
+        diagonal = minus(vector_at(surface, at + 3), corner)
+        if from_core(frustum, pose, ahead(corner, 0.5, diagonal)) > sweep + reach + 0.5 * size_of(diagonal):
             node = int(surface[at + 6])
             continue
         members = int(surface[MEMBERS]) + int(surface[at + 7])
@@ -186,13 +177,11 @@ def find_near_frustum(
             b, a, surface, place, points[v + 3], star, sweep + reach, turn, POINT, float(i), out, n, limit
         )
     if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[1] == 0.0:
-        cx, cy, cz, ax, ay, az = pose
-        x, y, z = cx + frustum[HIGH] * ax, cy + frustum[HIGH] * ay, cz + frustum[HIGH] * az
-        n = patches_near(surface, x, y, z, sweep + reach, APEX, 0.0, out, n, limit)
+        n = patches_near(surface, *ahead(pose[0], frustum[HIGH], pose[1]), sweep + reach, APEX, 0.0, out, n, limit)
     out[0] = float(n) if n <= limit else most + 1.0
 
 
-def _evaluate(
+def evaluate_frustum_and_candidate(
     a: Floats,
     b: Floats,
     out: Floats,
@@ -204,114 +193,87 @@ def _evaluate(
     lengths: Floats,
     size: float,
 ) -> None:
+    """Write the geometry block of a feature of a frustum and a feature of a mesh that is currently near it.
+
+    Parameters
+    ----------
+    a, b, out, candidate : Floats
+        Frame blocks of both bodies, the geometry block, and the pair of features.
+    frustum : Floats
+        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
+    rims : Floats
+        Radius and centre of each rim in the body frame [m].
+    points : Floats
+        Rows of the feet and of a sharp apex (:data:`POINT_ROW`).
+    surface : Floats
+        The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
+    lengths : Floats
+        For a disc, lengths of the edges of the surface's corners, one corner after the other [m]; else a single 0.
+    size : float
+        Size of the larger body [m].
+    """
     kind, i, j, reach = candidate[0], int(candidate[1]), int(candidate[2]), frustum[SWEEP] + candidate[3]
     if kind == RIM:
-        radius, x, y, z = rims[4 * j], rims[4 * j + 1], rims[4 * j + 2], rims[4 * j + 3]
-        pose = rim_in_surface(a, b, frustum, x, y, z)
-        gap, past = rim_over(surface, i, frustum, radius, 2.0 * j - 1.0, pose, reach)
-        write_rim(a, b, out, frustum, radius, x, y, z, surface, i, gap, past)
+        radius, place = rims[4 * j], vector_at(rims, 4 * j + 1)
+        gap, past = rim_over(surface, i, frustum, radius, 2.0 * j - 1.0, rim_in_surface(a, b, frustum, place), reach)
+        write_rim(a, b, out, frustum, radius, place, surface, i, gap, past)
     elif kind == POINT:
         v = (POINT_ROW + 3 * int(points[3])) * j
-        x, y, z, n = points[v], points[v + 1], points[v + 2], points[v + 3]
-        star = block_at(points, v + POINT_ROW)
-        write_over_second(a, b, out, surface, float(i), x, y, z, n, star, 0, reach, frustum[SWEEP])
+        place, n, star = vector_at(points, v), points[v + 3], block_at(points, v + POINT_ROW)
+        write_over(a, b, out, 1.0, surface, float(i), place, n, star, reach, frustum[SWEEP])
     elif kind == APEX:
         write_apex(a, b, out, frustum, surface, float(i), size, reach)
     elif kind == UNDER:
         c = int(surface[CORNERS]) + CORNER * i
-        x, y, z, n = surface[c], surface[c + 1], surface[c + 2], surface[c + 5]
-        star = block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
+        corner, n, star = (
+            block_at(surface, c),
+            surface[c + 5],
+            block_at(surface, int(surface[STARS]) + int(surface[c + 4])),
+        )
         if frustum[SWEEP] > 0.0:
-            write_vertex_ball(a, b, out, frustum, 0.0, x, y, z, n, star, size)
+            write_rounded_vertex(a, b, out, frustum, 0.0, corner, n, star, size)
         else:
             # only a disc uses the lengths of the edges at its corner; for other frustums the table is a single 0
             own = block_at(lengths, int(surface[c + 4]) // 3 if frustum[SIDE] == 0.0 else 0)
-            write_corner(a, b, out, frustum, x, y, z, n, star, own, surface, size)
+            write_corner(a, b, out, frustum, corner, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
-        write_flank(a, b, out, frustum, block_at(surface, int(surface[EDGES]) + EDGE * i), surface, size)
+        write_across_side(a, b, out, frustum, block_at(surface, edge_at(surface, i)), surface, size)
     elif kind == ACROSS_BACK or kind == ACROSS_FRONT:
-        edge, half = block_at(surface, int(surface[EDGES]) + EDGE * i), -1.0 if kind == ACROSS_BACK else 1.0
-        write_half_rim(a, b, out, frustum, float(j), half, edge, surface, size)
+        edge, half = block_at(surface, edge_at(surface, i)), -1.0 if kind == ACROSS_BACK else 1.0
+        write_across_rim(a, b, out, frustum, float(j), half, edge, surface, size)
     else:
         write_apart(a, out, size)
 
 
-@final
-@dataclass(frozen=True)
-class FrustumPairs(ContactKinematics):
-    """The contact of a feature of a cylinder, cone or disc with a feature of a mesh that is currently near it.
-
-    Attributes
-    ----------
-    search : CandidateSearch
-        Search for pairs of features near each other.
-    rims : tuple of float
-        Radius and centre of each rim in the body frame [m].
-    lengths : SharedNumbers
-        For a disc, lengths of the edges of the surface's corners, one corner after the other [m]; else a single 0.
-    n_features : int
-        Number of features of the surface.
-    number : int
-        Number of this contact among the contacts of both bodies.
-    """
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, TriangleMesh)
-    search: CandidateSearch
-    rims: Numbers
-    lengths: SharedNumbers
-    n_features: int
-    number: int
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[FrustumPairs, ...]:
-        """Return the contacts of a frustum and a mesh."""
-        assert isinstance(first, Frustum)
-        assert isinstance(second, TriangleMesh)
-        numbers, own, extents = set_back(first), second.features, (first.extent, second.extent)
-        points = [*feet_of(first), *(apex_of(first) if numbers[SWEEP] == 0.0 else ())]
-        patches = patches_for_ball(own, numbers[SWEEP])
-        rows = [(*place, len(star) // 3, *star) for place, star, _ in points]
-        lengths = [x for i in range(len(own.corners)) for x in star_lengths(own, i)] if not numbers[SIDE] else []
-        values: dict[str, Value] = {
-            "frustum": numbers,
-            "n_points": float(len(rows)),
-            "points": SharedNumbers([*itertools.chain(*rows)] or [0.0]),
-            "surface": surface_numbers(own, patches),
-            "size": max(own.size, 2.0 * first.extent),
-            "most": float(MOST_NEAR),
-            "turning": 0.5 / extents[0] + 0.5 / extents[1],
-            "narrow": NARROW * min(extents),
-        }
-        n_edges = len(own.edges)
-        counts = {
-            RIM: (len(own.planes), len(first.standing_rims)),
-            POINT: (patches.count, len(rows)),
-            APEX: (patches.count, 1),
-            UNDER: (len(own.corners), 1),
-            ACROSS_FLANK: (n_edges, 1),
-            ACROSS_BACK: (n_edges, HIGH_RIM + 1),
-            ACROSS_FRONT: (n_edges, HIGH_RIM + 1),
-        }
-        search = CandidateSearch(find_near_frustum, values, counts)
-        rims = tuple(x for radius, center in first.standing_rims for x in (radius, *center))
-        n, table = len(own.planes) + n_edges + len(own.corners), SharedNumbers(lengths or [0.0])
-        return tuple(cls(search, rims, table, n, number) for number in range(MOST_NEAR))
-
-    @property
-    def candidates(self) -> CandidateSearch:
-        """Search for pairs of features near each other."""
-        return self.search
-
-    def parameters(self) -> dict[str, Value]:
-        """Return the dimensions of both shapes, and a placeholder for the pair of features that the search finds."""
-        return {**self.search.values, "candidate": NO_CANDIDATE, "rims": self.rims, "lengths": self.lengths}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Evaluator, which calls the function for the kind of the current pair of features."""
-        return _evaluate
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        """Names of the features of the mesh, by their index."""
-        return tuple(f"feature {i}" for i in range(self.n_features))
+def frustum_pairs(first: Frustum, second: TriangleMesh) -> tuple[FeaturePair, ...]:
+    """Return the contacts of a frustum and a mesh, for pairs of features that a search finds near each other."""
+    numbers, own, extents = set_back(first), second.features, (first.extent, second.extent)
+    points = [*feet_of(first), *(apex_of(first) if numbers[SWEEP] == 0.0 else ())]
+    patches = patches_for_ball(own, numbers[SWEEP])
+    rows = [(*place, len(star) // 3, *star) for place, star, _ in points]
+    lengths = [x for i in range(len(own.corners)) for x in star_lengths(own, i)] if not numbers[SIDE] else []
+    values: dict[str, Value] = {
+        "frustum": numbers,
+        "n_points": float(len(rows)),
+        "points": SharedNumbers([*itertools.chain(*rows)] or [0.0]),
+        "surface": surface_numbers(own, patches),
+        "size": max(own.size, 2.0 * first.extent),
+        "most": float(MOST_NEAR),
+        "turning": 0.5 / extents[0] + 0.5 / extents[1],
+        "narrow": NARROW * min(extents),
+    }
+    n_edges = len(own.edges)
+    counts = {
+        RIM: (len(own.planes), len(first.standing_rims)),
+        POINT: (patches.count, len(rows)),
+        APEX: (patches.count, 1),
+        UNDER: (len(own.corners), 1),
+        ACROSS_FLANK: (n_edges, 1),
+        ACROSS_BACK: (n_edges, HIGH_RIM + 1),
+        ACROSS_FRONT: (n_edges, HIGH_RIM + 1),
+    }
+    rims = tuple(x for radius, center in first.standing_rims for x in (radius, *center))
+    own_values = {**values, "candidate": NO_CANDIDATE, "rims": rims, "lengths": SharedNumbers(lengths or [0.0])}
+    names = tuple(f"feature {i}" for i in range(len(own.planes) + n_edges + len(own.corners)))
+    search = CandidateSearch(find_near_frustum, values, counts)
+    return tuple(FeaturePair(evaluate_frustum_and_candidate, own_values, names, search) for _ in range(MOST_NEAR))

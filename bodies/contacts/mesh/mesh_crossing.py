@@ -1,23 +1,30 @@
-"""Corrects the contact of a frustum with a crossing edge of a mesh, if the overlap is not real or a face is nearer."""
+"""Contact of a convex edge of a mesh that crosses the side or a rim of a cylinder, a cone or a disc.
+
+The crossing of side or rim and edge alone is that of a polyhedron's edge.  Here the rest of the mesh decides whether
+the overlap is real and whether a face is nearer.
+"""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B
-from nonsmooth.parameters import SharedNumbers
+from nonsmooth.interfaces import FeaturePair
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_body
-from ...shapes.frustum import SWEEP
-from ...vectors import Vector3
+from ...shapes.frustum import SIDE, SWEEP
+from ...vectors import Vector3, ahead, minus, put, vector_at
 from ..features.edge_crossing import edge_astray
 from ..features.frames import across, point_in_body
 from ..features.vertex_face import CLOSED
-from ..frustum.frustum import center_in_world, nearest_part
+from ..frustum.flank_edge import write_edge_across_side
+from ..frustum.frustum import RIM_NAMES, center_in_world, nearest_part, rims_of
+from ..frustum.frustum_writing import gap_past_end
+from ..frustum.rim_edge import write_edge_across_rim
 from ..smooth.smooth_core import Axes, axes_in_world
 from ..surface.surface_search import depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
@@ -33,19 +40,15 @@ def _is_aside(b: Floats, out: Floats, frustum: Floats, axes: Axes, place: Vector
 
     ``place`` is the centre of the frustum in the world, ``axes`` are its axes.
     """
-    x, y, z = point_in_body(b, (out[POINT_A], out[POINT_A + 1], out[POINT_A + 2]))
-    if depth_inside(surface, x, y, z) > 0.0:
+    if depth_inside(surface, *point_in_body(b, vector_at(out, POINT_A))) > 0.0:
         return False
-    x, y, z = out[POINT_B] - place[0], out[POINT_B + 1] - place[1], out[POINT_B + 2] - place[2]
-    along, away, _ = across((x, y, z), (axes[2], axes[5], axes[8]))
+    along, away, _ = across(minus(vector_at(out, POINT_B), place), (axes[2], axes[5], axes[8]))
     outside, _, _, _ = nearest_part(frustum, along, away)
     return bool(outside >= frustum[SWEEP])
 
 
 @compiled
-def judge_crossing(
-    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
-) -> None:
+def _judge(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
     """Open the contact of a frustum and a crossing edge of a mesh in two cases.
 
     If the contact normal is outside of the edge's fan of normals, a face is nearer, and has its own contact with the
@@ -56,19 +59,55 @@ def judge_crossing(
     if out[PAST_END] > 0.0:
         return
     if gap >= -CLOSED * size:
-        astray = edge_astray(b, edge, 0, -1.0, out[NORMAL], out[NORMAL + 1], out[NORMAL + 2])
+        astray = edge_astray(b, edge, 0, -1.0, *vector_at(out, NORMAL))
         beyond = size * (astray - _ASTRAY)
     elif _is_aside(b, out, frustum, axes_in_world(a, frustum), center_in_world(a, frustum), surface):
         beyond = -gap
     if beyond > 0.0:
-        gap = math.hypot(gap, beyond)
-        out[GAP], out[PAST_END] = gap, beyond
-        for i in range(3):
-            out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+        out[GAP], out[PAST_END] = gap_past_end(gap, beyond), beyond
+        put(out, POINT_B, ahead(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
 
 
-def edges_of(second: Features) -> Iterator[tuple[Numbers, SharedNumbers, str]]:
-    """Yield row, surface and name of each convex edge of a mesh."""
+def evaluate_mesh_edge_across_side(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
+) -> None:
+    """Write the geometry block of an edge of a surface that crosses the side of a frustum."""
+    write_edge_across_side(a, b, out, frustum, edge, 0.0, edge, False, size)
+    _judge(a, b, out, frustum, edge, surface, size)
+
+
+def evaluate_mesh_edge_across_rim(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    rim: float,
+    half: float,
+    edge: Floats,
+    surface: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of an edge of a surface that crosses one half of a rim."""
+    write_edge_across_rim(a, b, out, frustum, rim, half, edge, 0.0, edge, False, size)
+    _judge(a, b, out, frustum, edge, surface, size)
+
+
+write_across_side, write_across_rim = compiled(evaluate_mesh_edge_across_side), compiled(evaluate_mesh_edge_across_rim)
+"""Compiled functions that write the geometry block of a crossing edge; other contacts call them, too."""
+
+
+def crossings_of(numbers: Numbers, second: Features, size: float) -> Iterator[FeaturePair]:
+    """Yield the contacts of each convex edge of a mesh with the side and with both halves of each rim of a frustum.
+
+    ``numbers`` are those of the frustum, ``size`` is the size of the larger body [m].
+    """
     surface = surface_numbers(second, patches_for_body(second, 0.0))
-    for i in range(len(second.edges)):
-        yield edge_row(second, i), surface, f"edge {i}"
+    edges = [(i, edge_row(second, i)) for i in range(len(second.edges))]
+    values: dict[str, Value] = {"frustum": numbers, "surface": surface, "size": size}
+    for i, row in edges if numbers[SIDE] > 0.0 else ():
+        yield FeaturePair(evaluate_mesh_edge_across_side, {**values, "edge": row}, (f"side and edge {i}",))
+    for i, row in edges:
+        for rim in rims_of(numbers):
+            for half in (1.0, -1.0):
+                of_rim = {**values, "edge": row, "rim": float(rim), "half": half}
+                yield FeaturePair(evaluate_mesh_edge_across_rim, of_rim, (f"{RIM_NAMES[rim]} and edge {i}",))

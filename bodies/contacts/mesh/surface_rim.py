@@ -6,18 +6,18 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, SIDE, SWEEP
-from ...vectors import put
+from ...vectors import Vector3, ahead, cross, opposite, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.flat_rim import FLATTEST
-from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
+from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex_face import REACH
 from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
 from ..frustum.frustum import axis_in_world
-from ..frustum.frustum_writing import astray_of_rim
+from ..frustum.frustum_writing import astray_of_rim, write_contact
 from ..surface.surface_search import box_square, face_height, has_patch
 from ..surface.surface_tables import (
     FACE,
@@ -35,34 +35,27 @@ from ..surface.surface_vertex import over_face, touched_face
 
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
-RimPose: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+RimPose: TypeAlias = tuple[Vector3, Vector3, Vector3]
 """Centre of a rim [m], its unit axis, and the direction to its contact point if the rim is parallel to a face."""
 
 
 @compiled
-def lowest_on_rim(
-    nx: float, ny: float, nz: float, ax: float, ay: float, az: float, fx: float, fy: float, fz: float
-) -> tuple[float, float, float, float, float]:
+def lowest_on_rim(n: Vector3, axis: Vector3, otherwise: Vector3) -> tuple[float, float, Vector3]:
     """Return axial and radial component of the unit normal n, and the unit vector of its radial part.
 
-    The vector f is returned as this unit vector if n is along the axis within round-off, without a radial part.
+    The vector ``otherwise`` is returned as this unit vector if n is along the axis within round-off, without a radial
+    part.
     """
-    axial, radial, (ex, ey, ez) = across((nx, ny, nz), (ax, ay, az))
-    if radial < _FLAT:
-        return axial, radial, fx, fy, fz
-    return axial, radial, ex, ey, ez
+    axial, radial, outward = across(n, axis)
+    return axial, radial, otherwise if radial < _FLAT else outward
 
 
 @compiled
-def rim_in_surface(a: Floats, b: Floats, frustum: Floats, x: float, y: float, z: float) -> RimPose:
-    """Return the pose, in the axes of the second body, of the rim whose centre is (x, y, z) in the first body [m]."""
-    ax, ay, az = axis_in_world(a, frustum)
-    fx, fy, fz = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
-    cx, cy, cz = point_in_world(a, (x, y, z))
-    ax, ay, az = vector_in_body(b, (ax, ay, az))
-    fx, fy, fz = vector_in_body(b, (fx, fy, fz))
-    cx, cy, cz = point_in_body(b, (cx, cy, cz))
-    return cx, cy, cz, ax, ay, az, fx, fy, fz
+def rim_in_surface(a: Floats, b: Floats, frustum: Floats, place: Vector3) -> RimPose:
+    """Return the pose of a rim in the axes of the second body; its centre is at ``place`` in the first body [m]."""
+    axis = vector_in_body(b, axis_in_world(a, frustum))
+    otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
+    return point_in_body(b, point_in_world(a, place)), axis, vector_in_body(b, otherwise)
 
 
 @compiled
@@ -93,17 +86,17 @@ def rim_under(
     pose : tuple of float
         Pose of the rim in the axes of the surface (:func:`rim_in_surface`).
     """
-    cx, cy, cz, ax, ay, az, fx, fy, fz = pose
+    center, axis, otherwise = pose
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     margin = REACH * size
     best, height_best, apart, past, found = math.inf, 0.0, 0.0, math.inf, 0
     under, under_past, under_face = math.inf, 0.0, -1
-    x, y, z, u, v, w = cx, cy, cz, cx, cy, cz
+    point, point_under = center, center
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
-        apart_at_least = math.sqrt(box_square(surface, at, cx, cy, cz)) - radius
+        apart_at_least = math.sqrt(box_square(surface, at, *center)) - radius
         if apart_at_least > math.sqrt(best) or not has_patch(surface, at, patch):
             node = int(surface[at + 6])
             continue
@@ -116,27 +109,23 @@ def rim_under(
             f = int(surface[FACES]) + FACE * face
             if surface[f + 4] != patch:
                 continue
-            axial, radial, ex, ey, ez = lowest_on_rim(
-                -surface[f], -surface[f + 1], -surface[f + 2], ax, ay, az, fx, fy, fz
-            )
-            px, py, pz = cx + radius * ex, cy + radius * ey, cz + radius * ez
-            height = face_height(surface, f, px, py, pz)
+            axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, f)), axis, otherwise)
+            p = ahead(center, radius, outward)
+            height = face_height(surface, f, *p)
             if height * height > best:
                 continue
             lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
-            over, inside, ends, square = over_face(surface, t, height, lean, margin, px, py, pz)
+            over, inside, ends, square = over_face(surface, t, height, lean, margin, *p)
             if over <= 0.0 and height < 0.0 and -height < under:
-                under, under_past, under_face = -height, inside, face
-                u, v, w = px, py, pz
+                under, under_past, under_face, point_under = -height, inside, face, p
             key = square + max(ends, 0.0) * max(ends, 0.0)
             if key < best:
-                best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
-                x, y, z = px, py, pz
+                best, height_best, apart, past, found, point = key, height, math.sqrt(square), ends, face, p
         node += 1
     if under * under < best:
-        x, y, z = u, v, w
+        point = point_under
     face, gap, past = touched_face(
-        surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
+        surface, found, best, height_best, apart, past, under_face, under, under_past, *point
     )
     return face, gap, past
 
@@ -149,19 +138,19 @@ def rim_over(
 
     If no part of the face is within ``reach`` [m], both are ``reach``.
     """
-    cx, cy, cz, ax, ay, az, fx, fy, fz = pose
+    center, axis, otherwise = pose
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size, f = surface[SIZE], int(surface[FACES]) + FACE * face
-    axial, radial, ex, ey, ez = lowest_on_rim(-surface[f], -surface[f + 1], -surface[f + 2], ax, ay, az, fx, fy, fz)
-    x, y, z = cx + radius * ex, cy + radius * ey, cz + radius * ez
-    height = face_height(surface, f, x, y, z)
+    axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, f)), axis, otherwise)
+    point = ahead(center, radius, outward)
+    height = face_height(surface, f, *point)
     lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
     best, height_best, apart, past = reach * reach, 0.0, reach, reach
     under, under_past, under_face = math.inf, 0.0, -1
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
-        if box_square(surface, at, x, y, z) > best:
+        if box_square(surface, at, *point) > best:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -169,14 +158,14 @@ def rim_over(
             t = int(surface[TRIANGLES]) + TRIANGLE * member
             if member >= n_triangles or int(surface[t + 9]) != face:
                 continue
-            over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, x, y, z)
+            over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, *point)
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face = -height, inside, face
             key = square + max(ends, 0.0) * max(ends, 0.0)
             if key < best:
                 best, height_best, apart, past = key, height, math.sqrt(square), ends
         node += 1
-    _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, x, y, z)
+    _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, *point)
     return gap, past
 
 
@@ -187,35 +176,23 @@ def write_rim(
     out: Floats,
     frustum: Floats,
     radius: float,
-    x: float,
-    y: float,
-    z: float,
+    place: Vector3,
     surface: Floats,
     face: int,
     gap: float,
     past: float,
 ) -> None:
-    """Write the geometry block of a rim with centre (x, y, z) over a face.
+    """Write the geometry block of a rim with its centre at ``place`` in the first body [m] over a face.
 
     ``gap`` and ``past``, the distance past the border of the face [m], are results of :func:`rim_under` or
     :func:`rim_over`.
     """
-    ax, ay, az = axis_in_world(a, frustum)
-    fx, fy, fz = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
-    cx, cy, cz = point_in_world(a, (x, y, z))
-    sweep = frustum[SWEEP]
-    gap = gap_at_distance(gap, past, sweep)
-    f = int(surface[FACES]) + FACE * face
-    nx, ny, nz = vector_in_world(b, (-surface[f], -surface[f + 1], -surface[f + 2]))
-    _, sine, ex, ey, ez = lowest_on_rim(nx, ny, nz, ax, ay, az, fx, fy, fz)
-    out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
-    put(out, NORMAL, (nx, ny, nz))
-    put(out, POINT_A, (cx + radius * ex, cy + radius * ey, cz + radius * ez))
-    for i in range(3):
-        out[POINT_A + i] += sweep * out[NORMAL + i]
-        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
-    write_tangent(a, out)
-    rim_x, rim_y, rim_z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
-    write_principal(out, SIDE_A, rim_x, rim_y, rim_z, max(sine, FLATTEST), radius, 1.0, 0.0)
+    axis, sweep = axis_in_world(a, frustum), frustum[SWEEP]
+    otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
+    n = vector_in_world(b, opposite(vector_at(surface, int(surface[FACES]) + FACE * face)))
+    _, sine, outward = lowest_on_rim(n, axis, otherwise)
+    point = ahead(ahead(point_in_world(a, place), radius, outward), sweep, n)
+    write_contact(a, out, gap_at_distance(gap, past, sweep), past, float(face), n, point, False)
+    write_principal(out, SIDE_A, *cross(axis, outward), max(sine, FLATTEST), radius, 1.0, 0.0)
     write_sweep(out, SIDE_A, sweep)
     write_flat(out, SIDE_B)

@@ -28,8 +28,7 @@ from ..surface.surface_ball import write_ball
 from ..surface.surface_edges import write_edges
 from ..surface.surface_near import NARROW, Near, patches_near, room_ahead, seen_from
 from ..surface.surface_pairs import DEPARTURES, MOST_NEAR
-from ..surface.surface_search import FAR, ON_CORNER, corner_at, edge_at, feature_of, member_of, node_at
-from ..surface.surface_search import steepest as steepest
+from ..surface.surface_search import FAR, ON_CORNER, corner_at, edge_at, feature_of, member_of, node_at, steepest
 from ..surface.surface_tables import N_NODES, part_names, surface_numbers
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any, final
+from typing import final
 
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
@@ -71,26 +71,6 @@ def write_over(
     write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)
 
 
-@compiled
-def write_over_second(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    surface: Floats,
-    patch: float,
-    x: float,
-    y: float,
-    z: float,
-    n_star: float,
-    star: Floats,
-    begin: int,
-    reach: float,
-    radius: float,
-) -> None:
-    """Write the geometry block of a vertex of the first body at (x, y, z) over a patch of the second."""
-    write_over(a, b, out, 1.0, surface, patch, (x, y, z), n_star, block_at(star, begin), reach, radius)
-
-
 def vertices_over_surface(
     swap: float, vertices: Iterable[Corner], surface: Features, radius: float
 ) -> Iterator[FeaturePair]:
@@ -106,15 +86,6 @@ def vertices_over_surface(
         for patch in range(patches.count):
             numbers = {**values, "patch": float(patch), "vertex": vertex}
             yield FeaturePair(evaluate_vertex_over_surface, numbers, names)
-
-
-class PointMesh:
-    """Contacts of vertices of the first body with the surface of the second."""
-
-    @staticmethod
-    def of_vertices(vertices: Iterable[Corner], second: Features, radius: float) -> tuple[Any, ...]:
-        """Return the contacts of vertices of the first body, with a radius [m], with the patches of the second."""
-        return tuple(vertices_over_surface(1.0, vertices, second, radius))
 
 
 @final

@@ -222,7 +222,8 @@ def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     The normal of a contact that touches does: along any other direction the shapes overlap. ``n`` points from the first
     body of the contact to the second. ``near`` is the largest gap of surfaces next to each other [m]. The result is
     False if the shapes are farther apart than ``near``, and the clearance of their feet, along the direction of the
-    pair.
+    pair. It is also False if ``n`` is opposite to that direction: discs without thickness in one plane touch along
+    both, but they came from one side.
 
     The result is True, and the contacts decide, in four cases: shapes with several parts, a pair that is not guarded, a
     pair without a stored direction, and shapes that overlap by more than ``near`` and the clearance, as on springs.
@@ -234,11 +235,13 @@ def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     largest, of_second = separation_along(ws, number, first), separation_along(ws, number, second)
     known = second if of_second > largest else first
     largest = max(largest, of_second)
+    along = along_pair(pair, n)
+    if are_alike(opposite(along), known):
+        return False
     # feet may extend beyond the parts by the clearance
     allowed = near + pair.clearance
     if largest < -allowed:
         return True
-    along = along_pair(pair, n)
     # one gap tolerance suffices, except in two cases: the normals of flush faces differ by round-off, which changes the
     # separation by more than that; and feet protrude from the parts
     is_exact = pair.clearance == 0.0 and not are_alike(along, known)

@@ -24,7 +24,7 @@ from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.tolerances import ADJACENT
-from nonsmooth.engine.numerics.vectors import are_alike, dot
+from nonsmooth.engine.numerics.vectors import are_alike, dot, opposite
 
 
 @entry_point("b1(ws)")
@@ -82,6 +82,9 @@ def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
     pair, near, v = ws.pairs[contact.pair], ADJACENT * ws.tolerance.gap, velocity_at(ws, contact)
     for other in ws.contacts:
         if other.pair != contact.pair or other.past_feature > 0.0 or are_alike(contact.normal, other.normal):
+            continue
+        # the other face of a disc without thickness says nothing of the face that approaches
+        if are_alike(opposite(contact.normal), other.normal):
             continue
         is_resting = dot(other.normal, v) >= -ws.tolerance.velocity and not _closes_along(ws, other)
         along = along_pair(pair, other.normal)

@@ -12,7 +12,8 @@ from nonsmooth.engine.bodies.support import known_direction, separation_along, s
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Pair, Workspace, kernel
-from nonsmooth.engine.numerics.tolerances import ADJACENT
+from nonsmooth.engine.numerics.tolerances import ADJACENT, ALLOWED
+from nonsmooth.engine.numerics.vectors import are_alike, opposite
 from nonsmooth.engine.pairs.overlaps import add_displacements, displacement_bound, known_separation
 from nonsmooth.engine.pairs.separation import accurate_direction
 
@@ -82,8 +83,12 @@ def renewed_separation(ws: Workspace, pair: Pair) -> float:
 def renew_direction(ws: Workspace, pair: Pair) -> float:
     """Search the direction in which two parts are farthest apart, and store it. Returns the separation along it [m].
 
-    Of parts that overlap it need not be the largest one.
+    Of parts that overlap it need not be the largest one. Discs without thickness in one plane are apart along a
+    direction and its opposite, up to round-off. They keep the side from which they came.
     """
-    n = accurate_direction(ws, pair.index, known_direction(ws, pair))
+    known = known_direction(ws, pair)
+    n, near = accurate_direction(ws, pair.index, known), ALLOWED * ws.tolerance.gap
+    if are_alike(opposite(n), known) and separation_along(ws, pair.index, known) >= -near:
+        n = known
     store_direction(ws, pair, n)
     return separation_along(ws, pair.index, n)
