@@ -21,7 +21,7 @@ from nonsmooth.types import Floats
 from .blocks import places_behind_frame, put_rows, rotation_of
 from .inertia import Triple, check_inertia, tensor_of
 from .values import Word, check_carried, read_start
-from .vectors import dot, put, vector_at
+from .vectors import ahead, dot, put, times, vector_at
 
 _WORDS: dict[str, Word] = {
     "position": (3, (0.0, 0.0, 0.0), "m"),
@@ -46,11 +46,11 @@ def _evaluate(
     gravity_z: float,
 ) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
-    spin = vector_at(u, 3)
-    ox, oy, oz = spin
+    position, velocity, spin = vector_at(q, 0), vector_at(u, 0), vector_at(u, 3)
+    (ox, oy, oz), gravity = spin, (gravity_x, gravity_y, gravity_z)
     jx, jy, jz, jyz, jxz, jxy = inertia[0], inertia[1], inertia[2], inertia[3], inertia[4], inertia[5]
-    put(out, POSITION, vector_at(q, 0))
-    put(out, VELOCITY, vector_at(u, 0))
+    put(out, POSITION, position)
+    put(out, VELOCITY, velocity)
     rows = rotation_of(a, b, c, d)
     put_rows(out, ROTATION, rows)
     put(out, SPIN, (dot(rows[0], spin), dot(rows[1], spin), dot(rows[2], spin)))
@@ -58,13 +58,13 @@ def _evaluate(
     out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
     put_rows(out, JACOBIAN + 21, rows, 6)
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    put(out, _RATES, vector_at(u, 0))
+    put(out, _RATES, velocity)
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
     out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
     out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
     out[_RATES + 6] = 0.5 * (a * oz + b * oy - c * ox)
     # force and gyroscopic moment
-    put(out, _FORCE, (mass * gravity_x, mass * gravity_y, mass * gravity_z))
+    put(out, _FORCE, times(mass, gravity))
     # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
     out[_FORCE + 3] = (jy - jz) * oy * oz + (jyz * (oz * oz - oy * oy) + ox * (jxy * oz - jxz * oy))
     out[_FORCE + 4] = (jz - jx) * oz * ox + (jxz * (ox * ox - oz * oz) + oy * (jyz * ox - jxy * oz))
@@ -72,10 +72,9 @@ def _evaluate(
     out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
     for i in range(3):
         put(out, _INVERSE + 21 + 6 * i, vector_at(inverse_inertia, 3 * i))
-    out[_ENERGY] = 0.5 * (
-        mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + jx * ox * ox + jy * oy * oy + jz * oz * oz
-    ) + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
-    out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
+    in_axes = mass * dot(velocity, velocity) + jx * ox * ox + jy * oy * oy + jz * oz * oz
+    out[_ENERGY] = 0.5 * in_axes + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
+    out[_ENERGY + 1] = -mass * dot(gravity, position)
 
 
 @compiled
@@ -91,12 +90,9 @@ def _fly(
     t: float, q: Floats, u: Floats, out: Floats, inertia: Floats, gravity_x: float, gravity_y: float, gravity_z: float
 ) -> None:
     half, (jx, jy, jz) = 0.5 * t, vector_at(inertia, 0)
-    out[0] = q[0] + t * (u[0] + half * gravity_x)
-    out[1] = q[1] + t * (u[1] + half * gravity_y)
-    out[2] = q[2] + t * (u[2] + half * gravity_z)
-    out[7] = u[0] + t * gravity_x
-    out[8] = u[1] + t * gravity_y
-    out[9] = u[2] + t * gravity_z
+    velocity, gravity = vector_at(u, 0), (gravity_x, gravity_y, gravity_z)
+    put(out, 0, ahead(vector_at(q, 0), t, ahead(velocity, half, gravity)))
+    put(out, 7, ahead(velocity, t, gravity))
     ox, oy, oz = vector_at(u, 3)
     # the angular momentum over the moment of inertia across the axis of symmetry stays in space; what the spin about
     # that axis has more turns with the body

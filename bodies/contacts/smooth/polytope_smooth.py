@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from typing import ClassVar, TypeAlias, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
@@ -28,8 +28,8 @@ from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Polytope
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import Core, is_round
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, put, size_of, times, vector_at
-from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world, write_tangent
+from ...vectors import Vector3, ahead, cross, dot, minus, over, plus, size_of, times, vector_at
+from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world
 from ..features.writing import write_flat, write_principal, write_round
 from .inscribed import gauge
 from .round_search import along_segment, up_hills
@@ -47,7 +47,7 @@ from .smooth_core import (
     longest,
     spread,
 )
-from .smooth_newton import widest_from, write_surface
+from .smooth_newton import widest_from, write_smooth
 
 Numbers = tuple[float, ...]
 
@@ -410,14 +410,8 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     if feature >= n_faces and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the polytope's point
         p = ahead(base, g, n)
-    normal, gap = vector_in_world(a, n), g - first[RADIUS] - second[RADIUS]
-    point = ahead(point_in_world(a, p), -second[RADIUS], normal)
-    out[GAP], out[FEATURE] = gap, feature
-    put(out, NORMAL, normal)
-    put(out, POINT_B, point)
-    put(out, POINT_A, ahead(point, -gap, normal))
-    write_tangent(a, out)
-    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(p, place)))
+    write_smooth(a, out, g - first[RADIUS] - second[RADIUS], second, axes_b, turn, place, n, p)
+    out[FEATURE] = feature
     if feature < n_faces:
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:

@@ -11,10 +11,12 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core, gauge_of, is_boxy, is_mixed, is_round, support_of
-from ...vectors import Vector3, ahead, dot, minus, opposite, over, plus, size_of, times
+from ...vectors import Vector3, ahead, dot, minus, opposite, over, plus, put, size_of, times
+from ..features.frames import point_in_world, vector_in_world, write_tangent
 from .boxy_line import across_line
 from .boxy_newton import climb_boxy, write_boxy
 from .boxy_pair import meet
@@ -376,3 +378,23 @@ def write_surface(out: Floats, side: int, core: Core, axes: Axes, normal: Vector
         write_boxy(out, side, core, axes, p)
     else:
         write_core(out, side, core, axes, normal)
+
+
+@compiled
+def write_smooth(
+    a: Floats, out: Floats, gap: float, core: Floats, axes: Axes, turn: Axes, place: Vector3, n: Vector3, p: Vector3
+) -> None:
+    """Write gap, axes, witness points and the second matrices of a body ``a`` without curved parts and a smooth body.
+
+    ``n`` is the normal and ``p`` the point of the smooth body's core [m], in the axes of the first body.  ``axes`` are
+    the core's axes in the world, ``turn`` and ``place`` its rotation and centre as in
+    :mod:`bodies.contacts.smooth.smooth_core`.
+    """
+    normal = vector_in_world(a, n)
+    point = ahead(point_in_world(a, p), -core[RADIUS], normal)
+    out[GAP] = gap
+    put(out, NORMAL, normal)
+    put(out, POINT_B, point)
+    put(out, POINT_A, ahead(point, -gap, normal))
+    write_tangent(a, out)
+    write_surface(out, SIDE_B, core, axes, back(turn, opposite(n)), back(turn, minus(p, place)))

@@ -12,16 +12,16 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import PAST_END, SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import OF_FUNCTION, Core, is_round, support_of
-from ...vectors import Vector3, dot, minus, opposite, over, plus, put, size_of, times, vector_at
-from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
+from ...vectors import Vector3, dot, minus, opposite, over, plus, size_of, times, vector_at
+from ..features.frames import point_in_body, point_in_world
 from ..features.vertex_face import REACH
 from ..smooth.boxy_line import across_line
-from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
-from ..smooth.smooth_newton import widest_from, write_surface
+from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, facing_point
+from ..smooth.smooth_newton import widest_from, write_smooth
 from .surface_ball import write_feature
 from .surface_search import (
     ON_CORNER,
@@ -68,12 +68,6 @@ def _extent(core: Core) -> float:
 
 
 @compiled
-def _point_against(core: Core, turn: Axes, center: Vector3, normal: Vector3) -> Vector3:
-    """Return the core's farthest point in the direction opposite to a normal [m], in the axes of the surface."""
-    return plus(center, forth(turn, support_of(core, back(turn, opposite(normal)))[1]))
-
-
-@compiled
 def _least(core: Core, turn: Axes, way: Vector3) -> float:
     """Return a lower bound of the smooth body's distance from a convex feature [m].
 
@@ -94,7 +88,7 @@ def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -
     """
     f = face_at(surface, int(surface[t + 9]))
     n = vector_at(surface, f)
-    p = _point_against(core, turn, center, n)
+    p = facing_point(core, turn, center, n)[0]
     height = dot(n, p) - surface[f + 3]
     beyond, past = over_ends(surface, t, p)
     if beyond > REACH * surface[SIZE]:
@@ -115,7 +109,7 @@ def _on_edge(surface: Floats, e: int, core: Core, point: Core, turn: Axes, cente
     """
     w, along = minus(center, vector_at(surface, e)), vector_at(surface, e + 3)
     g, _, n = widest_from(point, core, turn, w, along, w)
-    s = dot(_point_against(core, turn, w, n), along)
+    s = dot(facing_point(core, turn, w, n)[0], along)
     past = max(-s, s - surface[e + 6])
     past = max(past, size * dot(n, vector_at(surface, e + 7)))
     past = max(past, size * dot(n, vector_at(surface, e + 10)))
@@ -208,7 +202,7 @@ def _aim(surface: Floats, core: Core, turn: Axes, center: Vector3, normal: Vecto
 
     The plane is raised by round-off: features in one plane then get the same bound, and none of them is excluded.
     """
-    p = _point_against(core, turn, center, normal)
+    p = facing_point(core, turn, center, normal)[0]
     none = _SAME * (abs(p[0]) + abs(p[1]) + abs(p[2]) + surface[SIZE])
     return normal, dot(normal, p) - core[RADIUS] + none
 
@@ -285,18 +279,13 @@ def write_surface_smooth(
     gap = g - second[RADIUS]
     if past > 0.0:
         gap = math.hypot(gap, past)
-    p = _point_against(second, turn, center, n)
+    p = facing_point(second, turn, center, n)[0]
     if kind == ON_EDGE and not is_round(second):
         e = edge_at(surface, number)
         start, along = vector_at(surface, e), vector_at(surface, e + 3)
         _, p, _ = across_line(second, turn, minus(center, start), along, n, 1.0, 0.0, 0.0)
         p = plus(p, start)
     # if there is one patch only, it is the whole surface, which has no end
-    out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 else 0.0
-    normal = vector_in_world(a, n)
-    put(out, NORMAL, normal)
-    put(out, POINT_B, minus(point_in_world(a, p), times(second[RADIUS], normal)))
-    put(out, POINT_A, minus(vector_at(out, POINT_B), times(gap, normal)))
-    write_tangent(a, out)
-    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(p, center)))
+    out[PAST_END] = past if surface[N_PATCHES] > 1.0 else 0.0
+    write_smooth(a, out, gap, second, axes_b, turn, center, n, p)
     write_feature(a, out, SIDE_A, surface, kind, number)
