@@ -22,7 +22,7 @@ from nonsmooth.testing.differences import slope
 from nonsmooth.testing.functions import CheckedFunction, function_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
-from nonsmooth.testing.outcome import Broken, Row, Subject
+from nonsmooth.testing.outcome import NotChecked, Row, Subject
 from nonsmooth.testing.property import Property, properties_of
 from nonsmooth.testing.puck import ContactRig, Pose
 from nonsmooth.types import Array
@@ -135,14 +135,15 @@ def _examine_where_smooth(one: Claim, contact: FeaturePair, smooth: set[int]) ->
     """Try a claim that can be tested only at inputs at which the contact is smooth.
 
     The claim is tried with 40 inputs. If the contact is smooth at none of them, it is tried with 400 inputs. A trial
-    adds an entry to the set ``smooth`` if the contact is smooth at its input. Raises Broken if the set remains empty.
+    adds an entry to the set ``smooth`` if the contact is smooth at its input. Raises NotChecked if the set remains
+    empty: given features such as two edges face each other in hardly any random pose.
     """
     smooth.clear()
     for count in (_DRAWS, _MOST_DRAWS):
         if not smooth:
             one.examine([contact], count)
     if not smooth:
-        raise Broken(f"it is smooth at none of {_MOST_DRAWS} places")
+        raise NotChecked(f"it is smooth at none of {_MOST_DRAWS} places")
 
 
 def _numbers(reach: float) -> tuple[DrawnNumber, ...]:
