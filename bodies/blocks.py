@@ -9,6 +9,8 @@ from nonsmooth.engine.memory.blocks import FRAME, VELOCITY
 from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
 
+from .vectors import Vector3, put
+
 POSE = VELOCITY
 """Length of a pose: position [m], then rotation matrix by rows.
 
@@ -23,16 +25,22 @@ def places_behind_frame(n_q: int, n_u: int) -> tuple[int, int, int, int]:
 
 
 @compiled
-def rotation_of(a: float, b: float, c: float, d: float) -> tuple[float, ...]:
-    """Rotation matrix of a unit quaternion (scalar first), row by row.
+def rotation_of(a: float, b: float, c: float, d: float) -> tuple[Vector3, Vector3, Vector3]:
+    """Rows of the rotation matrix of a unit quaternion (scalar first).
 
     In a step of the integrator the length L of the quaternion drifts from 1, until it is normalised again.  Meanwhile
     the result is L^2 times a rotation.
     """
-    xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
-    yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
-    zx, zy, zz = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
-    return xx, xy, xz, yx, yy, yz, zx, zy, zz
+    x = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    y = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
+    return x, y, (2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d)
+
+
+@compiled
+def put_rows(out: Floats, place: int, rows: tuple[Vector3, Vector3, Vector3], stride: int = 3) -> None:
+    """Write the rows of a matrix into a block, each ``stride`` numbers behind the one before."""
+    for i in range(3):
+        put(out, place + stride * i, rows[i])
 
 
 def pose_of(position: Sequence[float], orientation: Sequence[float]) -> tuple[float, ...]:

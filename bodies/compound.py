@@ -19,7 +19,7 @@ from .ball import Ball
 from .free import FreeBody, TensorBody
 from .inertia import parallel_axis, tensor_of, without_round_off
 from .shapes.moved_shape import moved
-from .values import unit_quaternion, vector
+from .values import check_fields
 
 
 @final
@@ -44,10 +44,7 @@ class Part:
     def __post_init__(self) -> None:
         if not isinstance(self.body, FreeBody):
             raise InvalidInput("Part.body", "must be a free body", self.body, "For example Ball(0.01).")
-        position = vector("Part.position", self.position, 3, "m")
-        orientation = unit_quaternion("Part.orientation", self.orientation)
-        object.__setattr__(self, "position", tuple(position.tolist()))
-        object.__setattr__(self, "orientation", tuple(orientation.tolist()))
+        check_fields(self, "position", "orientation")
 
 
 @final

@@ -11,7 +11,7 @@ from nonsmooth.interfaces import Shape
 from .motions.harmonic import Harmonic
 from .prescribed import Driven
 from .shapes.sphere import Sphere
-from .values import check_carried
+from .values import keep_carried
 
 
 @final
@@ -35,7 +35,7 @@ class DrivenBody(Driven):
         return {"motion": Harmonic(1e-3, 25.0), "carried": (Sphere(0.1),)}
 
     def _check(self) -> None:
-        object.__setattr__(self, "carried", check_carried("DrivenBody.carried", self.carried))
+        keep_carried(self)
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:

@@ -6,7 +6,7 @@ import functools
 import math
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
-from typing import Any, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
@@ -14,14 +14,14 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, Vector
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from .blocks import places_behind_frame, rotation_of
+from .blocks import places_behind_frame, put_rows, rotation_of
 from .inertia import Triple, check_inertia, tensor_of
 from .values import Word, check_carried, read_start
-from .vectors import put, vector_at
+from .vectors import ahead, dot, put, times, vector_at
 
 _WORDS: dict[str, Word] = {
     "position": (3, (0.0, 0.0, 0.0), "m"),
@@ -46,28 +46,25 @@ def _evaluate(
     gravity_z: float,
 ) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
-    ox, oy, oz = vector_at(u, 3)
+    position, velocity, spin = vector_at(q, 0), vector_at(u, 0), vector_at(u, 3)
+    (ox, oy, oz), gravity = spin, (gravity_x, gravity_y, gravity_z)
     jx, jy, jz, jyz, jxz, jxy = inertia[0], inertia[1], inertia[2], inertia[3], inertia[4], inertia[5]
-    put(out, POSITION, vector_at(q, 0))
-    put(out, VELOCITY, vector_at(u, 0))
-    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_of(a, b, c, d)
-    put(out, ROTATION, (xx, xy, xz))
-    put(out, ROTATION + 3, (yx, yy, yz))
-    put(out, ROTATION + 6, (zx, zy, zz))
-    put(out, SPIN, (xx * ox + xy * oy + xz * oz, yx * ox + yy * oy + yz * oz, zx * ox + zy * oy + zz * oz))
+    put(out, POSITION, position)
+    put(out, VELOCITY, velocity)
+    rows = rotation_of(a, b, c, d)
+    put_rows(out, ROTATION, rows)
+    put(out, SPIN, (dot(rows[0], spin), dot(rows[1], spin), dot(rows[2], spin)))
     # Jacobian of (velocity, angular velocity): identity and rotation
     out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
-    put(out, JACOBIAN + 21, (xx, xy, xz))
-    put(out, JACOBIAN + 27, (yx, yy, yz))
-    put(out, JACOBIAN + 33, (zx, zy, zz))
+    put_rows(out, JACOBIAN + 21, rows, 6)
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    put(out, _RATES, vector_at(u, 0))
+    put(out, _RATES, velocity)
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
     out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
     out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
     out[_RATES + 6] = 0.5 * (a * oz + b * oy - c * ox)
     # force and gyroscopic moment
-    put(out, _FORCE, (mass * gravity_x, mass * gravity_y, mass * gravity_z))
+    put(out, _FORCE, times(mass, gravity))
     # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
     out[_FORCE + 3] = (jy - jz) * oy * oz + (jyz * (oz * oz - oy * oy) + ox * (jxy * oz - jxz * oy))
     out[_FORCE + 4] = (jz - jx) * oz * ox + (jxz * (ox * ox - oz * oz) + oy * (jyz * ox - jxy * oz))
@@ -75,10 +72,9 @@ def _evaluate(
     out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
     for i in range(3):
         put(out, _INVERSE + 21 + 6 * i, vector_at(inverse_inertia, 3 * i))
-    out[_ENERGY] = 0.5 * (
-        mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + jx * ox * ox + jy * oy * oy + jz * oz * oz
-    ) + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
-    out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
+    in_axes = mass * dot(velocity, velocity) + jx * ox * ox + jy * oy * oy + jz * oz * oz
+    out[_ENERGY] = 0.5 * in_axes + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
+    out[_ENERGY + 1] = -mass * dot(gravity, position)
 
 
 @compiled
@@ -94,12 +90,9 @@ def _fly(
     t: float, q: Floats, u: Floats, out: Floats, inertia: Floats, gravity_x: float, gravity_y: float, gravity_z: float
 ) -> None:
     half, (jx, jy, jz) = 0.5 * t, vector_at(inertia, 0)
-    out[0] = q[0] + t * (u[0] + half * gravity_x)
-    out[1] = q[1] + t * (u[1] + half * gravity_y)
-    out[2] = q[2] + t * (u[2] + half * gravity_z)
-    out[7] = u[0] + t * gravity_x
-    out[8] = u[1] + t * gravity_y
-    out[9] = u[2] + t * gravity_z
+    velocity, gravity = vector_at(u, 0), (gravity_x, gravity_y, gravity_z)
+    put(out, 0, ahead(vector_at(q, 0), t, ahead(velocity, half, gravity)))
+    put(out, 7, ahead(velocity, t, gravity))
     ox, oy, oz = vector_at(u, 3)
     # the angular momentum over the moment of inertia across the axis of symmetry stays in space; what the spin about
     # that axis has more turns with the body
@@ -151,6 +144,9 @@ class FreeBody(Body):
     Velocities: of the mass centre in world axes [m/s], angular velocity in body axes [rad/s].
     """
 
+    q_labels, u_labels, quaternion = POSE_LABELS, TWIST_LABELS, 3
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
+
     def __post_init__(self) -> None:
         super().__post_init__()
         try:
@@ -197,21 +193,6 @@ class FreeBody(Body):
         return (check_carried(f"{type(self).__name__}.shapes", self.shapes),)
 
     @property
-    def q_labels(self) -> NamesAndUnits:
-        """Names and units of the coordinates: position and quaternion."""
-        return POSE_LABELS
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """Names and units of the velocities: velocity and angular velocity."""
-        return TWIST_LABELS
-
-    @property
-    def quaternion(self) -> int:
-        """Offset of the quaternion in q: 3, behind the position."""
-        return 3
-
-    @property
     def spin(self) -> int:
         """Offset of the angular velocity in u, 3, for a symmetric top; else -1.
 
@@ -222,11 +203,6 @@ class FreeBody(Body):
         both kinds of axes: for a ball the result is -1.
         """
         return 3 if self._is_symmetric and len(set(self.inertia)) == 2 else -1
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Function that writes the output block of the body, by the Newton-Euler equations."""
-        return _evaluate
 
     @property
     def flight(self) -> Callable[..., None] | None:

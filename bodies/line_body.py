@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import NamesAndUnits, Vector
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 from .blocks import places_behind_frame, pose_of, write_pose
-from .values import Word, check_carried, direction, read_start, unit_quaternion, vector
+from .values import Word, check_fields, keep_carried, read_start
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
 _RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=1, n_u=1)
@@ -74,16 +74,12 @@ class LineBody(Body):
     carried: tuple[Shape, ...] = ()
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    q_labels, u_labels = (("s", "m"),), (("v", "m/s"),)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
-        values = {
-            "direction": direction("LineBody.direction", self.direction),
-            "origin": vector("LineBody.origin", self.origin, 3, "m"),
-            "orientation": unit_quaternion("LineBody.orientation", self.orientation),
-        }
-        for name, value in values.items():
-            object.__setattr__(self, name, tuple(value.tolist()))
-        object.__setattr__(self, "carried", check_carried("LineBody.carried", self.carried))
+        check_fields(self, "direction", "origin", "orientation")
+        keep_carried(self)
 
     def parameters(self) -> Mapping[str, Value]:
         """Return mass, direction and the pose at the origin."""
@@ -94,21 +90,6 @@ class LineBody(Body):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """One frame with the shapes as given."""
         return (self.carried,)
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        """The distance along the line."""
-        return (("s", "m"),)
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """Its rate."""
-        return (("v", "m/s"),)
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Newton's equation along the line."""
-        return _evaluate
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position [m] and velocity [m/s], both along the line."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from nonsmooth.types import Floats
 from .blocks import POSE
 from .prescribed import Prescribed
 from .shapes.plane import Plane
-from .values import unit_quaternion, vector
+from .values import check_fields
 
 _PLANES = 5
 
@@ -56,11 +56,10 @@ class OpenBox(Prescribed):
     half_y: float = parameter(doc="half of the inner length along the second axis", unit="m", above=0.0)
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
-        object.__setattr__(self, "position", tuple(vector("OpenBox.position", self.position, 3, "m").tolist()))
-        turn = unit_quaternion("OpenBox.orientation", self.orientation)
-        object.__setattr__(self, "orientation", tuple(turn.tolist()))
+        check_fields(self, "position", "orientation")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the poses of floor and walls; the third axis of a wall is the normal to the inside."""
@@ -78,8 +77,3 @@ class OpenBox(Prescribed):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """Five frames, each with the plane through its origin."""
         return ((Plane(),),) * _PLANES
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The fixed poses of floor and walls."""
-        return _evaluate

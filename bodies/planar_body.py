@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
 from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
-from nonsmooth.interfaces.body import NamesAndUnits, Vector
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
 from .blocks import places_behind_frame
-from .values import Word, check_carried, read_start
+from .values import Word, keep_carried, read_start
 from .vectors import put, vector_at
 
 _WORDS: dict[str, Word] = {
@@ -86,29 +86,17 @@ class PlanarBody(Body):
     )
     carried: tuple[Shape, ...] = ()
     y: float = parameter(0.0, doc="second coordinate of its plane", unit="m")
+    q_labels = ("x", "m"), ("z", "m"), ("angle", "rad")
+    u_labels = ("vx", "m/s"), ("vz", "m/s"), ("w", "rad/s")
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
-        object.__setattr__(self, "carried", check_carried("PlanarBody.carried", self.carried))
+        keep_carried(self)
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """One frame with the shapes as given."""
         return (self.carried,)
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        """Two coordinates and an angle."""
-        return ("x", "m"), ("z", "m"), ("angle", "rad")
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """Their rates."""
-        return ("vx", "m/s"), ("vz", "m/s"), ("w", "rad/s")
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Newton-Euler equations in the plane."""
-        return _evaluate
 
     @property
     def length_scale(self) -> float:

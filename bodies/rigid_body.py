@@ -15,7 +15,7 @@ from nonsmooth.parameters import parameter
 from .free import TensorBody
 from .inertia import read_tensor
 from .shapes.sphere import Sphere
-from .values import check_carried
+from .values import keep_carried
 
 
 @final
@@ -54,7 +54,7 @@ class RigidBody(TensorBody):
     def _check(self) -> None:
         tensor = read_tensor("RigidBody.tensor", self.tensor)
         object.__setattr__(self, "tensor", tuple(tuple(row) for row in tensor.tolist()))
-        object.__setattr__(self, "carried", check_carried("RigidBody.carried", self.carried))
+        keep_carried(self)
 
     @property
     def total_mass(self) -> float:

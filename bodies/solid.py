@@ -20,7 +20,7 @@ from .shapes.box import Box
 from .shapes.moved_shape import moved
 from .shapes.triangle_mesh import TriangleMesh
 from .solid_body import SolidBody
-from .values import unit_quaternion
+from .values import check_fields
 
 
 @final
@@ -67,8 +67,7 @@ class Solid(SolidBody, TensorBody):
             given = {"density": self.density, "mass": self.mass}
             remedy = "Write Solid(shape, density=2700.0) or Solid(shape, mass=0.1)."
             raise InvalidInput("Solid: density or mass", "must be given, exactly one of the two", given, remedy)
-        turn = unit_quaternion("Solid.orientation", self.orientation)
-        object.__setattr__(self, "orientation", tuple(turn.tolist()))
+        check_fields(self, "orientation")
 
     @property
     def centre(self) -> Vector:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -59,6 +59,30 @@ def unit_quaternion(thing: str, value: Any) -> Vector:
 def turned_back(quaternion: Any, value: Any) -> tuple[float, ...]:
     """Return a vector as a frame of the given unit quaternion (scalar first) sees it."""
     return tuple((rotation(quaternion).T @ np.asarray(value)).tolist())
+
+
+_CHECKS: dict[str, Callable[[str, Any], Vector]] = {
+    "direction": direction,
+    "axis": direction,
+    "normal": direction,
+    "orientation": unit_quaternion,
+    "velocity": lambda thing, value: vector(thing, value, 3, "m/s"),
+}
+"""Checks of the fields of bodies and motions by name; all others are positions in [m]."""
+
+
+def check_fields(component: Any, *names: str) -> None:
+    """Check fields of a frozen component, named after what they are, and keep them as tuples of floats.
+
+    Raises
+    ------
+    InvalidInput
+        A value is not a vector, unit vector or unit quaternion, as its name says.
+    """
+    for name in names:
+        thing, value = f"{type(component).__name__}.{name}", getattr(component, name)
+        checked = _CHECKS[name](thing, value) if name in _CHECKS else vector(thing, value, 3, "m")
+        object.__setattr__(component, name, tuple(checked.tolist()))
 
 
 def read_start(name: str, words: Mapping[str, Word], start: Mapping[str, Any]) -> dict[str, Vector]:
@@ -121,3 +145,8 @@ def check_carried(thing: str, shapes: Any) -> tuple[Shape, ...]:
         if not isinstance(shape, Shape):
             raise InvalidInput(thing, "must contain shapes only", shape, remedy)
     return tuple(shapes)
+
+
+def keep_carried(body: Any) -> None:
+    """Check the field ``carried`` of a frozen body, its shapes, and keep it as a tuple."""
+    object.__setattr__(body, "carried", check_carried(f"{type(body).__name__}.carried", body.carried))

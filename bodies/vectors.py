@@ -6,14 +6,14 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
+from nonsmooth.types import Floats, ReadFloats
 
 Vector3: TypeAlias = tuple[float, float, float]
 """A vector of three numbers, as compiled functions take and return it."""
 
 
 @compiled
-def vector_at(table: Floats, place: int) -> Vector3:
+def vector_at(table: ReadFloats, place: int) -> Vector3:
     """Return the vector that begins at a place of a block or table."""
     return table[place], table[place + 1], table[place + 2]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import Value
@@ -14,7 +14,7 @@ from nonsmooth.vectors import perpendiculars
 from .blocks import stand_still
 from .prescribed import Prescribed
 from .shapes.plane import Plane
-from .values import direction, vector
+from .values import check_fields
 
 
 @final
@@ -37,10 +37,10 @@ class Wall(Prescribed):
 
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(stand_still)
 
     def _check(self) -> None:
-        object.__setattr__(self, "normal", tuple(direction("Wall.normal", self.normal).tolist()))
-        object.__setattr__(self, "point", tuple(vector("Wall.point", self.point, 3, "m").tolist()))
+        check_fields(self, "normal", "point")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the pose: the point [m], and the rotation matrix whose third column is the normal."""
@@ -51,8 +51,3 @@ class Wall(Prescribed):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """One frame with the plane through its origin."""
         return ((Plane(),),)
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The fixed pose."""
-        return stand_still

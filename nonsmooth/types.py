@@ -11,10 +11,14 @@ Array: TypeAlias = NDArray[np.float64]
 """An array of floats of numpy."""
 
 
-class Floats(Protocol):
-    """A block of floats that plug-in functions read or write by index."""
+class ReadFloats(Protocol):
+    """A block or a tuple of floats that functions only read."""
 
     def __getitem__(self, index: int, /) -> float: ...
+
+
+class Floats(ReadFloats, Protocol):
+    """A block of floats that plug-in functions read or write by index."""
 
     def __setitem__(self, index: int, value: float, /) -> None: ...
 

@@ -6,12 +6,11 @@ A joint is a table of rows, which :func:`evaluate_rows` evaluates one after the 
 from __future__ import annotations
 
 import itertools
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -25,7 +24,6 @@ from nonsmooth.engine.memory.blocks import (
     POINT_B,
     POSITION,
     RESIDUAL,
-    ROTATION,
     ROW_BIAS,
     SPIN,
     SPIN_ACCELERATION,
@@ -36,6 +34,9 @@ from nonsmooth.interfaces.solid import Vector
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 from nonsmooth.vectors import vector
+
+from ..contacts.features.frames import point_in_world, vector_in_world
+from ..vectors import Vector3, ahead, cross, dot, minus, over, plus, put, size_of, times, vector_at
 
 Point = tuple[float, float, float]
 _WIDTH = 10
@@ -91,6 +92,109 @@ def parallel_axes(axes: Sequence[Sequence[float]], seen: Sequence[Sequence[float
     return [right_angle(axes[i], seen[(i + 1) % 3]) for i in range(3)]
 
 
+@compiled
+def _velocity(frame: Floats, d: Vector3) -> Vector3:
+    """Return the velocity of a point fixed in a frame, at the offset d [m] from the origin of the frame [m/s]."""
+    v, w = vector_at(frame, VELOCITY), vector_at(frame, SPIN)
+    return (
+        v[0] + w[1] * d[2] - w[2] * d[1],
+        v[1] + w[2] * d[0] - w[0] * d[2],
+        v[2] + w[0] * d[1] - w[1] * d[0],
+    )
+
+
+@compiled
+def _acceleration(frame: Floats, d: Vector3) -> Vector3:
+    """Return the acceleration of a point fixed in a frame, at the offset d [m] from the origin of the frame [m/s^2].
+
+    Its centripetal part is omega x (omega x d) = omega (omega . d) - d omega^2.
+    """
+    a, w, turn = vector_at(frame, ACCELERATION), vector_at(frame, SPIN), vector_at(frame, SPIN_ACCELERATION)
+    along = dot(w, d)
+    carried = (
+        a[0] + turn[1] * d[2] - turn[2] * d[1] + w[0] * along,
+        a[1] + turn[2] * d[0] - turn[0] * d[2] + w[1] * along,
+        a[2] + turn[0] * d[1] - turn[1] * d[0] + w[2] * along,
+    )
+    return ahead(carried, -dot(w, w), d)
+
+
+@compiled
+def _write_row(out: Floats, residual: float, axis: Vector3, moment: Vector3, bias: float) -> None:
+    out[RESIDUAL], out[ROW_BIAS] = residual, bias
+    put(out, AXIS, axis)
+    put(out, MOMENT, moment)
+
+
+@compiled
+def point_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vector3, axis: Vector3) -> None:
+    """Write the row of axis . (P_b - P_a) = 0: points and axis are fixed in their frames, the axis in the first."""
+    n, offset = vector_in_world(a, axis), vector_in_world(b, second)
+    point = plus(vector_at(b, POSITION), offset)
+    # both sides move with the point of the second body, as seen from the first
+    put(out, POINT_A, point)
+    put(out, POINT_B, point)
+    d_a, d_b = minus(point, vector_at(a, POSITION)), minus(point, vector_at(b, POSITION))
+    # acceleration of the second body's point relative to the turning frame of the first
+    rate = minus(_velocity(b, d_b), _velocity(a, d_a))
+    acceleration = minus(_acceleration(b, d_b), _acceleration(a, d_a))
+    acceleration = ahead(acceleration, -2.0, cross(vector_at(a, SPIN), rate))
+    residual = dot(n, minus(d_a, vector_in_world(a, first)))
+    _write_row(out, residual, n, (0.0, 0.0, 0.0), dot(n, acceleration))
+
+
+@compiled
+def angle_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vector3) -> None:
+    """Write the row of e_a . e_b = 0: two directions, each fixed in its frame, keep a right angle."""
+    e_a, e_b = vector_in_world(a, first), vector_in_world(b, second)
+    w_a, w_b, residual = vector_at(a, SPIN), vector_at(b, SPIN), dot(e_a, e_b)
+    # kept where the points of the row would be: a row of angles has none
+    put(out, POINT_A, e_a)
+    put(out, POINT_B, e_b)
+    moment = cross(e_b, e_a)
+    # (omega_b x e_b) x e_a + e_b x (omega_a x e_a), the rate of the moment
+    turned = ahead(ahead(times(dot(w_b, e_a), e_b), -residual, w_b), residual, w_a)
+    turned = ahead(turned, -dot(w_a, e_b), e_a)
+    spin, turn = minus(w_b, w_a), minus(vector_at(b, SPIN_ACCELERATION), vector_at(a, SPIN_ACCELERATION))
+    bias = 0.0
+    for i in range(3):
+        bias += turn[i] * moment[i] + spin[i] * turned[i]
+    _write_row(out, residual, (0.0, 0.0, 0.0), moment, bias)
+
+
+@compiled
+def distance_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vector3, length: float) -> None:
+    """Write the row of |P_b - P_a| = length."""
+    point_a, point_b = point_in_world(a, first), point_in_world(b, second)
+    put(out, POINT_A, point_a)
+    put(out, POINT_B, point_b)
+    apart = minus(point_b, point_a)
+    distance = size_of(apart)
+    n, d_a, d_b = over(apart, distance), minus(point_a, vector_at(a, POSITION)), minus(point_b, vector_at(b, POSITION))
+    rate = minus(_velocity(b, d_b), _velocity(a, d_a))
+    acceleration = minus(_acceleration(b, d_b), _acceleration(a, d_a))
+    stretch = dot(n, rate)
+    bias = dot(n, acceleration) + (dot(rate, rate) - stretch * stretch) / distance
+    _write_row(out, distance - length, n, (0.0, 0.0, 0.0), bias)
+
+
+def evaluate_rows(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats) -> None:
+    """Write the rows of a joint to ``out``: residual, axis, moment, points and bias of each condition.
+
+    ``rows`` is the table of the conditions between the frames ``a`` and ``b`` of the first and the second body.  The
+    layout of ``out`` is explained in :mod:`nonsmooth.engine.memory.blocks`.
+    """
+    for i in range(int(n_rows)):
+        row, own = _WIDTH * i, block_at(out, JOINT_ROW * i)
+        kind, first, second = int(rows[row]), vector_at(rows, row + 1), vector_at(rows, row + 4)
+        if kind == RowKind.ON_PLANE:
+            point_row(a, b, own, first, second, vector_at(rows, row + 7))
+        elif kind == RowKind.RIGHT_ANGLE:
+            angle_row(a, b, own, first, second)
+        else:
+            distance_row(a, b, own, first, second, rows[row + 7])
+
+
 @dataclass(frozen=True)
 class RowsJoint(Joint, ABC):
     """A joint that is a table of rows; subclasses are final and give ``rows``.
@@ -103,6 +207,7 @@ class RowsJoint(Joint, ABC):
 
     first: Point = (0.0, 0.0, 0.0)
     second: Point = (0.0, 0.0, 0.0)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(evaluate_rows)
 
     def _check(self) -> None:
         self.parameters()
@@ -126,162 +231,9 @@ class RowsJoint(Joint, ABC):
         return len(self.rows)
 
     @property
-    def evaluator(self) -> Callable[..., None]:
-        """Function that writes the joint's rows: residual, axis, moment and bias of each."""
-        return evaluate_rows
-
-    @property
     def ends(self) -> Vector:
         """Positions of the joint in pictures, one in the frame of the first and one in that of the second body [m].
 
         Shape [2, 3].
         """
         return np.array([self.first, self.second], dtype=float)
-
-
-def evaluate_rows(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats) -> None:
-    """Write the rows of a joint to ``out``: residual, axis, moment, points and bias of each condition.
-
-    ``rows`` is the table of the conditions between the frames ``a`` and ``b`` of the first and the second body.  The
-    layout of ``out`` is explained in :mod:`nonsmooth.engine.memory.blocks`.
-    """
-    for i in range(int(n_rows)):
-        row = _WIDTH * i
-        kind, first, second = int(rows[row]), block_at(rows, row + 1), block_at(rows, row + 4)
-        if kind == RowKind.ON_PLANE:
-            point_row(a, b, out, i, first, second, block_at(rows, row + 7))
-        elif kind == RowKind.RIGHT_ANGLE:
-            angle_row(a, b, out, i, first, second)
-        else:
-            distance_row(a, b, out, i, first, second, rows[row + 7])
-
-
-@compiled
-def _along(frame: Floats, out: Floats, place: int) -> float:
-    """Return omega . d, with the offset d of the point at index ``place`` of ``out`` from the origin of a frame."""
-    return (
-        frame[SPIN] * (out[place] - frame[POSITION])
-        + frame[SPIN + 1] * (out[place + 1] - frame[POSITION + 1])
-        + frame[SPIN + 2] * (out[place + 2] - frame[POSITION + 2])
-    )
-
-
-@compiled
-def _square(frame: Floats) -> float:
-    """Return omega^2 of a frame."""
-    return frame[SPIN] * frame[SPIN] + frame[SPIN + 1] * frame[SPIN + 1] + frame[SPIN + 2] * frame[SPIN + 2]
-
-
-@compiled
-def _carried(frame: Floats, out: Floats, place: int, along: float, i: int) -> float:
-    """Return component i of the acceleration of a point fixed in a frame, without the term -d_i omega^2 [m/s^2].
-
-    The point is at index ``place`` of ``out``; d is its offset from the origin of the frame, omega the angular velocity
-    of the frame.  The centripetal part of the acceleration is omega x (omega x d) = omega (omega . d) - d omega^2.  The
-    caller passes ``along`` = omega . d and adds the last term itself.
-    """
-    j, k = (i + 1) % 3, (i + 2) % 3
-    return (
-        frame[ACCELERATION + i]
-        + frame[SPIN_ACCELERATION + j] * (out[place + k] - frame[k])
-        - frame[SPIN_ACCELERATION + k] * (out[place + j] - frame[j])
-        + frame[SPIN + i] * along
-    )
-
-
-@compiled
-def _relative(a: Floats, b: Floats, out: Floats, o: int, i: int) -> float:
-    """Return component i of the relative velocity of a row's two points [m/s], second body minus first body."""
-    j, k = (i + 1) % 3, (i + 2) % 3
-    first = a[VELOCITY + i] + a[SPIN + j] * (out[o + POINT_A + k] - a[k]) - a[SPIN + k] * (out[o + POINT_A + j] - a[j])
-    second = b[VELOCITY + i] + b[SPIN + j] * (out[o + POINT_B + k] - b[k]) - b[SPIN + k] * (out[o + POINT_B + j] - b[j])
-    return second - first
-
-
-@compiled
-def point_row(a: Floats, b: Floats, out: Floats, row: int, first: Floats, second: Floats, axis: Floats) -> None:
-    """Write the row of axis . (P_b - P_a) = 0: points and axis are fixed in their frames, the axis in the first."""
-    o = JOINT_ROW * row
-    residual = bias = 0.0
-    for i in range(3):
-        r = ROTATION + 3 * i
-        x_a = a[r] * first[0] + a[r + 1] * first[1] + a[r + 2] * first[2]
-        x_b = b[r] * second[0] + b[r + 1] * second[1] + b[r + 2] * second[2]
-        n = a[r] * axis[0] + a[r + 1] * axis[1] + a[r + 2] * axis[2]
-        out[o + AXIS + i] = n
-        out[o + MOMENT + i] = 0.0
-        # both sides move with the point of the second body, as seen from the first
-        out[o + POINT_A + i] = out[o + POINT_B + i] = b[i] + x_b
-        residual += n * (b[i] + x_b - a[i] - x_a)
-    out[o + RESIDUAL] = residual
-    # velocity and acceleration of the second body's point relative to the turning frame of the first
-    point, square_a, square_b = o + POINT_A, _square(a), _square(b)
-    along_a, along_b = _along(a, out, point), _along(b, out, point)
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        acceleration = _carried(b, out, point, along_b, i) - (out[point + i] - b[i]) * square_b
-        acceleration -= _carried(a, out, point, along_a, i) - (out[point + i] - a[i]) * square_a
-        v_j = _relative(a, b, out, o, j)
-        v_k = _relative(a, b, out, o, k)
-        acceleration -= 2.0 * (a[SPIN + j] * v_k - a[SPIN + k] * v_j)
-        bias += out[o + AXIS + i] * acceleration
-    out[o + ROW_BIAS] = bias
-
-
-@compiled
-def angle_row(a: Floats, b: Floats, out: Floats, row: int, first: Floats, second: Floats) -> None:
-    """Write the row of e_a . e_b = 0: two directions, each fixed in its frame, keep a right angle."""
-    o = JOINT_ROW * row
-    residual = bias = 0.0
-    for i in range(3):
-        r = ROTATION + 3 * i
-        # kept where the points of the row would be: a row of angles has none
-        out[o + POINT_A + i] = a[r] * first[0] + a[r + 1] * first[1] + a[r + 2] * first[2]
-        out[o + POINT_B + i] = b[r] * second[0] + b[r + 1] * second[1] + b[r + 2] * second[2]
-        out[o + AXIS + i] = 0.0
-        residual += out[o + POINT_A + i] * out[o + POINT_B + i]
-    out[o + RESIDUAL] = residual
-    along_a = a[SPIN] * out[o + POINT_B] + a[SPIN + 1] * out[o + POINT_B + 1] + a[SPIN + 2] * out[o + POINT_B + 2]
-    along_b = b[SPIN] * out[o + POINT_A] + b[SPIN + 1] * out[o + POINT_A + 1] + b[SPIN + 2] * out[o + POINT_A + 2]
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        moment = out[o + POINT_B + j] * out[o + POINT_A + k] - out[o + POINT_B + k] * out[o + POINT_A + j]
-        out[o + MOMENT + i] = moment
-        # (omega_b x e_b) x e_a + e_b x (omega_a x e_a), the rate of the moment
-        turned = (
-            out[o + POINT_B + i] * along_b
-            - b[SPIN + i] * residual
-            + a[SPIN + i] * residual
-            - out[o + POINT_A + i] * along_a
-        )
-        bias += (b[SPIN_ACCELERATION + i] - a[SPIN_ACCELERATION + i]) * moment + (b[SPIN + i] - a[SPIN + i]) * turned
-    out[o + ROW_BIAS] = bias
-
-
-@compiled
-def distance_row(a: Floats, b: Floats, out: Floats, row: int, first: Floats, second: Floats, length: float) -> None:
-    """Write the row of |P_b - P_a| = length."""
-    o = JOINT_ROW * row
-    square = 0.0
-    for i in range(3):
-        r = ROTATION + 3 * i
-        out[o + POINT_A + i] = a[i] + a[r] * first[0] + a[r + 1] * first[1] + a[r + 2] * first[2]
-        out[o + POINT_B + i] = b[i] + b[r] * second[0] + b[r + 1] * second[1] + b[r + 2] * second[2]
-        out[o + MOMENT + i] = 0.0
-        square += (out[o + POINT_B + i] - out[o + POINT_A + i]) ** 2
-    distance = math.sqrt(square)
-    out[o + RESIDUAL] = distance - length
-    bias = speed = stretch = 0.0
-    square_a, square_b = _square(a), _square(b)
-    along_a, along_b = _along(a, out, o + POINT_A), _along(b, out, o + POINT_B)
-    for i in range(3):
-        n = (out[o + POINT_B + i] - out[o + POINT_A + i]) / distance
-        out[o + AXIS + i] = n
-        velocity = _relative(a, b, out, o, i)
-        speed += velocity * velocity
-        stretch += n * velocity
-        acceleration = _carried(b, out, o + POINT_B, along_b, i) - (out[o + POINT_B + i] - b[i]) * square_b
-        acceleration -= _carried(a, out, o + POINT_A, along_a, i)
-        acceleration += (out[o + POINT_A + i] - a[i]) * square_a
-        bias += n * acceleration
-    out[o + ROW_BIAS] = bias + (speed - stretch * stretch) / distance

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Motion
@@ -13,7 +13,7 @@ from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 from ..blocks import pose_of
-from ..values import direction, unit_quaternion, vector
+from ..values import check_fields
 from ..vectors import put
 
 
@@ -87,18 +87,12 @@ class ConstantVelocity(Motion):
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
     centre: tuple[float, float, float] | None = None
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
-        centre = self.position if self.centre is None else self.centre
-        values = {
-            "velocity": vector("ConstantVelocity.velocity", self.velocity, 3, "m/s"),
-            "axis": direction("ConstantVelocity.axis", self.axis),
-            "position": vector("ConstantVelocity.position", self.position, 3, "m"),
-            "orientation": unit_quaternion("ConstantVelocity.orientation", self.orientation),
-            "centre": vector("ConstantVelocity.centre", centre, 3, "m"),
-        }
-        for name, value in values.items():
-            object.__setattr__(self, name, tuple(value.tolist()))
+        if self.centre is None:
+            object.__setattr__(self, "centre", self.position)
+        check_fields(self, "velocity", "axis", "position", "orientation", "centre")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return rate, velocity, axis, centre, and the pose at t = 0."""
@@ -109,11 +103,6 @@ class ConstantVelocity(Motion):
             "centre": self.centre or self.position,
             "pose": pose_of(self.position, self.orientation),
         }
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Pose, velocities and accelerations of the frame."""
-        return _evaluate
 
     @property
     def time_scale(self) -> float:

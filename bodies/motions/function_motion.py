@@ -14,8 +14,7 @@ from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
 
-from ..blocks import rotation_of
-from ..vectors import put
+from ..blocks import put_rows, rotation_of
 from .function_check import Function, check_linear, check_turn
 
 Evaluator: TypeAlias = Callable[..., None]
@@ -39,10 +38,7 @@ def _turning(translation: Evaluator, orientation: Function, velocity: Function, 
     def evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
         move(t, q, u, out)
         w, x, y, z = r(t)
-        xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_of(w, x, y, z)
-        put(out, ROTATION, (xx, xy, xz))
-        put(out, ROTATION + 3, (yx, yy, yz))
-        put(out, ROTATION + 6, (zx, zy, zz))
+        put_rows(out, ROTATION, rotation_of(w, x, y, z))
         out[SPIN], out[SPIN + 1], out[SPIN + 2] = v(t)
         out[SPIN_ACCELERATION], out[SPIN_ACCELERATION + 1], out[SPIN_ACCELERATION + 2] = a(t)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, VELOCITY
 from nonsmooth.interfaces import Motion
@@ -38,6 +38,7 @@ class Harmonic(Motion):
     axis_x: float = parameter(0.0, doc="axis of the vibration, first component", **UNIT_PART)
     axis_y: float = parameter(0.0, doc="axis of the vibration, second component", **UNIT_PART)
     axis_z: float = parameter(1.0, doc="axis of the vibration, third component", **UNIT_PART)
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(_evaluate)
 
     def _check(self) -> None:
         self.parameters()
@@ -46,11 +47,6 @@ class Harmonic(Motion):
         """Return amplitude [m], frequency [Hz], phase [rad], and the axis, normalised to unit length."""
         axis = unit_vector("Harmonic axis", (self.axis_x, self.axis_y, self.axis_z))
         return {"amplitude": self.amplitude, "frequency": self.frequency, "phase": self.phase, "axis": axis}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """Position, velocity and acceleration of the frame."""
-        return _evaluate
 
     @property
     def time_scale(self) -> float:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, final
 
 from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.interfaces import Motion
 from nonsmooth.parameters import Value, parameter
 
 from ..blocks import pose_of, stand_still
-from ..values import unit_quaternion, vector
+from ..values import check_fields
 
 
 @final
@@ -38,12 +38,11 @@ class Rest(Motion):
     slope: float = parameter(0.0, doc="angle of the slope", unit="rad", minimum=-math.pi / 2, maximum=math.pi / 2)
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    time_scale = math.inf
+    evaluator: ClassVar[Callable[..., None]] = staticmethod(stand_still)
 
     def _check(self) -> None:
-        position = vector("Rest.position", self.position, 3, "m")
-        orientation = unit_quaternion("Rest.orientation", self.orientation)
-        object.__setattr__(self, "position", tuple(position.tolist()))
-        object.__setattr__(self, "orientation", tuple(orientation.tolist()))
+        check_fields(self, "position", "orientation")
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the pose on the slope: position [m] and rotation matrix."""
@@ -52,13 +51,3 @@ class Rest(Motion):
         for i in (ROTATION, ROTATION + 3, ROTATION + 6):
             pose[i], pose[i + 2] = pose[i] * c - pose[i + 2] * s, pose[i] * s + pose[i + 2] * c
         return {"pose": tuple(pose)}
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The fixed pose."""
-        return stand_still
-
-    @property
-    def time_scale(self) -> float:
-        """Infinite [s]."""
-        return math.inf

@@ -19,7 +19,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ..blocks import pose_of, write_pose
-from ..values import unit_quaternion
+from ..values import check_fields
 
 _SAME_TIME = 1e-6
 _SAME_PLACE = 1e-3
@@ -111,11 +111,10 @@ class Table(Motion):
         times = _numbers("Table.times", self.times, 1, "s")
         positions = _numbers("Table.positions", self.positions, 2, "m")
         _check_rows(times, positions, self.periodic)
-        orientation = unit_quaternion("Table.orientation", self.orientation)
         spline = CubicSpline(times, positions, bc_type="periodic" if self.periodic else "natural")
         object.__setattr__(self, "times", tuple(times.tolist()))
         object.__setattr__(self, "positions", tuple(map(tuple, positions.tolist())))
-        object.__setattr__(self, "orientation", tuple(orientation.tolist()))
+        check_fields(self, "orientation")
         # per interval, per coordinate, from the cube down
         object.__setattr__(self, "_coefficients", tuple(np.transpose(spline.c, (1, 2, 0)).ravel().tolist()))
         object.__setattr__(self, "_time_scale", _time_scale(times, positions, spline.c))

@@ -6,10 +6,12 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import call_support, compiled
-from nonsmooth.types import Floats
+from nonsmooth.types import ReadFloats
 
 from ..vectors import Vector3, ahead, cross, dot, plus, times
 
+Core: TypeAlias = ReadFloats
+"""The numbers of a core, which functions only read."""
 Bends: TypeAlias = tuple[float, float, float, float, float, float]
 """Second derivative of a support function [m] or of a gauge, by its elements xx, yy, zz, yz, xz and xy."""
 Support: TypeAlias = tuple[float, Vector3, Bends]
@@ -32,20 +34,20 @@ The differences are of fourth order: their error is of the order of step^4, 1e-1
 
 
 @compiled
-def support_of(core: Floats, n: Vector3) -> Support:
+def support_of(core: Core, n: Vector3) -> Support:
     """Return the support function of the core, without the radius, at the unit vector n of its own axes.
 
     The second derivative is infinite at the axes of a core that is not round; it is returned as nan for such cores.
     """
     if core[3] == OF_FUNCTION:
-        found: Support = _by_function(core, n)
+        found = _by_function(core, n)
     else:
         found = support_by((core[0], core[1], core[2]), core[3], core[4], n)
     return found
 
 
 @compiled
-def _by_function(core: Floats, n: Vector3) -> Support:
+def _by_function(core: Core, n: Vector3) -> Support:
     """Return the support function of a core given by a user's function of farthest points.
 
     The value and the gradient follow from the farthest point.  The second derivative follows from finite differences of
@@ -76,7 +78,7 @@ def _by_function(core: Floats, n: Vector3) -> Support:
 
 
 @compiled
-def _slope(core: Floats, n: Vector3, t: Vector3) -> Vector3:
+def _slope(core: Core, n: Vector3, t: Vector3) -> Vector3:
     """Return the derivative of the farthest point by the angle, as the direction n turns towards t across it."""
     slope = 0.0, 0.0, 0.0
     for i in range(-2, 3):
@@ -95,38 +97,36 @@ def support_by(semi: Vector3, p: float, q: float, n: Vector3) -> Support:
     if p < 2.0 or q < 2.0:
         h, point = _norm_and_gradient(semi, p, q, n)
         return h, point, _UNKNOWN
-    found: Support = norm_of(semi, p, q, n)
-    return found
+    return norm_of(semi, p, q, n)
 
 
 @compiled
-def is_boxy(core: Floats) -> bool:
+def is_boxy(core: Core) -> bool:
     """Return whether the gauge of a core has a second derivative rather than its support function: flat points."""
     return core[0] > 0.0 and core[3] < 2.0 and core[4] <= 2.0
 
 
 @compiled
-def is_round(core: Floats) -> bool:
+def is_round(core: Core) -> bool:
     """Return whether the support function of a core has a second derivative: no flat points."""
     return core[0] == 0.0 or min(core[3], core[4]) >= 2.0
 
 
 @compiled
-def is_mixed(core: Floats) -> bool:
+def is_mixed(core: Core) -> bool:
     """Return whether a core has both flat and sharp places: of its powers, one is below 2 and the other above 2."""
     return core[0] > 0.0 and (core[3] - 2.0) * (core[4] - 2.0) < 0.0
 
 
 @compiled
-def boxy_gauge_of(core: Floats, point: Vector3) -> Support:
+def boxy_gauge_of(core: Core, point: Vector3) -> Support:
     """Return the gauge of a boxy core, by how much it has to grow to reach a point, and its derivatives.
 
     The gauge is the dual norm of the support function, with the powers p / (p - 1) and q / (q - 1), which are 2 and
     more.
     """
     p, q = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
-    found: Support = norm_of((1.0 / core[0], 1.0 / core[1], 1.0 / core[2]), p, q, point)
-    return found
+    return norm_of((1.0 / core[0], 1.0 / core[1], 1.0 / core[2]), p, q, point)
 
 
 @compiled
@@ -195,7 +195,7 @@ def norm_of(semi: Vector3, p: float, q: float, n: Vector3) -> Support:
 
 
 @compiled
-def gauge_of(core: Floats, point: Vector3) -> float:
+def gauge_of(core: Core, point: Vector3) -> float:
     """Return the factor by which the core, without the radius, must grow about its centre to reach a point.
 
     It is 0 at the centre, 1 on the surface, and infinite if it is not known.  The point is in the axes of the core.

@@ -32,6 +32,7 @@ from nonsmooth.interfaces import (
     TangentialLaw,
 )
 from nonsmooth.notices import warn
+from nonsmooth.parameters import Component
 
 _GROUPS: dict[str, tuple[str, tuple[type, ...]]] = {
     "bodies": ("body", (Body,)),
@@ -243,7 +244,7 @@ def kinds_named(name: str) -> str:
 
 
 def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
-    """Reason why an object is no usable component of a plug-in; None for a dataclass that implements one of ``bases``.
+    """Reason why an object is no usable component of a plug-in; None for a class that implements one of ``bases``.
 
     The reason continues a sentence that begins with the name of the object.
     """
@@ -253,8 +254,7 @@ def fault(loaded: Any, bases: tuple[type, ...]) -> str | None:
     if inspect.isabstract(loaded):
         missing = ", ".join(sorted(vars(loaded)["__abstractmethods__"]))
         return f"must define {missing}."
-    # a contact kinematics is never instantiated
-    if "__dataclass_fields__" not in vars(loaded) and not issubclass(loaded, ContactKinematics):
+    if "__dataclass_fields__" not in vars(loaded) and issubclass(loaded, Component):
         return f"must be a dataclass: write @dataclass(frozen=True) above {loaded.__name__}."
     return None
 

@@ -14,13 +14,19 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import BoxBody, Cylinder, EllipsoidBody, Superellipsoid, SuperellipsoidBody, TriangleMesh, Triangles
-from bodies.contacts.smooth.boxy_newton import place_on
+from bodies.contacts.smooth.boxy_newton import place_on as _place_on
 from bodies.contacts.smooth.smooth_newton import widest
-from bodies.shapes.support_function import boxy_gauge_of, support_of
+from bodies.shapes.support_function import boxy_gauge_of as _boxy_gauge_of
+from bodies.shapes.support_function import support_of as _support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.carriers import Rig, Stand
 from tests.bodies.meshes import parts
+
+# called with arrays in place of tuples
+place_on: Any = _place_on
+boxy_gauge_of: Any = _boxy_gauge_of
+support_of: Any = _support_of
 
 Array = NDArray[np.float64]
 GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9, -1e-9, -1e-7, -1e-5, -1e-4)

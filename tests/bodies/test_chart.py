@@ -14,8 +14,12 @@ from scipy.spatial.transform import Rotation
 from bodies import Superellipsoid
 from bodies.contacts.smooth.chart import chart_of, start_of
 from bodies.contacts.smooth.smooth_newton import widest
-from bodies.shapes.support_function import gauge_of, support_of
+from bodies.shapes.support_function import gauge_of
+from bodies.shapes.support_function import support_of as _support_of
 from nonsmooth.engine.native.kernel import PLAIN
+
+# called with arrays in place of tuples
+support_of: Any = _support_of
 
 Array = NDArray[np.float64]
 BOTH_WAYS = [(0.3, 1.3), (1.4, 0.5)]

@@ -10,8 +10,11 @@ from scipy.spatial.transform import Rotation
 
 from bodies import Superellipsoid
 from bodies.contacts.smooth.smooth_newton import widest
-from bodies.shapes.support_function import support_of
+from bodies.shapes.support_function import support_of as _support_of
 from nonsmooth.engine.native.kernel import PLAIN
+
+# called with arrays in place of tuples
+support_of: Any = _support_of
 
 GAPS = (1e-1, 1e-3, 1e-5, 1e-7, 1e-9)
 """[m]"""

@@ -13,13 +13,22 @@ from bodies import Box, Cone, Cylinder, Disc, Ellipsoid, Superellipsoid
 from bodies.contacts.frustum.frustum import HIGH_CAP, LOW_CAP
 from bodies.contacts.frustum.frustum_smooth import is_over_cap
 from bodies.contacts.frustum.frustum_stops import on_cap
-from bodies.contacts.smooth.inscribed import no_shorter_way
-from bodies.contacts.smooth.smooth_newton import widest
-from bodies.contacts.smooth.smooth_starts import gap_along, starts_of, uphill
-from bodies.shapes.support_function import support_of
+from bodies.contacts.smooth.inscribed import no_shorter_way as _no_shorter_way
+from bodies.contacts.smooth.smooth_newton import widest as _widest
+from bodies.contacts.smooth.smooth_starts import gap_along as _gap_along
+from bodies.contacts.smooth.smooth_starts import starts_of
+from bodies.contacts.smooth.smooth_starts import uphill as _uphill
+from bodies.shapes.support_function import support_of as _support_of
 from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.carriers import Rig
+
+# called with arrays in place of tuples
+widest: Any = _widest
+no_shorter_way: Any = _no_shorter_way
+support_of: Any = _support_of
+gap_along: Any = _gap_along
+uphill: Any = _uphill
 
 Array = NDArray[np.float64]
 SAME = 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0

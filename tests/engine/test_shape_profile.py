@@ -13,7 +13,7 @@ def test_shares_of_a_run() -> None:
     from tests.benchmarks.shape_profile import dumbbell, profile
 
     found = profile(dumbbell, 0.2)
-    seconds, calls = found.pairs["PlaneEllipsoid"]
+    seconds, calls = found.pairs["evaluate_ellipsoid_over_plane"]
     assert calls > 1000
     assert 0.0 < seconds < found.wall
     assert found.searches == 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import re
 import signal
@@ -267,7 +268,7 @@ def test_a_compiled_helper_that_cannot_be_compiled_is_the_one_named() -> None:
     with pytest.warns(ns.RunsInPython) as caught:
         address, heap = bind(_by_helper, "scalar", {}, "Law")
     assert evaluate(address, heap, 2.0) == 0.6
-    assert f"line {_helper.__wrapped__.__code__.co_firstlineno + 2}, `return TABLE" in str(caught[0].message)
+    assert f"line {inspect.unwrap(_helper).__code__.co_firstlineno + 2}, `return TABLE" in str(caught[0].message)
 
 
 @NATIVE

@@ -10,7 +10,8 @@ import numpy as np
 
 from bodies import BallJoint
 from bodies.joints.rows import distance_row
-from nonsmooth.compiled import block_at, compiled
+from bodies.vectors import vector_at
+from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import Joint
 from nonsmooth.types import Floats
 
@@ -32,7 +33,7 @@ BEYOND, NOTHING = 20.0, 21.0
 def evaluate(a: Floats, b: Floats, out: Floats, fault: float, n_rows: float, rows: Floats, repeated: Floats) -> None:
     if fault == 5.0:
         # a rod of negative length
-        distance_row(a, b, out, 0, block_at(rows, 1), block_at(rows, 4), -1.0)
+        distance_row(a, b, out, vector_at(rows, 1), vector_at(rows, 4), -1.0)
         return
     before = out[4]
     if fault == 6.0:

@@ -256,13 +256,13 @@ def _of_pair(first: Shape, second: Shape) -> list[Property]:
     contacts = owner.between(first, second)
     # all of one contact with each evaluator, and of the others what depends on the features
     whole = {contact.evaluator: number for number, contact in enumerate(contacts)}.values()
-    found = []
-    for number, contact in enumerate(contacts):
-        kept = {"gap rate", "second-order terms"} - set(contact.departures)
+    # of a pair that departs from what depends on the pose, a contact may well have it
+    departed = {name for contact in contacts for name in contact.departures}
+    kept, found = {"gap rate", "second-order terms"} - departed, []
+    for number in range(len(contacts)):
         if number in whole or kept:
             wanted = check_contact_kinematics(owner, first, second, contacts=[number])
-            # of a pair that departs from what depends on the pose, a contact may well have it
-            found += [p for p in wanted if not p.departure and (number in whole or p.name in kept)]
+            found += [p for p in wanted if p.name not in departed and (number in whole or p.name in kept)]
     return found
 
 

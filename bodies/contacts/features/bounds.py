@@ -50,8 +50,7 @@ def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends:
 @compiled
 def _of_row(frame: Floats, edges: Floats, at: int, sign: float) -> Vector3:
     """Return ``sign`` times a vector of a row of edges, in the world."""
-    found: Vector3 = vector_in_world(frame, times(sign, vector_at(edges, at)))
-    return found
+    return vector_in_world(frame, times(sign, vector_at(edges, at)))
 
 
 @compiled

@@ -42,8 +42,7 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: 
 @compiled
 def _across_of(e: Vector3, f: Vector3) -> Vector3:
     """Return the shorter of the vectors f - e and f + e of two unit vectors."""
-    shorter: Vector3 = minus(f, times(1.0 if dot(e, f) > 0.0 else -1.0, e))
-    return shorter
+    return minus(f, times(1.0 if dot(e, f) > 0.0 else -1.0, e))
 
 
 @compiled

@@ -48,8 +48,7 @@ def vector_in_body(frame: Floats, vector: Vector3) -> Vector3:
 @compiled
 def point_in_body(frame: Floats, point: Vector3) -> Vector3:
     """Return a point of the world in the coordinates of a body frame [m]."""
-    inside: Vector3 = vector_in_body(frame, minus(point, vector_at(frame, POSITION)))
-    return inside
+    return vector_in_body(frame, minus(point, vector_at(frame, POSITION)))
 
 
 turned_by = compiled(turned)

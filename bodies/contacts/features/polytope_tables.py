@@ -10,13 +10,13 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.parameters import SharedNumbers
 from nonsmooth.types import Floats
 
-from ...shapes.polytope import Polytope
+from ...shapes.polytope import Point, Polytope
 
-N_FACES, N_EDGES, N_VERTICES, FACES, EDGES, ENDS, VERTICES = range(7)
+SWEEP, N_FACES, N_EDGES, N_VERTICES, FACES, EDGES, ENDS, VERTICES = range(8)
 """Indices in the head of a core's numbers (:func:`core_numbers`).
 
-Names that begin with ``N_`` are indices of a number of rows.  The others are indices of the offset at which the rows of
-that name begin.
+``SWEEP`` is the index of the radius about the core [m].  Names that begin with ``N_`` are indices of a number of rows.
+The others are indices of the offset at which the rows of that name begin.
 """
 FACE = 5
 """Floats in the row of a face: outward normal, distance of its plane from the origin [m], depth of the body [m]."""
@@ -37,23 +37,24 @@ def face_table(polytope: Polytope) -> Numbers:
     return tuple(itertools.chain(*rows))
 
 
-def core_numbers(polytope: Polytope) -> SharedNumbers:
+def core_numbers(polytope: Polytope, sweep: float = 0.0) -> SharedNumbers:
     """Return the numbers of a polyhedron or a segment: head, faces, edges, ends of edges, vertices, unit vectors.
 
-    A segment has no faces.  The unit vectors lead from each vertex along its edges.
+    ``sweep`` is the radius about the core [m].  A segment has no faces.  The unit vectors lead from each vertex along
+    its edges.
     """
     stars = [star_of(polytope, i) for i in range(len(polytope.vertices))]
     faces, edges, ends = face_table(polytope), [*itertools.chain(*edge_rows(polytope))], end_table(polytope)
     sizes = len(faces), len(edges), len(ends), VERTEX * len(stars), *map(len, stars)
-    begins = [*itertools.accumulate(sizes, initial=7)]
+    begins = [*itertools.accumulate(sizes, initial=8)]
     rows = [(*place, len(star) // 3, at) for place, star, at in zip(polytope.vertices, stars, begins[4:], strict=False)]
-    head = len(faces) // FACE, len(polytope.edges), len(stars), *begins[:4]
+    head = sweep, len(faces) // FACE, len(polytope.edges), len(stars), *begins[:4]
     return SharedNumbers([*head, *faces, *edges, *ends, *itertools.chain(*rows), *itertools.chain(*stars)])
 
 
-def point_numbers(*place: float) -> SharedNumbers:
-    """Return the numbers of a point, without faces and edges; of nothing if no place is given [m]."""
-    return SharedNumbers([0.0, 0.0, 1.0 if place else 0.0, 7.0, 7.0, 7.0, 7.0, *place, 0.0, 0.0])
+def point_numbers(place: Point) -> SharedNumbers:
+    """Return the numbers of a point, without faces and edges."""
+    return SharedNumbers([0.0, 0.0, 0.0, 1.0, *[8.0] * 4, *place, 0.0, 0.0])
 
 
 def part_names(polytope: Polytope) -> list[str]:

@@ -16,7 +16,7 @@ from ...shapes.polytope import Point
 from ...vectors import Vector3, dot, minus, put, times, vector_at
 from .frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
-from .polytope_tables import EDGE, ENDS, N_FACES, core_numbers, edges_of, faces_of, part_names, vertex_at
+from .polytope_tables import EDGE, ENDS, N_FACES, SWEEP, core_numbers, edges_of, faces_of, part_names, vertex_at
 from .vertex_face import Nearest, nearest_of_core
 from .writing import write_flat, write_principal, write_round
 
@@ -119,7 +119,6 @@ def write_vertex(
     place: Vector3,
     n_star: float,
     star: Floats,
-    sweep: float,
     radius: float,
     size: float,
 ) -> None:
@@ -141,12 +140,12 @@ def write_vertex(
         The vertex in its body frame [m].
     n_star, star : float and Floats
         Unit vectors along the edges that begin at the vertex, in the body frame.
-    sweep, radius : float
-        Radii about the core and about the vertex [m].
+    radius : float
+        Radius about the vertex [m].
     size : float
         Size of the larger body [m].
     """
-    own_frame, other = (a, b) if swap == 1.0 else (b, a)
+    own_frame, other, sweep = (a, b, core[SWEEP]) if swap == 1.0 else (b, a, core[SWEEP])
     p = point_in_world(own_frame, place)
     point = point_in_body(other, p)
     number, distance, x, y, z, within = nearest_of_core(core, point)
@@ -181,39 +180,21 @@ def write_vertex(
 
 
 def evaluate_vertex_over_swept(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    core: Floats,
-    own: Floats,
-    vertex: float,
-    sweep: float,
-    radius: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
 ) -> None:
     """Write the geometry block of a vertex of a core over another core; arguments as in :func:`write_vertex`."""
     v = vertex_at(own, vertex)
     place, star = vector_at(own, v), block_at(own, int(own[v + 4]))
-    write_vertex(a, b, out, swap, core, faces_of(own), place, own[v + 3], star, sweep, radius, size)
+    write_vertex(a, b, out, swap, core, faces_of(own), place, own[v + 3], star, own[SWEEP], size)
 
 
 def bound_of_vertex(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    core: Floats,
-    own: Floats,
-    vertex: float,
-    sweep: float,
-    radius: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
 ) -> None:
     """Write the distance of a vertex from a core, less both radii [m]."""
     own_frame, other = (a, b) if swap == 1.0 else (b, a)
     place = point_in_world(own_frame, vector_at(own, vertex_at(own, vertex)))
-    out[0] = nearest_of_core(core, point_in_body(other, place))[1] - sweep - radius
+    out[0] = nearest_of_core(core, point_in_body(other, place))[1] - core[SWEEP] - own[SWEEP]
 
 
 def size_of_both(first: SweptPolytope, second: SweptPolytope) -> float:
@@ -224,10 +205,9 @@ def size_of_both(first: SweptPolytope, second: SweptPolytope) -> float:
 def vertices_over_swept(first: SweptPolytope, second: SweptPolytope) -> Iterator[FeaturePair]:
     """Yield the contacts of all vertices of the second shape, then those of the first, with the other's core."""
     size = size_of_both(first, second)
-    cores = core_numbers(first.core), core_numbers(second.core)
+    cores = core_numbers(first.core, first.sweep), core_numbers(second.core, second.sweep)
     for swap, own, other in ((0, second, first), (1, first, second)):
-        values: dict[str, Value] = {"swap": float(swap), "core": cores[swap], "own": cores[1 - swap]}
-        values |= {"sweep": other.sweep, "radius": own.sweep, "size": size}
+        values: dict[str, Value] = {"swap": float(swap), "core": cores[swap], "own": cores[1 - swap], "size": size}
         for i in range(len(own.core.vertices)):
             pairs = ((f"vertex {i}", part) if swap else (part, f"vertex {i}") for part in part_names(other.core))
             names = tuple(f"{one} and {two}" for one, two in pairs)

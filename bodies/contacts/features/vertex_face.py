@@ -192,5 +192,4 @@ def nearest_feature(
 def nearest_of_core(core: Floats, point: Vector3) -> Nearest:
     """Return the feature of a core that is nearest to a point of the body frame (:func:`nearest_feature`)."""
     ends = block_at(core, int(core[ENDS]))
-    found: Nearest = nearest_feature(*faces_of(core), *edges_of(core), ends, *point)
-    return found
+    return nearest_feature(*faces_of(core), *edges_of(core), ends, *point)

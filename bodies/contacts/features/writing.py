@@ -19,7 +19,6 @@ from nonsmooth.engine.memory.blocks import (
     TANGENT,
     TURN_MATRIX,
 )
-from nonsmooth.interfaces import Shape
 from nonsmooth.types import Floats
 
 from ...vectors import ahead, cross, dot, minus, over, put, size_of, times, vector_at
@@ -163,13 +162,3 @@ def gap_at_distance(gap: float, past: float, radius: float) -> float:
         return gap - radius
     apart = math.sqrt(max(gap * gap - past * past, 0.0))
     return math.hypot(max(apart - radius, 0.0), past)
-
-
-UNSEEN = ("foot_height",)
-"""Parameters of shapes that `by_side` leaves out, because only contacts with planes use them."""
-
-
-def by_side(first: Shape, second: Shape) -> dict[str, float]:
-    """Return the parameters of both shapes; names of the first shape end in _a, names of the second in _b."""
-    sides = ("a", first.numbers()), ("b", second.numbers())
-    return {f"{name}_{side}": value for side, numbers in sides for name, value in numbers.items() if name not in UNSEEN}

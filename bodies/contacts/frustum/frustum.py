@@ -13,7 +13,7 @@ import numpy as np
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
-from nonsmooth.types import Floats
+from nonsmooth.types import Floats, ReadFloats
 
 from ...shapes.frustum import (
     AXIS,
@@ -64,22 +64,19 @@ def part_number(frustum: Floats, part: int) -> float:
 @compiled
 def center_in_world(frame: Floats, frustum: Floats) -> Vector3:
     """Return the centre of a frustum in the world [m]."""
-    center: Vector3 = point_in_world(frame, vector_at(frustum, CENTER))
-    return center
+    return point_in_world(frame, vector_at(frustum, CENTER))
 
 
 @compiled
 def axis_in_world(frame: Floats, frustum: Floats) -> Vector3:
     """Return the unit axis of a frustum in world axes."""
-    axis: Vector3 = vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
-    return axis
+    return vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
 
 
 @compiled
 def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
     """Return the point of the axis of a frustum at a height over its centre, in the world [m]."""
-    point: Vector3 = ahead(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
-    return point
+    return ahead(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
 
 
 @compiled
@@ -99,7 +96,7 @@ def cap_of(frustum: Floats, cap: float) -> tuple[float, float, float]:
 
 
 @compiled
-def nearest_part(frustum: Floats, along: float, away: float) -> tuple[float, float, float, int]:
+def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float, float, float, int]:
     """Return the part nearest to a point: signed distance [m], normal (across and along the axis), and part.
 
     Parameters

@@ -54,8 +54,7 @@ def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[fl
 @compiled
 def normal_of_part(axis: Vector3, outward: Vector3, radial: float, axial: float) -> Vector3:
     """Return the normal with the components ``radial`` along ``outward`` and ``axial`` along the axis."""
-    normal: Vector3 = plus(times(radial, outward), times(axial, axis))
-    return normal
+    return plus(times(radial, outward), times(axial, axis))
 
 
 @compiled

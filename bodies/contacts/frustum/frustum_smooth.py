@@ -19,6 +19,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
+from ...shapes.support_function import Core
 from ...vectors import Vector3, ahead, dot, minus, opposite, plus, vector_at
 from ..features.frames import point_in_world
 from ..features.writing import write_sweep
@@ -44,7 +45,7 @@ from .frustum import (
 from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
 from .frustum_writing import write_contact
 
-Bodies: TypeAlias = tuple[Floats, Floats, Floats, Floats, Floats, Axes, Vector3, float]
+Bodies: TypeAlias = tuple[Floats, Floats, Floats, Core, Core, Axes, Vector3, float]
 """Arguments of the searches for both bodies, in the axes of the frustum.
 
 In this order: frustum, lower rim, upper rim and a point (each as a core), core of the smooth body, axes of the smooth
@@ -84,7 +85,7 @@ _TURNS = 8
 
 
 @compiled
-def _is_before(core: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
+def _is_before(core: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
     """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there."""
     g, p, n = found
     from_centre = minus(ahead(p, -g, n), place)
@@ -141,7 +142,7 @@ def _into(frustum: Floats, point: Vector3) -> Vector3:
 
 
 @compiled
-def _share_a_point(frustum: Floats, point: Floats, core: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
+def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
     """True if a common point of both bodies is found, which confirms that the bodies overlap as ``found`` says.
 
     Points of the frustum are tried in two series.  The first series has the frustum's points nearest to points of the
@@ -173,8 +174,8 @@ def _nearest(
     frustum: Floats,
     low: Floats,
     high: Floats,
-    point: Floats,
-    core: Floats,
+    point: Core,
+    core: Core,
     turn: Axes,
     place: Vector3,
 ) -> tuple[Answer, int]:
@@ -193,7 +194,7 @@ def _nearest(
     _, _, _, guess = nearest_part(frustum, z, away)
     if z > frustum[HIGH] or z < frustum[LOW]:
         part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
-        over: Answer = on_cap(frustum, core, turn, place, part, near)
+        over = on_cap(frustum, core, turn, place, part, near)
         if is_over_cap(frustum, part, place, over):
             return over, part
     best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
@@ -253,7 +254,7 @@ def _nearest(
 
 
 @compiled
-def _is_deep(frustum: Floats, core: Floats, turn: Axes, place: Vector3) -> bool:
+def _is_deep(frustum: Floats, core: Core, turn: Axes, place: Vector3) -> bool:
     """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
     return bool(gauge(core, back(turn, minus(_into(frustum, place), place))) < _DEEP)
 

@@ -15,7 +15,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN
-from ...shapes.support_function import is_round, support_of
+from ...shapes.support_function import Core, is_round, support_of
 from ...vectors import Vector3, dot, opposite, plus
 from ..smooth.boxy_line import across_line
 from ..smooth.round_search import next_to_axis, round_circle
@@ -45,14 +45,13 @@ result needs a residual below ``_RIGHT``.
 
 
 @compiled
-def point_against(core: Floats, turn: Axes, place: Vector3, n: Vector3) -> Vector3:
+def point_against(core: Core, turn: Axes, place: Vector3, n: Vector3) -> Vector3:
     """Return the smooth body's farthest point in the direction -n [m], in the axes of the frustum."""
-    point: Vector3 = plus(place, forth(turn, support_of(core, back(turn, opposite(n)))[1]))
-    return point
+    return plus(place, forth(turn, support_of(core, back(turn, opposite(n)))[1]))
 
 
 @compiled
-def on_cap(frustum: Floats, core: Floats, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
+def on_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
     """Return gap, smooth body's point [m] and normal at the point that is lowest over a cap.
 
     ``part`` is ``LOW_CAP`` or ``HIGH_CAP``.  The gap is nan if the point lies more than ``near`` [m] outside of the
@@ -67,14 +66,14 @@ def on_cap(frustum: Floats, core: Floats, turn: Axes, place: Vector3, part: int,
 
 
 @compiled
-def _on_end_of_cap(frustum: Floats, core: Floats, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
+def _on_end_of_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
     """Return gap, point and normal as :func:`on_cap`, for a body so flat that round-off moves its lowest point.
 
     If round-off moved the lowest point past the border of the cap, the normal is tilted outwards: the larger the tilt,
     the farther inwards is the lowest point.  Two tilts are bisected, with lowest points inside and outside of the
     border.  Between these two points, a point over the border is interpolated.
     """
-    found: Answer = on_cap(frustum, core, turn, place, part, near)
+    found = on_cap(frustum, core, turn, place, part, near)
     radius, height, up = cap_of(frustum, part)
     cx, cy, _ = found[1]
     if found[0] == found[0] or not 0.0 < radius * radius < cx * cx + cy * cy:
@@ -121,17 +120,16 @@ def _if_on_flank(frustum: Floats, near: float, found: Answer) -> Answer:
 
 
 @compiled
-def _along_side(frustum: Floats, core: Floats, turn: Axes, place: Vector3, ex: float, ey: float) -> Answer:
+def _along_side(frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: float, ey: float) -> Answer:
     """Return the maximum of the gap over the side, continued beyond its rims, by halving."""
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
-    found: Answer = across_line(core, turn, place, (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach)
-    return found
+    return across_line(core, turn, place, (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach)
 
 
 @compiled
 def on_flank(
-    frustum: Floats, core: Floats, turn: Axes, place: Vector3, direction: tuple[float, float], near: float
+    frustum: Floats, core: Core, turn: Axes, place: Vector3, direction: tuple[float, float], near: float
 ) -> Answer:
     """Return gap, smooth body's point [m] and normal of a local maximum of the gap over the side.
 
@@ -141,16 +139,15 @@ def on_flank(
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
     if is_round(core):
-        found: Answer = _on_round_flank(frustum, core, turn, place, ex, ey, near)
+        found = _on_round_flank(frustum, core, turn, place, ex, ey, near)
     else:
         found = _along_side(frustum, core, turn, place, ex, ey)
-    kept: Answer = _if_on_flank(frustum, near, found)
-    return kept
+    return _if_on_flank(frustum, near, found)
 
 
 @compiled
 def _on_round_flank(
-    frustum: Floats, core: Floats, turn: Axes, place: Vector3, ex: float, ey: float, near: float
+    frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: float, ey: float, near: float
 ) -> Answer:
     """Return the maximum of the gap over the side, continued beyond its rims, by Newton's method for one angle.
 
@@ -206,8 +203,8 @@ def _if_in_fan(frustum: Floats, up: float, height: float, least: float, found: A
 @compiled
 def on_rim(
     frustum: Floats,
-    circle: Floats,
-    core: Floats,
+    circle: Core,
+    core: Core,
     turn: Axes,
     place: Vector3,
     direction: tuple[float, float],
@@ -238,16 +235,15 @@ def on_rim(
         tilt = abs(tilt)
         cap = math.copysign(1.0, axial) if flat else up
         radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
-    found: Answer = widest_of_round(circle, core, turn, (x, y, z - height), (radial * ex, radial * ey, axial))
-    kept: Answer = _if_in_fan(frustum, up, height, -ON_BORDER, found)
-    return kept
+    found = widest_of_round(circle, core, turn, (x, y, z - height), (radial * ex, radial * ey, axial))
+    return _if_in_fan(frustum, up, height, -ON_BORDER, found)
 
 
 @compiled
 def by_search(
     frustum: Floats,
-    point: Floats,
-    core: Floats,
+    point: Core,
+    core: Core,
     turn: Axes,
     place: Vector3,
     direction: tuple[float, float],
@@ -263,13 +259,10 @@ def by_search(
     near = _NEAR_BORDER * size
     found: Answer = (math.nan, place, (0.0, 0.0, 1.0))
     if part == LOW_CAP or part == HIGH_CAP:
-        over: Answer = _on_end_of_cap(frustum, core, turn, place, part, near)
-        return over
+        return _on_end_of_cap(frustum, core, turn, place, part, near)
     if part == FLANK:
         length = math.sqrt(sx * sx + sy * sy)
-        found = _along_side(frustum, core, turn, place, sx / length, sy / length)
-        beside: Answer = _if_on_flank(frustum, near, found)
-        return beside
+        return _if_on_flank(frustum, near, _along_side(frustum, core, turn, place, sx / length, sy / length))
     radius, height, up = rim_of(frustum, part)
     side = math.copysign(1.0, z - height) if frustum[SIDE] == 0.0 else up
     px, py, _ = point_against(core, turn, place, (0.0, 0.0, side))
@@ -279,5 +272,4 @@ def by_search(
         found = next_to_axis(core, turn, (x, y, z - height), radius, (px, py, 0.0), side)
     if found[0] != found[0]:
         found = round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0))
-    kept: Answer = _if_in_fan(frustum, up, height, -_NEAR_BORDER, found)
-    return kept
+    return _if_in_fan(frustum, up, height, -_NEAR_BORDER, found)

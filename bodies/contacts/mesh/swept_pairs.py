@@ -17,7 +17,7 @@ from ...vectors import minus, opposite, plus, put, size_of, times, vector_at
 from ..features.bounds import edges_bound
 from ..features.frames import vector_in_body, vector_in_world
 from ..features.polytope_tables import N_EDGES as N_CORE_EDGES
-from ..features.polytope_tables import N_FACES, N_VERTICES, core_numbers, vertex_at
+from ..features.polytope_tables import N_FACES, N_VERTICES, SWEEP, core_numbers, vertex_at
 from ..features.polytope_tables import edge_at as core_edge_at
 from ..features.polytope_tables import part_names as parts_of_core
 from ..features.swept_vertex import write_vertex
@@ -26,21 +26,10 @@ from ..features.writing import NO_CANDIDATE, write_apart
 from ..surface.edges_near import edges_across
 from ..surface.surface_ball import write_ball
 from ..surface.surface_edges import write_edges
-from ..surface.surface_near import NARROW, patches_near, room_ahead, seen_from
+from ..surface.surface_near import NARROW, Near, patches_near, room_ahead, seen_from
 from ..surface.surface_pairs import DEPARTURES, MOST_NEAR
-from ..surface.surface_search import FAR, corner_at, edge_at, steepest
-from ..surface.surface_tables import (
-    CORNER,
-    CORNERS,
-    MEMBERS,
-    N_EDGES,
-    N_NODES,
-    N_TRIANGLES,
-    NODE,
-    NODES,
-    part_names,
-    surface_numbers,
-)
+from ..surface.surface_search import FAR, ON_CORNER, corner_at, edge_at, feature_of, member_of, node_at, steepest
+from ..surface.surface_tables import N_NODES, part_names, surface_numbers
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
 """Kinds of candidates, the first of a candidate's three numbers; the numbers of its features follow.
@@ -51,71 +40,39 @@ rounded body.  ACROSS: an edge of the mesh and an edge of the rounded body.
 
 
 @compiled
-def corners_over(
-    a: Floats,
-    b: Floats,
-    surface: Floats,
-    core: Floats,
-    sweep: float,
-    reach: float,
-    turn: float,
-    kind: float,
-    out: Floats,
-    n: int,
-    most: int,
-) -> int:
+def corners_over(a: Floats, b: Floats, surface: Floats, core: Floats, near: Near, out: Floats, n: int) -> int:
     """Append the corners of the surface in ``a`` that may soon touch a core in ``b``; return the number of candidates.
 
     A corner touches if a face of the core is nearest to it, or if none of its edges leads towards the nearest point of
-    the core.  A corner is a candidate if one of these may hold before the next search.  Until then it moves by at most
-    ``reach`` [m], and the bodies turn by at most ``turn`` [rad].
-
-    Parameters
-    ----------
-    a, b : Floats
-        Frame blocks.
-    surface : Floats
-        Numbers of the surface.
-    core, sweep : Floats, float
-        The core (:func:`bodies.contacts.features.polytope_tables.core_numbers`), and the radius about it [m].
-    reach, turn, kind, out, n, most : float, Floats and int
-        As in :func:`bodies.contacts.surface.surface_near.corners_near`.
+    the core.  A corner is a candidate if one of these may hold before the next search, ``near``.  ``out`` holds ``n``
+    candidates.
     """
-    first, members, node = int(surface[N_TRIANGLES]) + int(surface[N_EDGES]), int(surface[MEMBERS]), 0
+    (reach, turn, most), sweep, node = near, core[SWEEP], 0
     while node < int(surface[N_NODES]) and n <= most:
-        at = int(surface[NODES]) + NODE * node
+        at = node_at(surface, node)
         half = times(0.5, minus(vector_at(surface, at + 3), vector_at(surface, at)))
         found = nearest_of_core(core, seen_from(b, a, plus(vector_at(surface, at), half)))
         if found[1] > sweep + reach + size_of(half):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
-            corner = int(surface[members + int(surface[at + 7]) + i]) - first
-            if corner < 0 or n > most:
+            what, corner, c = feature_of(surface, member_of(surface, at, i))
+            if what != ON_CORNER or n > most:
                 continue
-            c = int(surface[CORNERS]) + CORNER * corner
             number, distance, x, y, z, _ = nearest_of_core(core, seen_from(b, a, vector_at(surface, c)))
             if distance > sweep + reach:
                 continue
             to_core = opposite(vector_in_body(a, vector_in_world(b, (x, y, z))))
             is_over_face = number < int(core[N_FACES]) or distance <= 0.0
             if is_over_face or distance * steepest(surface, c, *to_core) <= reach + turn * distance:
-                put(out, 1 + 3 * n, (kind, float(corner), 0.0))
+                put(out, 1 + 3 * n, (UNDER, float(corner), 0.0))
                 n += 1
         node += 1
     return n
 
 
 def find_near_swept(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    surface: Floats,
-    core: Floats,
-    sweep: float,
-    most: float,
-    turning: float,
-    narrow: float,
+    a: Floats, b: Floats, out: Floats, surface: Floats, core: Floats, most: float, turning: float, narrow: float
 ) -> None:
     """Find pairs that may soon touch: patch and vertex, corner and core, edge and edge, of the mesh and of the core.
 
@@ -125,32 +82,31 @@ def find_near_swept(
     [m], the limit is smaller (:func:`bodies.contacts.surface.surface_near.room_ahead`).
     """
     reach, limit, n = out[0], room_ahead(out[0], narrow, int(most)), 0
-    turn = turning * reach
+    turn, around = turning * reach, core[SWEEP] + reach
     for i in range(int(core[N_VERTICES])):
         point = seen_from(a, b, vector_at(core, vertex_at(core, i)))
-        n = patches_near(surface, *point, sweep + reach, BALL, float(i), out, n, limit)
-    n = corners_over(a, b, surface, core, sweep, reach, turn, UNDER, out, n, limit)
+        n = patches_near(surface, *point, around, BALL, float(i), out, n, limit)
+    n = corners_over(a, b, surface, core, (reach, turn, limit), out, n)
     for j in range(int(core[N_CORE_EDGES])):
-        two = core_edge_at(core, j)
-        n = edges_across(a, b, surface, core, two, float(j), sweep + reach, turn, ACROSS, out, n, limit)
+        n = edges_across(a, b, surface, core, core_edge_at(core, j), float(j), (around, turn, limit), ACROSS, out, n)
     out[0] = float(n) if n <= limit else most + 1.0
 
 
 def evaluate_swept_features(
-    a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, core: Floats, sweep: float, size: float
+    a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, core: Floats, size: float
 ) -> None:
     """Write the geometry block of a feature of a surface and one of a rounded core.
 
     ``candidate`` holds the kind of the pair, the numbers of its features, and the distance up to which it is valid [m].
     """
-    kind, i, j = candidate[0], int(candidate[1]), int(candidate[2])
+    kind, i, j, sweep = candidate[0], int(candidate[1]), int(candidate[2]), core[SWEEP]
     if kind == BALL:
         v = vertex_at(core, j)
         star = block_at(core, int(core[v + 4]))
         reach = sweep + candidate[3]
         write_ball(a, b, out, surface, float(i), sweep, vector_at(core, v), core[v + 3], star, size, reach)
     elif kind == UNDER:
-        write_vertex(a, b, out, 1.0, core, (0.0, block_at(core, 0)), *corner_at(surface, i), sweep, 0.0, size)
+        write_vertex(a, b, out, 1.0, core, (0.0, block_at(core, 0)), *corner_at(surface, i), 0.0, size)
     elif kind == ACROSS:
         write_edges(a, b, out, surface, edge_at(surface, i), core, core_edge_at(core, j), sweep, size)
     else:
@@ -158,24 +114,23 @@ def evaluate_swept_features(
 
 
 def bound_of_swept_features(
-    a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, core: Floats, sweep: float, size: float
+    a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, core: Floats, size: float
 ) -> None:
     """Write by how much the bodies must move before two edges, or a corner and the core, touch [m]."""
     i = int(candidate[1])
     if candidate[0] == ACROSS:
         two = core_edge_at(core, candidate[2])
-        out[0] = edges_bound(a, b, surface, edge_at(surface, i), core, two) - sweep
+        out[0] = edges_bound(a, b, surface, edge_at(surface, i), core, two) - core[SWEEP]
     else:
         place, _, _ = corner_at(surface, i)
-        out[0] = nearest_of_core(core, seen_from(b, a, place))[1] - sweep
+        out[0] = nearest_of_core(core, seen_from(b, a, place))[1] - core[SWEEP]
 
 
 def _values(first: TriangleMesh, second: SweptPolytope) -> tuple[dict[str, Value], Patches]:
     """Return the parameters of the evaluator, without a candidate, and the patches of the mesh."""
     own, core, sweep = first.features, second.core, second.sweep
     patches, size = patches_for_ball(own, sweep), max(own.size, core.size + 2.0 * sweep)
-    tables = {"surface": surface_numbers(own, patches), "core": core_numbers(core)}
-    return {**tables, "sweep": sweep, "size": size}, patches
+    return {"surface": surface_numbers(own, patches), "core": core_numbers(core, sweep), "size": size}, patches
 
 
 def contacts_each(first: TriangleMesh, second: SweptPolytope) -> Iterator[FeaturePair]:
@@ -203,7 +158,7 @@ def contacts_near(first: TriangleMesh, second: SweptPolytope) -> tuple[FeaturePa
     (values, patches), own, core = _values(first, second), first.features, second.core
     extents = first.extent, second.extent
     sought = {
-        **{key: values[key] for key in ("surface", "core", "sweep")},
+        **{key: values[key] for key in ("surface", "core")},
         "most": float(MOST_NEAR),
         "turning": 0.5 / extents[0] + 0.5 / extents[1],
         "narrow": NARROW * min(extents),

@@ -17,8 +17,9 @@ from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, ahead, cross, dot, opposite, over, plus, vector_at
 from ..features.frames import point_in_world, turned_by, vector_in_body
-from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, back, forth, write_matrices
+from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, back, forth
 from ..smooth.smooth_newton import write_surface
+from ..smooth.tangent_plane import write_matrices
 from .plane_point import axis_of, place_over_plane
 
 

@@ -10,17 +10,7 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, ahead, cross, dot, minus, size_of, vector_at
 from ..features.edge_crossing import Crossing, edge_astray
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import (
-    ALONG,
-    EDGE,
-    EDGES,
-    INTO_FIRST,
-    INTO_SECOND,
-    LENGTH,
-    N_EDGES,
-    START,
-    faces_of,
-)
+from ..features.polytope_tables import ALONG, EDGE, EDGES, INTO_FIRST, INTO_SECOND, LENGTH, N_EDGES, START, faces_of
 from ..features.vertex_face import height_over, separation_of_faces
 
 _FLUSH = 1e-5
@@ -33,8 +23,7 @@ The face is adjacent to one of the edges.
 @compiled
 def _in_first(a: Floats, b: Floats, edges: Floats, at: int) -> Vector3:
     """Return the components, along the axes of the first body, of a vector of a row of edges of the second body."""
-    vector: Vector3 = vector_in_body(a, vector_in_world(b, vector_at(edges, at)))
-    return vector
+    return vector_in_body(a, vector_in_world(b, vector_at(edges, at)))
 
 
 @compiled

@@ -75,4 +75,4 @@ class PolyhedronPoint(ContactKinematics):
         place, core = (second.x, second.y, second.z), first.core
         if first.rounding > 0.0:
             return (ball_over_polyhedron(first, place, 0.0),)
-        return (vertex_over_faces(0, core_numbers(core), len(core.planes), point_numbers(*place), 0, core.size),)
+        return (vertex_over_faces(0, core_numbers(core), len(core.planes), point_numbers(place), 0, core.size),)

@@ -14,33 +14,32 @@ from ...shapes.polytope import Point
 from ...shapes.sphere import Sphere
 from ...vectors import minus, put, times, vector_at
 from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
-from ..features.polytope_tables import N_FACES, core_numbers, edges_of, part_names
+from ..features.polytope_tables import N_FACES, SWEEP, core_numbers, edges_of, part_names
 from ..features.swept_vertex import write_swept
 from ..features.vertex_face import nearest_of_core
 from ..features.writing import write_round
 
 
 def evaluate_ball_over_polyhedron(
-    a: Floats, b: Floats, out: Floats, core: Floats, rounding: float, radius: float, place: Floats
+    a: Floats, b: Floats, out: Floats, core: Floats, radius: float, place: Floats
 ) -> None:
     """Write the geometry block of a ball about a ``place`` of the second body and a rounded core of the first."""
     center = point_in_world(b, vector_at(place, 0))
     number, distance, x, y, z, _ = nearest_of_core(core, point_in_body(a, center))
     n = vector_in_world(a, (x, y, z))
-    off = distance - rounding
+    off = distance - core[SWEEP]
     out[GAP], out[FEATURE] = off - radius, number
     put(out, NORMAL, n)
     put(out, POINT_A, minus(center, times(off, n)))
     put(out, POINT_B, minus(center, times(radius, n)))
     write_tangent(a, out)
-    write_swept(a, out, SIDE_A, number, core[N_FACES], *edges_of(core), rounding)
+    write_swept(a, out, SIDE_A, number, core[N_FACES], *edges_of(core), core[SWEEP])
     write_round(out, SIDE_B, radius)
 
 
 def ball_over_polyhedron(first: Polyhedron, center: Point, radius: float) -> FeaturePair:
     """Return the contact of a polyhedron with a ball, or a point, of another body [m]."""
-    values: dict[str, Value] = {"core": core_numbers(first.core), "rounding": first.rounding}
-    values |= {"radius": radius, "place": center}
+    values: dict[str, Value] = {"core": core_numbers(first.core, first.rounding), "radius": radius, "place": center}
     names = tuple(f"{part} and sphere" for part in part_names(first.core))
     return FeaturePair(evaluate_ball_over_polyhedron, values, names)
 

@@ -18,7 +18,7 @@ from ..features.bounds import edges_bound
 from ..features.edge_crossing import ASTRAY, PARALLEL, cross_edges
 from ..features.frames import write_tangent
 from ..features.overlap_corners import common_direction, crossing_past_corner, part_of_overlap
-from ..features.polytope_tables import core_numbers, edge_at, faces_of
+from ..features.polytope_tables import SWEEP, core_numbers, edge_at, faces_of
 from ..features.swept_vertex import END, size_of_both, vertices_over_swept
 from ..features.writing import write_principal
 from .convex_cores import past_if_convex
@@ -32,23 +32,14 @@ are refused.
 
 
 def evaluate_swept_edges(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    core_a: Floats,
-    core_b: Floats,
-    edge_a: float,
-    edge_b: float,
-    radius_a: float,
-    radius_b: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, core_a: Floats, core_b: Floats, edge_a: float, edge_b: float, size: float
 ) -> None:
     """Write the geometry block of two rounded edges of convex cores that cross.
 
-    The cores are those of :func:`bodies.contacts.features.polytope_tables.core_numbers`.  The radii about them and the
-    ``size`` of the bodies are in metres.
+    The cores are those of :func:`bodies.contacts.features.polytope_tables.core_numbers`; ``size`` is the size of the
+    bodies [m].
     """
-    one, two = edge_at(core_a, edge_a), edge_at(core_b, edge_b)
+    one, two, radius_a, radius_b = edge_at(core_a, edge_a), edge_at(core_b, edge_b), core_a[SWEEP], core_b[SWEEP]
     # the margin ``size`` skips the test of the ends of the edges, which follows below
     crossing = cross_edges(a, b, core_a, one, core_b, two, PARALLEL, size, size)
     p, e, f, n, gap, over, past = crossing
@@ -77,20 +68,11 @@ def evaluate_swept_edges(
 
 
 def bound_of_swept_edges(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    core_a: Floats,
-    core_b: Floats,
-    edge_a: float,
-    edge_b: float,
-    radius_a: float,
-    radius_b: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, core_a: Floats, core_b: Floats, edge_a: float, edge_b: float, size: float
 ) -> None:
     """Write by how much the bodies must move before two rounded edges touch [m]."""
     distance = edges_bound(a, b, core_a, edge_at(core_a, edge_a), core_b, edge_at(core_b, edge_b))
-    out[0] = distance - radius_a - radius_b
+    out[0] = distance - core_a[SWEEP] - core_b[SWEEP]
 
 
 @final
@@ -119,8 +101,8 @@ class SweptSwept(ContactKinematics):
                 f"{len(one.edges)} edges against {len(two.edges)} make {len(one.edges) * len(two.edges)}",
                 "Take polyhedra with fewer edges, or a smooth shape.",
             )
-        values: dict[str, Value] = {"core_a": core_numbers(one), "core_b": core_numbers(two)}
-        values |= {"radius_a": first.sweep, "radius_b": second.sweep, "size": size_of_both(first, second)}
+        cores = core_numbers(one, first.sweep), core_numbers(two, second.sweep)
+        values: dict[str, Value] = {"core_a": cores[0], "core_b": cores[1], "size": size_of_both(first, second)}
         crossings = (
             FeaturePair(
                 evaluate_swept_edges,

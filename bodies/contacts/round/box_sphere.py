@@ -42,8 +42,7 @@ def _beyond(coordinate: float, side: int, half: float) -> float:
 @compiled
 def _in_body(quaternion: Floats, v: Vector3) -> Vector3:
     """Return a vector of the box's axes in those of its body."""
-    found: Vector3 = turned_by(quaternion[0], quaternion[1], quaternion[2], quaternion[3], v[0], v[1], v[2])
-    return found
+    return turned_by(quaternion[0], quaternion[1], quaternion[2], quaternion[3], v[0], v[1], v[2])
 
 
 @compiled

@@ -11,9 +11,10 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
+from ...shapes.support_function import Core
 from ...vectors import Vector3, ahead, cross, dot, minus, plus, times
+from .bracket import bracket, narrowed, next_place
 from .smooth_core import Answer, Axes, facing_point, longest, spread
 
 _LOOKS = 8
@@ -24,13 +25,11 @@ _CLOSED = 4e-16
 
 _ROUND_OFF = 4e-16
 """Derivative of the gap by the angle that is zero within round-off, relative to the size of the bodies."""
-_PATIENCE = 3
-"""Largest number of successive secant steps that each leave more than half of the interval; a halving follows."""
 
 
 @compiled
 def across_line(
-    core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
+    core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> Answer:
     """Return the gap of a line and a core with flat places [m], the core's point [m] and the normal.
 
@@ -97,37 +96,26 @@ def across_line(
     if not (rising > 0.0 > falling):
         return math.nan, found[1], found[2]
     none = _ROUND_OFF * (spread(place) + longest(core))
-    side, slow = 0, 0
+    sides = bracket(low, high, rising, falling)
     for _ in range(_STEPS):
-        width = high - low
-        # secant step; if several steps are slow, halve the interval: at a flat place the derivative nearly jumps
-        middle = (low * falling - high * rising) / (falling - rising)
-        if slow >= _PATIENCE or not (low < middle < high):
-            middle, slow = 0.5 * (low + high), 0
+        middle, sides = next_place(sides)
+        low, high, _, _, _, _ = sides
         found, slope = _look(core, turn, place, e, n, cosine, sine, middle)
         if abs(slope) <= none:
             return found[0] - reach, found[1], found[2]
-        if width <= _CLOSED or middle == low or middle == high:
+        if high - low <= _CLOSED or middle == low or middle == high:
             # the derivative jumps, so a flat place faces the line: interpolate between the points of both directions
             one, up = _look(core, turn, place, e, n, cosine, sine, low)
             two, down = _look(core, turn, place, e, n, cosine, sine, high)
             part = min(max(up / (up - down), 0.0), 1.0) if up > down else 0.5
             return found[0] - reach, ahead(one[1], part, minus(two[1], one[1])), found[2]
-        if slope > 0.0:
-            low, rising = middle, slope
-            falling = 0.5 * falling if side == 1 else falling
-            side = 1
-        else:
-            high, falling = middle, slope
-            rising = 0.5 * rising if side == -1 else rising
-            side = -1
-        slow = slow + 1 if high - low > 0.5 * width else 0
+        sides = narrowed(sides, middle, slope)
     return math.nan, found[1], found[2]
 
 
 @compiled
 def _look(
-    core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
+    core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
 ) -> tuple[Answer, float]:
     """Return gap, core's point and normal, and the gap's derivative by the angle, at an ``angle`` round the line [rad].
 

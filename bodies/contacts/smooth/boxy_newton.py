@@ -14,26 +14,19 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import boxy_gauge_of
+from ...shapes.support_function import Core, boxy_gauge_of
 from ...vectors import Vector3, cross, dot, minus, over, plus, size_of, times
 from ..features.frames import tangent_of
-from .smooth_core import (
-    RADIUS,
-    RIGHT,
-    Answer,
-    Axes,
+from .newton import RIGHT, has_ended
+from .smooth_core import RADIUS, Answer, Axes, back, facing_point, longest, spread
+from .tangent_plane import (
     Symmetric,
     along,
-    back,
     bends_in_plane,
     determinant,
-    facing_point,
     from_tangents,
-    has_ended,
     in_plane,
-    longest,
     solved,
-    spread,
     tangents_in,
     write_matrices,
 )
@@ -59,7 +52,7 @@ Place: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, Symmetric]
 
 
 @compiled
-def place_on(core: Floats, p: Vector3) -> Place:
+def place_on(core: Core, p: Vector3) -> Place:
     """Return the point of a boxy core's surface in the direction p, with normal and shape operator."""
     f, slope, bends = boxy_gauge_of(core, p)
     length = size_of(slope)
@@ -71,7 +64,7 @@ def place_on(core: Floats, p: Vector3) -> Place:
 
 
 @compiled
-def climb_boxy(core: Floats, other: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the gap of a boxy core and another core [m], the point on the boxy core [m], and the normal from it.
 
     Point and normal are in the axes of the boxy core.  The gap is nan if the search fails.  The other core must not be
@@ -139,7 +132,7 @@ def climb_boxy(core: Floats, other: Floats, turn: Axes, place: Vector3, start: V
 
 
 @compiled
-def write_boxy(out: Floats, side: int, core: Floats, axes: Axes, p: Vector3) -> None:
+def write_boxy(out: Floats, side: int, core: Core, axes: Axes, p: Vector3) -> None:
     """Write the curvature matrices of a boxy body: slide is the shape operator K of its core, turn is 1 + radius K.
 
     The contact point of the core is p, in the axes of the core [m].

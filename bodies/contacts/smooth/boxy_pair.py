@@ -11,27 +11,13 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
+from ...shapes.support_function import Core
 from ...vectors import Vector3, dot, minus, over, plus, size_of, times
 from .boxy_newton import place_on
-from .smooth_core import (
-    CLOSE,
-    RIGHT,
-    Answer,
-    Axes,
-    along,
-    back,
-    by_symmetric,
-    determinant,
-    forth,
-    from_tangents,
-    has_ended,
-    in_plane,
-    longest,
-    solved,
-    spread,
-)
+from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
+from .smooth_core import Answer, Axes, back, forth, longest, spread
+from .tangent_plane import along, by_symmetric, determinant, from_tangents, in_plane, solved
 
 _STEPS = 100
 _HALVINGS = 30
@@ -45,25 +31,7 @@ _LEAST = 0.05
 
 
 @compiled
-def away_from_zero(found: float, least: float) -> float:
-    """Return a determinant whose absolute value is at least ``least``, with the same sign."""
-    return math.copysign(least, found) if abs(found) < least else found
-
-
-@compiled
-def misfit(r: float, s: float, v: float, w: float, facing: float, weight: float) -> float:
-    """Return the merit function of two points: the sum of the squared residuals [m^2].
-
-    Residuals are the components r and s of the vector between the points [m], and v and w of the second normal, times
-    ``weight`` [m].  If the normals do not face each other (``facing``, their scalar product, is not negative), the
-    merit is large.
-    """
-    apart = weight * (v * v + w * w if facing < 0.0 else 2.0 - v * v - w * w)
-    return r * r + s * s + weight * apart
-
-
-@compiled
-def meet(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3, other: Vector3) -> Answer:
+def meet(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, other: Vector3) -> Answer:
     """Return the gap of two boxy cores [m], the point on the first core and its outward normal.
 
     Point and normal are in the axes of the first core, from its centre.  The gap is nan if no solution was found.

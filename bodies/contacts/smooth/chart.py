@@ -16,23 +16,19 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_by
+from ...shapes.support_function import Core, support_by
 from ...vectors import Vector3, cross, over, plus, size_of, times
 from ..features.frames import tangent_of
-from .smooth_core import (
-    RADIUS,
-    Axes,
-    Norm,
+from .smooth_core import RADIUS, Axes, Norm, longest, unit
+from .tangent_plane import (
     Symmetric,
     along,
     bends_in_plane,
     determinant,
     from_tangents,
     in_plane,
-    longest,
     tangents_in,
     turned_matrix,
-    unit,
     write_matrices,
 )
 
@@ -82,8 +78,7 @@ def chart_of(core: Norm, length: float, w: Vector3) -> Chart:
     """
     a, b, c, p, q = core
     if p == 2.0 and q == 2.0:
-        found: Chart = _of_ellipsoid((a, b, c), length, w)
-        return found
+        return _of_ellipsoid((a, b, c), length, w)
     # u and its dual, their derivatives round the section; the same along the third axis
     k = max(q, q / (q - 1.0))
     ux, uy, across = _part(w[0], w[1], k)
@@ -149,7 +144,7 @@ def _of_ellipsoid(semi: Vector3, length: float, w: Vector3) -> Chart:
 
 
 @compiled
-def write_chart(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3) -> None:
+def write_chart(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3) -> None:
     """Write the curvature matrices of a core at the surface point with the outward unit normal ``normal``.
 
     The normal is in the axes of the core.  The matrices are slide [1/m] and turn [1].  The geometry block ``out`` must

@@ -12,29 +12,10 @@ import math
 from nonsmooth.compiled import compiled
 
 from ...vectors import Vector3, dot, minus, opposite, plus, times
-from .boxy_pair import away_from_zero, misfit
 from .chart import chart_of, start_of
-from .smooth_core import (
-    CLOSE,
-    RIGHT,
-    Answer,
-    Axes,
-    Norm,
-    Symmetric,
-    along,
-    back,
-    by_symmetric,
-    determinant,
-    forth,
-    from_tangents,
-    has_ended,
-    in_plane,
-    longest,
-    solved,
-    spread,
-    turned_matrix,
-    unit,
-)
+from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
+from .smooth_core import Answer, Axes, Norm, back, forth, longest, spread, unit
+from .tangent_plane import Symmetric, along, by_symmetric, determinant, from_tangents, in_plane, solved, turned_matrix
 
 _STEPS = 40
 _HALVINGS = 10
@@ -61,7 +42,7 @@ def meet_in_charts(first: Norm, second: Norm, turn: Axes, place: Vector3, start:
         own powers in this number of steps; 0 for no further search.
     """
     n = unit(start)
-    found: Answer = _climb(first, second, turn, place, n)
+    found = _climb(first, second, turn, place, n)
     if found[0] == found[0]:
         return found
     # solve for ellipsoids first and change their powers step by step, each solution as the next start

@@ -13,26 +13,13 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_of
+from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, ahead, cross, dot, minus, plus, size_of, times
 from ..features.frames import tangent_of
-from .smooth_core import (
-    CLOSE,
-    RIGHT,
-    ROUND_OFF,
-    Axes,
-    along,
-    back,
-    bend,
-    facing_point,
-    has_ended,
-    in_plane,
-    longest,
-    spread,
-    unit,
-)
+from .newton import CLOSE, RIGHT, ROUND_OFF, has_ended
+from .smooth_core import Axes, back, bend, facing_point, longest, spread, unit
+from .tangent_plane import along, in_plane
 
 _STEPS = 100
 _HALVINGS = 40
@@ -46,7 +33,7 @@ _SADDLE = 0.3
 
 @compiled
 def climb(
-    first: Floats, second: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3
+    first: Core, second: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3
 ) -> tuple[float, Vector3]:
     """Return the largest gap g(n) [m] and its direction n, in the axes of the first core; nan if none was found.
 

@@ -12,16 +12,15 @@ ball of the radius G / L the function stays below 1.
 from __future__ import annotations
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...shapes.support_function import OF_FUNCTION, gauge_of
+from ...shapes.support_function import OF_FUNCTION, Core, gauge_of
 from ...vectors import Vector3, ahead, dot, minus, opposite, vector_at
 from .dual_newton import climb
 from .smooth_core import POINT, Answer, Axes, back, longest, spread
 
 
 @compiled
-def no_shorter_way(first: Floats, second: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
+def no_shorter_way(first: Core, second: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
     """Return True if inscribed balls prove that no translation shorter than the overlap separates the cores.
 
     Parameters
@@ -41,7 +40,7 @@ def no_shorter_way(first: Floats, second: Floats, turn: Axes, place: Vector3, fo
 
 
 @compiled
-def _ball_in(core: Floats, most: float, point: Vector3, normal: Vector3) -> float:
+def _ball_in(core: Core, most: float, point: Vector3, normal: Vector3) -> float:
     """Return the radius [m] of a ball that lies inside the core and touches the core's surface at a point.
 
     The point is in the axes of the core, from its centre [m].  ``normal`` is the outward unit normal there.  The radius
@@ -75,7 +74,7 @@ def _ball_in(core: Floats, most: float, point: Vector3, normal: Vector3) -> floa
 
 
 @compiled
-def gauge(core: Floats, point: Vector3) -> float:
+def gauge(core: Core, point: Vector3) -> float:
     """Return the gauge of a point: 1 on the surface of a core, more outside, less inside; in the axes of the core.
 
     A core given by a support function has no gauge in closed form.  There the result is 1 + signed distance / size, or

@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from typing import ClassVar, TypeAlias, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
@@ -27,9 +27,9 @@ from ...shapes.capsule import Capsule
 from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Polytope
 from ...shapes.smooth import SmoothShape
-from ...shapes.support_function import is_round
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, put, size_of, times, vector_at
-from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world, write_tangent
+from ...shapes.support_function import Core, is_round
+from ...vectors import Vector3, ahead, cross, dot, minus, over, plus, size_of, times, vector_at
+from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world
 from ..features.writing import write_flat, write_principal, write_round
 from .inscribed import gauge
 from .round_search import along_segment, up_hills
@@ -47,7 +47,7 @@ from .smooth_core import (
     longest,
     spread,
 )
-from .smooth_newton import widest_from, write_surface
+from .smooth_newton import widest_from, write_smooth
 
 Numbers = tuple[float, ...]
 
@@ -135,15 +135,13 @@ polytope's nearest point.  Vectors are in the frame of the polytope.  The gap is
 
 @compiled
 def _vertex(hull: Floats, i: int) -> Vector3:
-    found: Vector3 = vector_at(hull, int(hull[VERTICES]) + 3 * i)
-    return found
+    return vector_at(hull, int(hull[VERTICES]) + 3 * i)
 
 
 @compiled
 def _begin_of_edge(hull: Floats, i: int) -> Vector3:
     """Return the first vertex of an edge [m]."""
-    found: Vector3 = _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * i]))
-    return found
+    return _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * i]))
 
 
 @compiled
@@ -187,7 +185,7 @@ def _exit(hull: Floats, face: int, near: float, here: Vector3, there: Vector3) -
 
 
 @compiled
-def _over_face(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: int) -> Answer:
+def _over_face(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int) -> Answer:
     """Return the gap between the plane of a face and the smooth body [m], the body's point [m] and the normal."""
     at = int(hull[FACES]) + FACE * number
     n = vector_at(hull, at)
@@ -196,7 +194,7 @@ def _over_face(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: i
 
 
 @compiled
-def _best_face(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> int:
+def _best_face(hull: Floats, core: Core, turn: Axes, place: Vector3) -> int:
     """Return the face whose plane has the largest gap to the smooth body, or -1 if the polytope is a segment."""
     best, widest = -1, -math.inf
     for i in range(int(hull[COUNTS + 2])):
@@ -207,9 +205,7 @@ def _best_face(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> int:
 
 
 @compiled
-def _look_at_face(
-    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, number: int, way: Vector3
-) -> Stop:
+def _look_at_face(hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, number: int, way: Vector3) -> Stop:
     g, p, n = _over_face(hull, core, turn, place, number)
     edge = _exit(hull, number, near, way, ahead(p, -g, n))
     return g, n, _HERE if edge < 0 else _EDGE, edge, way
@@ -217,7 +213,7 @@ def _look_at_face(
 
 @compiled
 def _look_at_edge(
-    hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float, number: int, begin: Vector3
+    hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, number: int, begin: Vector3
 ) -> Stop:
     at = int(hull[EDGES]) + EDGE * number
     v, (e, length) = _begin_of_edge(hull, number), _edge(hull, number)
@@ -238,7 +234,7 @@ def _look_at_edge(
 
 
 @compiled
-def _look_at_vertex(hull: Floats, core: Floats, turn: Axes, place: Vector3, number: int, begin: Vector3) -> Stop:
+def _look_at_vertex(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int, begin: Vector3) -> Stop:
     v = _vertex(hull, number)
     g, _, n = widest_from(hull, core, turn, minus(place, v), (0.0, 0.0, 0.0), begin)
     steepest, most = -1, _ON_BORDER
@@ -261,7 +257,21 @@ def _middle(hull: Floats, face: int) -> Vector3:
 
 
 @compiled
-def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
+def _look(
+    hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, kind: int, number: int, begin: Vector3
+) -> Stop:
+    """Return the stop of a feature; ``begin`` is a point of a face [m], or the first normal at an edge or vertex."""
+    if kind == _FACE:
+        found: Stop = _look_at_face(hull, core, turn, place, near, number, begin)
+    elif kind == _EDGE:
+        found = _look_at_edge(hull, core, turn, place, near, number, begin)
+    else:
+        found = _look_at_vertex(hull, core, turn, place, number, begin)
+    return found
+
+
+@compiled
+def _nearest(hull: Floats, core: Core, turn: Axes, place: Vector3) -> Nearest:
     """Return gap, normal, nearest feature and point of a polytope and a smooth body.
 
     ``place`` is the centre of the smooth body's core in the frame of the polytope [m].
@@ -277,14 +287,9 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
     best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, way)
     # on edges and vertices Newton's method starts with the direction to the smooth body's centre
     for _ in range(n_edges + 4):
-        if kind == _FACE:
-            g, n, after, where, way = _look_at_face(hull, core, turn, place, near, number, way)
-        elif kind == _EDGE:
-            begin = minus(place, _begin_of_edge(hull, number))
-            g, n, after, where, way = _look_at_edge(hull, core, turn, place, near, number, begin)
-        else:
-            begin = minus(place, _vertex(hull, number))
-            g, n, after, where, way = _look_at_vertex(hull, core, turn, place, number, begin)
+        if kind != _FACE:
+            way = minus(place, _begin_of_edge(hull, number) if kind == _EDGE else _vertex(hull, number))
+        g, n, after, where, way = _look(hull, core, turn, place, near, kind, number, way)
         stop = g, n, _feature(hull, kind, number), way
         if after == _HERE and g >= -_SHALLOW * size:
             return stop
@@ -319,7 +324,7 @@ def _nearest(hull: Floats, core: Floats, turn: Axes, place: Vector3) -> Nearest:
 
 
 @compiled
-def _deep_segment(hull: Floats, core: Floats, turn: Axes, place: Vector3, size: float) -> Nearest:
+def _deep_segment(hull: Floats, core: Core, turn: Axes, place: Vector3, size: float) -> Nearest:
     """Return the result of :func:`_nearest` for a segment deep in the smooth body.
 
     Searches start uphill from both ends, and from ``_ROUND`` directions round the segment.
@@ -344,7 +349,7 @@ def _deep_segment(hull: Floats, core: Floats, turn: Axes, place: Vector3, size: 
 
 
 @compiled
-def _best_of_all(hull: Floats, core: Floats, turn: Axes, place: Vector3, near: float) -> Nearest:
+def _best_of_all(hull: Floats, core: Core, turn: Axes, place: Vector3, near: float) -> Nearest:
     """Return the result of :func:`_nearest` by Newton's method on every feature of the polytope.
 
     It is used for overlaps in which the walk does not lead to a proved solution.  The result is the final stop with the
@@ -354,43 +359,33 @@ def _best_of_all(hull: Floats, core: Floats, turn: Axes, place: Vector3, near: f
     best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, (0.0, 0.0, 0.0))
     for kind in (_FACE, _EDGE, _VERTEX):
         for number in range(int(hull[COUNTS + kind])):
-            if kind == _FACE:
-                g, n, after, _, way = _look_at_face(hull, core, turn, place, near, number, _middle(hull, number))
-            elif kind == _EDGE:
-                begin = _outward_of_edge(hull, number, place)
-                g, n, after, _, way = _look_at_edge(hull, core, turn, place, near, number, begin)
-            else:
-                begin = _outward_of_vertex(hull, number)
-                g, n, after, _, way = _look_at_vertex(hull, core, turn, place, number, begin)
+            begin = _begin(hull, kind, number, place)
+            g, n, after, _, way = _look(hull, core, turn, place, near, kind, number, begin)
             if after == _HERE and g == g and not g <= best[0]:
                 best = g, n, _feature(hull, kind, number), way
     return best
 
 
 @compiled
-def _outward_of_edge(hull: Floats, number: int, place: Vector3) -> Vector3:
-    """Return a direction out of the polytope at an edge, of any length: the sum of the normals of its two faces.
+def _begin(hull: Floats, kind: int, number: int, place: Vector3) -> Vector3:
+    """Return the middle of a face [m], or a direction out of the polytope at an edge or a vertex, of any length.
 
-    A segment has no faces: there it is the vector from its start to the smooth body's centre [m].
+    At an edge it is the sum of the normals of its two faces.  A segment has no faces: there it is the vector from its
+    start to the smooth body's centre [m].
     """
-    at = int(hull[EDGES]) + EDGE * number
-    if hull[at + 2] < 0.0:
-        start: Vector3 = minus(place, _begin_of_edge(hull, number))
-        return start
-    outward = 0.0, 0.0, 0.0
-    for i in range(2):
-        face = int(hull[at + 2 + i])
-        if face >= 0:
-            outward = plus(outward, vector_at(hull, int(hull[FACES]) + FACE * face))
-    return outward
-
-
-@compiled
-def _outward_of_vertex(hull: Floats, number: int) -> Vector3:
-    outward = 0.0, 0.0, 0.0
-    for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
-        _, sign, e = _edge_from(hull, number, i)
-        outward = ahead(outward, -sign, e)
+    at, outward = int(hull[EDGES]) + EDGE * number, (0.0, 0.0, 0.0)
+    if kind == _FACE:
+        outward = _middle(hull, number)
+    elif kind == _EDGE and hull[at + 2] < 0.0:
+        outward = minus(place, _begin_of_edge(hull, number))
+    elif kind == _EDGE:
+        for i in range(2):
+            if hull[at + 2 + i] >= 0.0:
+                outward = plus(outward, vector_at(hull, int(hull[FACES]) + FACE * int(hull[at + 2 + i])))
+    else:
+        for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
+            _, sign, e = _edge_from(hull, number, i)
+            outward = ahead(outward, -sign, e)
     return outward
 
 
@@ -415,14 +410,8 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     if feature >= n_faces and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the polytope's point
         p = ahead(base, g, n)
-    normal, gap = vector_in_world(a, n), g - first[RADIUS] - second[RADIUS]
-    point = ahead(point_in_world(a, p), -second[RADIUS], normal)
-    out[GAP], out[FEATURE] = gap, feature
-    put(out, NORMAL, normal)
-    put(out, POINT_B, point)
-    put(out, POINT_A, ahead(point, -gap, normal))
-    write_tangent(a, out)
-    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(p, place)))
+    write_smooth(a, out, g - first[RADIUS] - second[RADIUS], second, axes_b, turn, place, n, p)
+    out[FEATURE] = feature
     if feature < n_faces:
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:

@@ -17,33 +17,22 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_of
+from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, ahead, dot, minus, plus
+from .bracket import bracket, narrowed, next_place
 from .inscribed import gauge
-from .smooth_core import (
-    POINT,
-    Answer,
-    Axes,
-    back,
-    bends_in_plane,
-    determinant,
-    facing_point,
-    longest,
-    solved,
-    spread,
-)
+from .smooth_core import POINT, Answer, Axes, back, facing_point, longest, spread
 from .smooth_newton import widest_of_round
 from .smooth_starts import Start, gap_along, settle, starts_of, uphill
+from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""
-_LOOKS, _STEPS, _PATIENCE = 16, 120, 3
+_LOOKS, _STEPS = 16, 120
 """Numbers of angles and steps of a search.
 
-``_LOOKS``: angles round the circle that are sampled.  ``_STEPS``: largest number of steps.  ``_PATIENCE``: after this
-many successive secant steps that did not halve the interval, the interval is bisected.
+``_LOOKS``: angles round the circle that are sampled.  ``_STEPS``: largest number of steps.
 """
 _SAME = 4e-16
 """Round-off: two angles closer than this [rad] are equal, and a smaller derivative of the distance is zero."""
@@ -75,7 +64,7 @@ A stop is the gap between one point of the circle and the body [m], the body's n
 
 
 @compiled
-def _look(point: Floats, core: Floats, turn: Axes, place: Vector3, radius: float, angle: float) -> Look:
+def _look(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, angle: float) -> Look:
     c, s = math.cos(angle), math.sin(angle)
     rim = radius * c, radius * s, 0.0
     from_rim = minus(place, rim)
@@ -84,7 +73,7 @@ def _look(point: Floats, core: Floats, turn: Axes, place: Vector3, radius: float
 
 
 @compiled
-def round_circle(point: Floats, core: Floats, turn: Axes, place: Vector3, radius: float, start: Vector3) -> Answer:
+def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3) -> Answer:
     """Return gap, smooth body's point and normal at the least distance of a circle from the body.
 
     The centre of the circle is the origin, its axis the third axis.  The normal points out of its disc.  The gap is nan
@@ -105,7 +94,7 @@ def round_circle(point: Floats, core: Floats, turn: Axes, place: Vector3, radius
     """
     begin = math.atan2(start[1], start[0])
     none: Answer = (math.nan, place, (0.0, 0.0, 1.0))
-    look: Look = _look(point, core, turn, place, radius, begin)
+    look = _look(point, core, turn, place, radius, begin)
     slope, reached = look
     # downhill from the start; if that fails, in every interval of the circle
     way = -math.copysign(1.0, slope)
@@ -115,7 +104,7 @@ def round_circle(point: Floats, core: Floats, turn: Axes, place: Vector3, radius
             angle = begin + way * step
             slope, _ = _look(point, core, turn, place, radius, angle)
             if way * slope >= 0.0:
-                answer: Answer = _between(point, core, turn, place, radius, low, angle, falling, slope)
+                answer = _between(point, core, turn, place, radius, low, angle, falling, slope)
                 if _is_outward(answer):
                     return answer
                 break
@@ -143,8 +132,8 @@ def _is_outward(found: Answer) -> bool:
 
 @compiled
 def _between(
-    point: Floats,
-    core: Floats,
+    point: Core,
+    core: Core,
     turn: Axes,
     place: Vector3,
     radius: float,
@@ -159,27 +148,15 @@ def _between(
     ``rising`` are the derivatives of the distance at these angles.  ``place`` is the centre of the core [m]; the other
     arguments are those of :func:`round_circle`.
     """
-    side, slow = 0, 0
-    look: Look = _look(point, core, turn, place, radius, high)
+    look = _look(point, core, turn, place, radius, high)
+    sides = bracket(low, high, falling, rising)
     for _ in range(_STEPS):
-        width = abs(high - low)
-        # a secant step; after _PATIENCE secant steps in succession that did not halve the interval, a bisection
-        middle = (low * rising - high * falling) / (rising - falling)
-        if slow >= _PATIENCE or not (min(low, high) < middle < max(low, high)):
-            middle, slow = 0.5 * (low + high), 0
+        middle, sides = next_place(sides)
+        low, high, _, _, _, _ = sides
         look = _look(point, core, turn, place, radius, middle)
-        slope = look[0]
-        if abs(slope) <= _SAME or width <= _SAME or middle == low or middle == high:
+        if abs(look[0]) <= _SAME or abs(high - low) <= _SAME or middle == low or middle == high:
             break
-        if (slope < 0.0) == (falling < 0.0):
-            low, falling = middle, slope
-            rising = 0.5 * rising if side == 1 else rising
-            side = 1
-        else:
-            high, rising = middle, slope
-            falling = 0.5 * falling if side == -1 else falling
-            side = -1
-        slow = slow + 1 if abs(high - low) > 0.5 * width else 0
+        sides = narrowed(sides, middle, look[0])
     found = look[1]
     if not abs(look[0]) <= _ACROSS:
         # deep in the body the nearest surface point is discontinuous along the circle: no stationary point
@@ -188,7 +165,7 @@ def _between(
 
 
 @compiled
-def next_to_axis(core: Floats, turn: Axes, place: Vector3, radius: float, start: Vector3, up: float) -> Answer:
+def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3, up: float) -> Answer:
     """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
 
     The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
@@ -222,7 +199,7 @@ def next_to_axis(core: Floats, turn: Axes, place: Vector3, radius: float, start:
 
 
 @compiled
-def along_segment(core: Floats, turn: Axes, place: Vector3, e: Vector3, length: float) -> tuple[Answer, float]:
+def along_segment(core: Core, turn: Axes, place: Vector3, e: Vector3, length: float) -> tuple[Answer, float]:
     """Return the least distance of a smooth body from a segment: (gap [m], body's point, normal), distance along it.
 
     The last number is the distance of the segment's nearest point from the start of the segment [m].  The segment goes
@@ -253,7 +230,7 @@ def along_segment(core: Floats, turn: Axes, place: Vector3, e: Vector3, length: 
 
 
 @compiled
-def up_hills(circle: Floats, core: Floats, turn: Axes, place: Vector3, up: float, lean: Vector3) -> Answer:
+def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, lean: Vector3) -> Answer:
     """Return gap, smooth body's point and normal for an overlapping circle, along the direction of the largest gap.
 
     Parameters
@@ -270,7 +247,7 @@ def up_hills(circle: Floats, core: Floats, turn: Axes, place: Vector3, up: float
     best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
     for start in starts_of(circle, core, turn, place):
         top = uphill(circle, core, turn, place, start, _TOP)
-        found: Answer = widest_of_round(circle, core, turn, place, top[1])
+        found = widest_of_round(circle, core, turn, place, top[1])
         if not found[0] >= top[0] - _TOP * lean[2]:
             settled = settle(circle, core, turn, place, top)
             # if two maxima differ by round-off only, the ellipsoid method may go from one to the other
@@ -302,7 +279,7 @@ def _leans_so(n: Vector3, up: float, lean: Vector3) -> bool:
 
 
 @compiled
-def _along(circle: Floats, top: Start) -> Answer:
+def _along(circle: Core, top: Start) -> Answer:
     """Return gap, body's point and normal for a maximum ``top`` of the gap: the gap and its direction n.
 
     The body's point is the circle's farthest point along n, moved by the gap along n.
@@ -312,7 +289,7 @@ def _along(circle: Floats, top: Start) -> Answer:
 
 
 @compiled
-def _facing(circle: Floats, core: Floats, turn: Axes, place: Vector3, found: Answer) -> tuple[Answer, float]:
+def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: Answer) -> tuple[Answer, float]:
     """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
 
     Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
@@ -356,6 +333,6 @@ def _over_rim(radius: float, angle: float, g: float, n: Vector3) -> Vector3:
 
 
 @compiled
-def _over(core: Floats, turn: Axes, place: Vector3, point: Vector3) -> float:
+def _over(core: Core, turn: Axes, place: Vector3, point: Vector3) -> float:
     """Return abs(gauge - 1) of a point: 0 on the surface of the core, where :func:`gauge` is 1, larger off it."""
     return float(abs(gauge(core, back(turn, minus(point, place))) - 1.0))

@@ -1,4 +1,4 @@
-"""Rotations, tangent planes and second derivatives for contacts of smooth bodies; what their searches share.
+"""Cores of smooth bodies and their axes, for contacts.
 
 A smooth body is a core with a smooth support function, rounded by a radius.  The core is the tuple of
 :func:`bodies.shapes.smooth.core_numbers`.  Where a search takes two cores, ``turn`` is the rotation from the axes of
@@ -11,11 +11,11 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import NORMAL, ROTATION, TANGENT
+from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import Bends, support_of
-from ...vectors import Vector3, cross, dot, opposite, over, plus, size_of, times, vector_at
+from ...shapes.support_function import Bends, Core, support_of
+from ...vectors import Vector3, opposite, over, plus, size_of, vector_at
 from ..features.frames import vector_in_world
 
 Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
@@ -30,25 +30,11 @@ RADIUS, CENTER = 5, 6
 POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 """Core numbers of a point."""
 
-ROUND_OFF, CLOSE, RIGHT = 2e-16, 1e-12, 1e-13
-"""Residuals of Newton's method, relative to the size of the bodies.
-
-Below ``ROUND_OFF`` it ends.  Below ``CLOSE`` it ends once a step no longer halves the residual, which round-off limits
-there.  A result with a residual above ``RIGHT`` is rejected.
-"""
-
-
-@compiled
-def has_ended(residual: float, before: float, size: float) -> bool:
-    """Return whether Newton's method ends: ``before`` is the residual of the last step, ``size`` that of the bodies."""
-    return bool(residual <= ROUND_OFF * size or (residual <= CLOSE * size and residual >= 0.5 * before))
-
 
 @compiled
 def unit(v: Vector3) -> Vector3:
     """Return a vector divided by its length."""
-    found: Vector3 = over(v, size_of(v))
-    return found
+    return over(v, size_of(v))
 
 
 @compiled
@@ -58,7 +44,7 @@ def spread(v: Vector3) -> float:
 
 
 @compiled
-def longest(core: Floats) -> float:
+def longest(core: Core) -> float:
     """Return the largest semi-axis of a core [m]."""
     return max(core[0], core[1], core[2])
 
@@ -80,16 +66,15 @@ def by_columns(x: Vector3, y: Vector3, z: Vector3) -> Axes:
 
 
 @compiled
-def axes_in_world(frame: Floats, core: Floats) -> Axes:
+def axes_in_world(frame: Floats, core: Core) -> Axes:
     """Return the axes of a smooth body's core in the world, as columns."""
     x = vector_in_world(frame, (core[9], core[12], core[15]))
     y = vector_in_world(frame, (core[10], core[13], core[16]))
-    found: Axes = by_columns(x, y, vector_in_world(frame, (core[11], core[14], core[17])))
-    return found
+    return by_columns(x, y, vector_in_world(frame, (core[11], core[14], core[17])))
 
 
 @compiled
-def unit_axes_in_world(frame: Floats, core: Floats) -> Axes:
+def unit_axes_in_world(frame: Floats, core: Core) -> Axes:
     """Return the axes of a smooth body's core in the world, as columns of length 1.
 
     Within a time step, a body's quaternion is not normalised.  If its length is L, the columns of its rotation matrix
@@ -111,8 +96,7 @@ def axes_of(frame: Floats) -> Axes:
 def between_axes(a: Axes, b: Axes) -> Axes:
     """Return the rotation from the axes b to the axes a."""
     x, y, z = back(a, (b[0], b[3], b[6])), back(a, (b[1], b[4], b[7])), back(a, (b[2], b[5], b[8]))
-    found: Axes = by_columns(x, y, z)
-    return found
+    return by_columns(x, y, z)
 
 
 @compiled
@@ -144,100 +128,10 @@ def back(axes: Axes, v: Vector3) -> Vector3:
 
 
 @compiled
-def facing_point(core: Floats, turn: Axes, place: Vector3, n: Vector3) -> tuple[Vector3, Bends]:
+def facing_point(core: Core, turn: Axes, place: Vector3, n: Vector3) -> tuple[Vector3, Bends]:
     """Return the farthest point of a second core in the direction -n [m], and the second derivative of its support.
 
     Point and n are in the axes of the first core; the second derivative is in those of the second [m].
     """
     _, p, h = support_of(core, back(turn, opposite(n)))
     return plus(place, forth(turn, p)), h
-
-
-Pair: TypeAlias = tuple[float, float]
-"""Components of a vector of a tangent plane along its two tangents."""
-Symmetric: TypeAlias = tuple[float, float, float]
-"""Elements 11, 12 and 22 of a symmetric matrix of a tangent plane."""
-Matrix: TypeAlias = tuple[float, float, float, float]
-"""Elements 11, 12, 21 and 22 of a matrix of a tangent plane."""
-
-
-@compiled
-def in_plane(t: Vector3, u: Vector3, v: Vector3) -> Pair:
-    """Return the components of a vector along two tangents."""
-    return dot(t, v), dot(u, v)
-
-
-@compiled
-def along(v: Pair, t: Vector3, u: Vector3) -> Vector3:
-    """Return the vector with these components along two tangents."""
-    found: Vector3 = plus(times(v[0], t), times(v[1], u))
-    return found
-
-
-@compiled
-def bends_in_plane(h: Bends, t: Vector3, u: Vector3) -> Symmetric:
-    """Return the second derivative of a support function along two tangents [m]."""
-    return bend(h, t, t), bend(h, t, u), bend(h, u, u)
-
-
-@compiled
-def from_tangents(t: Vector3, u: Vector3, first: Vector3, second: Vector3) -> Matrix:
-    """Return the matrix from components along the tangents ``first`` and ``second`` to those along t and u."""
-    return dot(t, first), dot(t, second), dot(u, first), dot(u, second)
-
-
-@compiled
-def determinant(m: Matrix) -> float:
-    """Return the determinant of a matrix."""
-    return m[0] * m[3] - m[1] * m[2]
-
-
-@compiled
-def solved(m: Matrix, det: float, right: Pair) -> Pair:
-    """Return x with m x = right, for a matrix m with the determinant ``det``."""
-    return (m[3] * right[0] - m[1] * right[1]) / det, (m[0] * right[1] - m[2] * right[0]) / det
-
-
-@compiled
-def by_symmetric(c: Matrix, s: Symmetric) -> Matrix:
-    """Return the product C S."""
-    return c[0] * s[0] + c[1] * s[1], c[0] * s[1] + c[1] * s[2], c[2] * s[0] + c[3] * s[1], c[2] * s[1] + c[3] * s[2]
-
-
-@compiled
-def turned_matrix(c: Matrix, s: Symmetric) -> Symmetric:
-    """Return C S C^T."""
-    e = by_symmetric(c, s)
-    return e[0] * c[0] + e[1] * c[1], e[0] * c[2] + e[1] * c[3], e[2] * c[2] + e[3] * c[3]
-
-
-@compiled
-def tangents_in(axes: Axes, out: Floats) -> tuple[Vector3, Vector3]:
-    """Return both tangents of a geometry block, which holds normal and first tangent, in the axes of a core."""
-    t = vector_at(out, TANGENT)
-    return back(axes, t), back(axes, cross(vector_at(out, NORMAL), t))
-
-
-@compiled
-def write_matrices(out: Floats, side: int, slide: Symmetric, turn: Symmetric) -> None:
-    """Write the curvature matrices of a surface, which satisfy slide u = turn nu.
-
-    If the contact point moves by u along the surface [m], the normal turns by nu.
-    """
-    out[side], out[side + 3], out[side + 4], out[side + 7] = slide[0], slide[2], turn[0], turn[2]
-    out[side + 1] = out[side + 2] = slide[1]
-    out[side + 5] = out[side + 6] = turn[1]
-
-
-@compiled
-def write_core(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3) -> None:
-    """Write the curvature matrices slide and turn of a smooth body at its outward normal, in the axes of the core.
-
-    Slide is the identity.  Turn is the matrix of the radii of curvature [m]: the second derivative of the support
-    function at the normal, plus the core's radius.  The geometry block ``out`` must already hold normal and first
-    tangent; ``axes`` are the core's axes in the world.
-    """
-    _, _, h = support_of(core, normal)
-    t, u = tangents_in(axes, out)
-    h11, h12, h22 = bends_in_plane(h, t, u)
-    write_matrices(out, side, (1.0, 0.0, 1.0), (h11 + core[RADIUS], h12, h22 + core[RADIUS]))

@@ -11,10 +11,12 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
-from ...vectors import Vector3, ahead, dot, minus, opposite, over, plus, size_of, times
+from ...shapes.support_function import Core, gauge_of, is_boxy, is_mixed, is_round, support_of
+from ...vectors import Vector3, ahead, dot, minus, opposite, over, plus, put, size_of, times
+from ..features.frames import point_in_world, vector_in_world, write_tangent
 from .boxy_line import across_line
 from .boxy_newton import climb_boxy, write_boxy
 from .boxy_pair import meet
@@ -22,8 +24,9 @@ from .chart import write_chart
 from .chart_newton import meet_in_charts
 from .dual_newton import climb
 from .inscribed import gauge, no_shorter_way
-from .smooth_core import POINT, Answer, Axes, Norm, back, facing_point, forth, inverse, spread, unit, write_core
+from .smooth_core import POINT, RADIUS, Answer, Axes, Norm, back, facing_point, forth, inverse, spread, unit
 from .smooth_starts import gap_along, settle, starts_of, uphill
+from .tangent_plane import bends_in_plane, tangents_in, write_matrices
 
 _DEEP = 1e-2
 """Overlap, relative to the least semi-axis, up to which a solution is accepted without a proof.
@@ -74,7 +77,7 @@ _ON_SURFACE = 1e-12
 
 
 @compiled
-def widest(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Answer:
+def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
     """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
 
     The gap is the largest one over all directions [m].  If it is positive, it is the only maximum.  A negative gap is
@@ -89,7 +92,7 @@ def widest(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Answer:
         See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
     """
     mixed = is_mixed(first) or is_mixed(second)
-    best: Answer = _first_look(first, second, turn, place)
+    best = _first_look(first, second, turn, place)
     overlap = _share_a_point(first, second, turn, place, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
         return best
@@ -105,7 +108,7 @@ def widest(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Answer:
             if attempt < axes:
                 continue
         if attempt == axes + 12:
-            found: Answer = _in_charts(first, second, turn, place, place)
+            found = _in_charts(first, second, turn, place, place)
         elif attempt >= axes:
             found = _from_start(first, second, turn, place, _axis(turn, attempt - axes))
         elif attempt >= _TOPS:
@@ -135,13 +138,13 @@ def _axis(turn: Axes, number: int) -> Vector3:
 
 
 @compiled
-def _is_thin(first: Floats, second: Floats) -> bool:
+def _is_thin(first: Core, second: Core) -> bool:
     most = max(max(first[0], first[1], first[2]), max(second[0], second[1], second[2]))
     return bool(most > _THIN * _thickness(first, second))
 
 
 @compiled
-def _share_a_point(first: Floats, second: Floats, turn: Axes, place: Vector3, found: Answer) -> bool:
+def _share_a_point(first: Core, second: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
     """Return whether a common point of both bodies is found, which confirms the overlap of a solution.
 
     Candidates are the two points of the solution, points between them, and the line of centres.
@@ -161,24 +164,23 @@ def _share_a_point(first: Floats, second: Floats, turn: Axes, place: Vector3, fo
 
 
 @compiled
-def _thickness(first: Floats, second: Floats) -> float:
+def _thickness(first: Core, second: Core) -> float:
     """Return the least semi-axis of two cores, of which one may be a point [m]."""
     a, b = min(first[0], first[1], first[2]), min(second[0], second[1], second[2])
     return a if b == 0.0 or (a > 0.0 and a < b) else b
 
 
 @compiled
-def _ellipsoid_of(core: Floats) -> Norm:
+def _ellipsoid_of(core: Core) -> Norm:
     """Return the ellipsoid with the semi-axes of a core."""
     return core[0], core[1], core[2], 2.0, 2.0
 
 
 @compiled
-def _first_look(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Answer:
+def _first_look(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
     """Return the largest gap over all directions, second core's point and normal; search from the line of centres."""
     if not (is_mixed(first) or is_mixed(second)):
-        found: Answer = _from_start(first, second, turn, place, place)
-        return found
+        return _from_start(first, second, turn, place, place)
     g, n = climb(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, (0.0, 0.0, 0.0), place)
     found = (g, place, n)
     if g == g:
@@ -188,23 +190,21 @@ def _first_look(first: Floats, second: Floats, turn: Axes, place: Vector3) -> An
 
 
 @compiled
-def _from_start(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from_start(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``."""
     if is_mixed(first) or is_mixed(second):
-        mixed: Answer = _by_parts(first, second, turn, place, start, 0)
-        return mixed
+        return _by_parts(first, second, turn, place, start, 0)
     if is_boxy(first):
         if is_boxy(second):
             g, p, n = _both(first, second, turn, place, start)
         else:
             g, p, n = climb_boxy(first, second, turn, place, start)
         return g, ahead(p, g, n), n
-    found: Answer = widest_of_round(first, second, turn, place, start)
-    return found
+    return widest_of_round(first, second, turn, place, start)
 
 
 @compiled
-def _in_charts(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _in_charts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal, if a core is mixed.
 
     A mixed core has one power below 2 and one above, so that it has flat and sharp places.  The search starts with the
@@ -212,7 +212,7 @@ def _in_charts(first: Floats, second: Floats, turn: Axes, place: Vector3, start:
     ``start``.  If the first core is a circle (the rim of a frustum), a maximum along the circle's axis gives nan: it is
     the gap to the middle of the disc, not to the rim.
     """
-    found: Answer = meet_in_charts(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, start, 0)
+    found = meet_in_charts(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, start, 0)
     if found[0] == found[0]:
         found = _by_parts(first, second, turn, place, found[2], 0)
     if found[0] != found[0] and first[0] > 0.0 and first[2] == 0.0:
@@ -237,7 +237,7 @@ def _in_charts(first: Floats, second: Floats, turn: Axes, place: Vector3, start:
 
 
 @compiled
-def _by_parts(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3, parts: int) -> Answer:
+def _by_parts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, parts: int) -> Answer:
     """Return gap, second core's point and normal; the search starts in the direction ``start``.
 
     If it fails, it is repeated with ellipsoids whose powers are changed in ``parts`` steps from 2 to the cores' own.
@@ -249,14 +249,14 @@ def _by_parts(first: Floats, second: Floats, turn: Axes, place: Vector3, start: 
 
 
 @compiled
-def widest_of_round(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def widest_of_round(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
 
     The first core is round; it may be a point or a circle.  The second core is of any kind.
     """
     if is_mixed(second) or is_boxy(second):
         if is_mixed(second):
-            found: Answer = _in_charts(first, second, turn, place, start)
+            found = _in_charts(first, second, turn, place, start)
         else:
             found = _from_boxy(first, second, turn, place, start)
         if found[0] != found[0] and first[0] == 0.0:
@@ -268,7 +268,7 @@ def widest_of_round(first: Floats, second: Floats, turn: Axes, place: Vector3, s
 
 
 @compiled
-def _from_boxy(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from_boxy(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
 
     The second core is boxy: the unknown of Newton's method is the point of its surface.
@@ -279,7 +279,7 @@ def _from_boxy(first: Floats, second: Floats, turn: Axes, place: Vector3, start:
 
 
 @compiled
-def _by_cuts(point: Floats, core: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _by_cuts(point: Core, core: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return gap, point and normal of a core and a point outside of it, for searches in which Newton's method fails.
 
     Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
@@ -297,14 +297,14 @@ def _by_cuts(point: Floats, core: Floats, turn: Axes, place: Vector3, start: Vec
 
 
 @compiled
-def _both(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the gap of two boxy cores (with flat places) [m], the first core's point and the normal.
 
     The search starts with the contact normal for which the second core is replaced by an ellipsoid.  If the search
     fails, it starts with the normal for which the first core is replaced instead, and last from ``start``.
     """
     g, _, n = climb_boxy(first, _ellipsoid_of(second), turn, place, start)
-    found: Answer = _from(first, second, turn, place, n)
+    found = _from(first, second, turn, place, n)
     if g == g and found[0] == found[0]:
         return found
     to_first, begin = back(turn, opposite(place)), back(turn, opposite(start))
@@ -319,7 +319,7 @@ def _both(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vect
 
 
 @compiled
-def _from(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
     """Return the gap of two boxy cores [m], the first core's point and the normal.
 
     Newton's method starts at the support points of the first core along ``start``, and of the second against it.
@@ -327,12 +327,11 @@ def _from(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Vect
     n = unit(start)
     _, p, _ = support_of(first, n)
     _, q, _ = support_of(second, back(turn, opposite(n)))
-    found: Answer = meet(first, second, turn, place, p, forth(turn, q))
-    return found
+    return meet(first, second, turn, place, p, forth(turn, q))
 
 
 @compiled
-def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
+def widest_from(hull: Core, core: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
     """Return the gap between the origin and a core of any kind [m], the core's point and the normal.
 
     If ``axis`` is not zero, the gap is measured from the line through the origin along this unit vector.  ``place`` is
@@ -344,18 +343,30 @@ def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Ve
         p, _ = facing_point(core, turn, place, n)
         return g, p, n
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:
-        found: Answer = widest_of_round(POINT, core, turn, place, start)
-        return found
+        return widest_of_round(POINT, core, turn, place, start)
     n = ahead(start, -dot(start, axis), axis)
     length = size_of(n)
     if length == 0.0:
         return math.nan, place, start
-    across: Answer = across_line(core, turn, place, axis, over(n, length), 1.0, 0.0, 0.0)
-    return across
+    return across_line(core, turn, place, axis, over(n, length), 1.0, 0.0, 0.0)
 
 
 @compiled
-def write_surface(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3, p: Vector3) -> None:
+def write_core(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3) -> None:
+    """Write the curvature matrices slide and turn of a smooth body at its outward normal, in the axes of the core.
+
+    Slide is the identity.  Turn is the matrix of the radii of curvature [m]: the second derivative of the support
+    function at the normal, plus the core's radius.  The geometry block ``out`` must already hold normal and first
+    tangent; ``axes`` are the core's axes in the world.
+    """
+    _, _, h = support_of(core, normal)
+    t, u = tangents_in(axes, out)
+    h11, h12, h22 = bends_in_plane(h, t, u)
+    write_matrices(out, side, (1.0, 0.0, 1.0), (h11 + core[RADIUS], h12, h22 + core[RADIUS]))
+
+
+@compiled
+def write_surface(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3, p: Vector3) -> None:
     """Write the curvature matrices of a core of any kind at its surface point p with the outward normal ``normal``.
 
     Point and normal are in the core's axes.  ``side`` is the index of the matrices in the geometry block ``out``;
@@ -367,3 +378,23 @@ def write_surface(out: Floats, side: int, core: Floats, axes: Axes, normal: Vect
         write_boxy(out, side, core, axes, p)
     else:
         write_core(out, side, core, axes, normal)
+
+
+@compiled
+def write_smooth(
+    a: Floats, out: Floats, gap: float, core: Floats, axes: Axes, turn: Axes, place: Vector3, n: Vector3, p: Vector3
+) -> None:
+    """Write gap, axes, witness points and the second matrices of a body ``a`` without curved parts and a smooth body.
+
+    ``n`` is the normal and ``p`` the point of the smooth body's core [m], in the axes of the first body.  ``axes`` are
+    the core's axes in the world, ``turn`` and ``place`` its rotation and centre as in
+    :mod:`bodies.contacts.smooth.smooth_core`.
+    """
+    normal = vector_in_world(a, n)
+    point = ahead(point_in_world(a, p), -core[RADIUS], normal)
+    out[GAP] = gap
+    put(out, NORMAL, normal)
+    put(out, POINT_B, point)
+    put(out, POINT_A, ahead(point, -gap, normal))
+    write_tangent(a, out)
+    write_surface(out, SIDE_B, core, axes, back(turn, opposite(n)), back(turn, minus(p, place)))

@@ -10,12 +10,12 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...shapes.support_function import support_of
+from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of
 from ..features.frames import tangent_of
-from .smooth_core import Axes, back, facing_point, forth, in_plane, longest, spread, unit
+from .smooth_core import Axes, back, facing_point, forth, longest, spread, unit
+from .tangent_plane import in_plane
 
 _LONGEST, _MOVES = 0.2, 100
 """Limits of the search uphill (:func:`uphill`), which increases the gap by turning the direction.
@@ -31,13 +31,13 @@ Starts: TypeAlias = tuple[Start, Start, Start, Start]
 
 
 @compiled
-def gap_along(first: Floats, second: Floats, turn: Axes, place: Vector3, n: Vector3) -> float:
+def gap_along(first: Core, second: Core, turn: Axes, place: Vector3, n: Vector3) -> float:
     """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
     return float(dot(n, place) - support_of(first, n)[0] - support_of(second, back(turn, opposite(n)))[0])
 
 
 @compiled
-def uphill(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Start, least: float) -> Start:
+def uphill(first: Core, second: Core, turn: Axes, place: Vector3, start: Start, least: float) -> Start:
     """Return a local maximum of the gap [m] and its direction, to about ``least`` [rad], by steps from ``start``."""
     g, n = start
     step = _LONGEST
@@ -60,7 +60,7 @@ def uphill(first: Floats, second: Floats, turn: Axes, place: Vector3, start: Sta
 
 
 @compiled
-def starts_of(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Starts:
+def starts_of(first: Core, second: Core, turn: Axes, place: Vector3) -> Starts:
     """Return four directions that are not close to each other, with the largest gaps of all directions tried.
 
     Parameters
@@ -84,31 +84,21 @@ def starts_of(first: Floats, second: Floats, turn: Axes, place: Vector3) -> Star
 @compiled
 def _with(kept: Starts, new: Start) -> Starts:
     """Return the kept starts; a new one with a larger gap replaces a kept one close to it, or else the worst one."""
-    one, two, three, four = kept
-    if _is_near(one, new):
-        place = 0
-    elif _is_near(two, new):
-        place = 1
-    elif _is_near(three, new):
-        place = 2
-    elif _is_near(four, new):
-        place = 3
-    else:
-        least = min(min(one[0], two[0]), min(three[0], four[0]))
-        place = 0 if one[0] == least else 1 if two[0] == least else 2 if three[0] == least else 3
+    place, least = -1, min(min(kept[0][0], kept[1][0]), min(kept[2][0], kept[3][0]))
+    for i in range(4):
+        if place < 0 and dot(kept[i][1], new[1]) > _NEAR:
+            place = i
+    for i in range(4):
+        if place < 0 and kept[i][0] == least:
+            place = i
     if new[0] <= kept[place][0]:
         return kept
     return (
-        new if place == 0 else one,
-        new if place == 1 else two,
-        new if place == 2 else three,
-        new if place == 3 else four,
+        new if place == 0 else kept[0],
+        new if place == 1 else kept[1],
+        new if place == 2 else kept[2],
+        new if place == 3 else kept[3],
     )
-
-
-@compiled
-def _is_near(one: Start, two: Start) -> bool:
-    return bool(dot(one[1], two[1]) > _NEAR)
 
 
 _CUTS, _WIDE = 400, 0.1
@@ -124,7 +114,7 @@ _HIGHER = 1e-16
 
 
 @compiled
-def _cut_round(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: Start) -> Start:
+def _cut_round(circle: Core, core: Core, turn: Axes, place: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and its direction, by one run of the ellipsoid method.
 
     The method and the arguments are those of :func:`settle`.
@@ -157,7 +147,7 @@ def _cut_round(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: 
 
 
 @compiled
-def settle(circle: Floats, core: Floats, turn: Axes, place: Vector3, start: Start) -> Start:
+def settle(circle: Core, core: Core, turn: Axes, place: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
 
     The method also converges on narrow ridges, where the gap changes little along one curve of directions.

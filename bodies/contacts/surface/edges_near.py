@@ -9,8 +9,9 @@ from ...vectors import Vector3, cross, minus, over, put, size_of, times, vector_
 from ..features.bounds import square_of_lines
 from ..features.edge_crossing import ASTRAY, edge_astray
 from ..features.frames import vector_in_body, vector_in_world
-from .surface_near import is_node_near, seen_from
-from .surface_tables import EDGE, EDGES, MEMBERS, N_EDGES, N_NODES, N_TRIANGLES, NODE, NODES
+from .surface_near import Near, seen_from
+from .surface_search import ON_EDGE, feature_of, member_of, node_at
+from .surface_tables import N_NODES
 
 _ALONG = 1e-3
 """Sine of the angle between two edges below which their common normal is too inexact to exclude the pair."""
@@ -55,70 +56,35 @@ def edges_across(
     edges: Floats,
     two: int,
     number: float,
-    reach: float,
-    turn: float,
+    near: Near,
     kind: float,
     out: Floats,
     n: int,
-    most: int,
 ) -> int:
     """Append candidates: pairs of an edge of the first body's surface and one near edge of the second body.
 
     Return the number of candidates after that.  The row of the second body's edge begins at index ``two`` of ``edges``;
-    ``number`` is the number of this edge, the third number of each candidate.  The other arguments are those of
-    :func:`edges_near`.
+    ``number`` is the number of this edge, the third number of each candidate; ``kind`` is the first number.  ``out``
+    holds ``n`` candidates.
     """
-    first, members = int(surface[N_TRIANGLES]), int(surface[MEMBERS])
+    reach, turn, most = near
     start = seen_from(a, b, vector_at(edges, two))
     f = vector_in_body(a, vector_in_world(b, vector_at(edges, two + 3)))
     q = edges[two + 6]
     node = 0
     while node < int(surface[N_NODES]) and n <= most:
-        at = int(surface[NODES]) + NODE * node
+        at = node_at(surface, node)
         if not _passes_box(surface, at, start, times(q, f), reach):
             node = int(surface[at + 6])
             continue
         for m in range(int(surface[at + 8])):
-            own = int(surface[members + int(surface[at + 7]) + m]) - first
-            if own < 0 or own >= int(surface[N_EDGES]) or n > most:
+            what, own, one = feature_of(surface, member_of(surface, at, m))
+            if what != ON_EDGE or n > most:
                 continue
-            one = int(surface[EDGES]) + EDGE * own
             e, p = vector_at(surface, one + 3), surface[one + 6]
             square = square_of_lines(minus(start, vector_at(surface, one)), e, p, f, q)
             if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
                 put(out, 1 + 3 * n, (kind, float(own), number))
                 n += 1
-        node += 1
-    return n
-
-
-@compiled
-def edges_near(
-    a: Floats,
-    b: Floats,
-    surface_a: Floats,
-    surface_b: Floats,
-    reach: float,
-    turn: float,
-    kind: float,
-    out: Floats,
-    n: int,
-    most: int,
-) -> int:
-    """Append the pairs of near edges of both bodies to the ``n`` candidates; return the new number of candidates.
-
-    The arguments are those of :func:`bodies.contacts.surface.surface_near.corners_near`.
-    """
-    first, members, node = int(surface_b[N_TRIANGLES]), int(surface_b[MEMBERS]), 0
-    while node < int(surface_b[N_NODES]) and n <= most:
-        at = int(surface_b[NODES]) + NODE * node
-        if not is_node_near(a, b, surface_a, surface_b, at, reach):
-            node = int(surface_b[at + 6])
-            continue
-        for i in range(int(surface_b[at + 8])):
-            j = int(surface_b[members + int(surface_b[at + 7]) + i]) - first
-            if 0 <= j < int(surface_b[N_EDGES]):
-                two = int(surface_b[EDGES]) + EDGE * j
-                n = edges_across(a, b, surface_a, surface_b, two, float(j), reach, turn, kind, out, n, most)
         node += 1
     return n

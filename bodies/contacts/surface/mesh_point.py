@@ -18,8 +18,8 @@ from ...shapes.triangle_mesh import TriangleMesh
 from ...vectors import Vector3, minus, put, times, vector_at
 from ..features.frames import point_in_world, vector_in_world, write_tangent
 from ..features.writing import gap_at_distance, write_flat, write_round
-from .surface_search import FAR
-from .surface_tables import FACE, FACES, Numbers, surface_numbers
+from .surface_search import FAR, face_at
+from .surface_tables import Numbers, surface_numbers
 from .surface_vertex import face_under
 
 Corner = tuple[tuple[float, float, float], Numbers, str]
@@ -61,7 +61,7 @@ def write_over(
     if radius > 0.0:
         gap = gap_at_distance(gap, past, radius)
     sign = 1.0 - 2.0 * swap
-    normal = vector_in_world(other, times(sign, vector_at(surface, int(surface[FACES]) + FACE * face)))
+    normal = vector_in_world(other, times(sign, vector_at(surface, face_at(surface, face))))
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
     put(out, NORMAL, normal)
     put(out, near, minus(point_in_world(own, place), times(sign * radius, normal)))

@@ -15,8 +15,8 @@ from ...vectors import Vector3, minus, over, put, vector_at
 from ..features.frames import point_in_body, point_in_world, vector_in_world
 from ..features.swept_vertex import END, NEAR, past_star
 from ..features.writing import place_sphere, write_flat, write_principal, write_round
-from .surface_search import ON_EDGE, ON_FACE, Found, nearest_in_patch
-from .surface_tables import EDGE, EDGES, FACE, FACES, N_EDGES, N_FACES, N_PATCHES
+from .surface_search import ON_EDGE, ON_FACE, Found, edge_at, face_at, nearest_in_patch
+from .surface_tables import N_EDGES, N_FACES, N_PATCHES
 
 
 @compiled
@@ -27,11 +27,10 @@ def out_of_surface(frame: Floats, surface: Floats, found: Found, past: float, x:
     of :func:`nearest_in_patch`, and ``past`` the distance past the end of the feature [m].
     """
     distance, _, kind, number, px, py, pz = found
-    n = vector_at(surface, int(surface[FACES]) + FACE * number)
+    n = vector_at(surface, face_at(surface, number))
     if not (kind == ON_FACE and (past <= 0.0 or distance == 0.0)):
         n = over(minus((x, y, z), (px, py, pz)), distance)
-    normal: Vector3 = vector_in_world(frame, n)
-    return normal
+    return vector_in_world(frame, n)
 
 
 @compiled
@@ -44,8 +43,8 @@ def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: 
     if kind == ON_FACE:
         write_flat(out, side)
     elif kind == ON_EDGE:
-        e = int(surface[EDGES]) + EDGE * number
-        write_principal(out, side, *vector_in_world(frame, vector_at(surface, e + 3)), 0.0, 1.0, 1.0, 0.0)
+        along = vector_in_world(frame, vector_at(surface, edge_at(surface, number) + 3))
+        write_principal(out, side, *along, 0.0, 1.0, 1.0, 0.0)
         out[FEATURE] += surface[N_FACES]
     else:
         write_round(out, side, 0.0)

@@ -1,6 +1,8 @@
-"""Search, by trees of boxes, for patches of a surface near a point, and for corners of another surface near them."""
+"""Search, by trees of boxes, for patches of a surface near a point or a vertex."""
 
 from __future__ import annotations
+
+from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -8,23 +10,8 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, ahead, dot, minus, put, size_of, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world
-from .surface_search import box_square, corner_at, in_triangle
-from .surface_tables import (
-    CORNER,
-    CORNERS,
-    EDGE,
-    EDGES,
-    FACE,
-    FACES,
-    MEMBERS,
-    N_EDGES,
-    N_NODES,
-    N_TRIANGLES,
-    NODE,
-    NODES,
-    TRIANGLE,
-    TRIANGLES,
-)
+from .surface_search import ON_FACE, box_square, face_at, feature_of, in_triangle, member_of, node_at, patch_of
+from .surface_tables import N_NODES
 from .surface_vertex import leaning
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
@@ -33,6 +20,9 @@ OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
 In this order: corner of the second body over a patch of the first, corner of the first body over a patch of the second,
 two edges.  The numbers of patch and corner, or of the edges of the first and the second body, follow.
 """
+Near: TypeAlias = tuple[float, float, int]
+"""Largest distance of near features [m], largest rotation of the bodies until the next search [rad], and largest number
+of candidates."""
 FEW = 64
 """Largest number of candidates of a search whose margin (its reach) exceeds ``narrow``; see :func:`room_ahead`.
 
@@ -54,8 +44,7 @@ def room_ahead(reach: float, narrow: float, most: int) -> int:
 @compiled
 def seen_from(frame: Floats, other: Floats, point: Vector3) -> Vector3:
     """Return a point of the body ``other`` in the axes of the body ``frame`` [m]."""
-    seen: Vector3 = point_in_body(frame, point_in_world(other, point))
-    return seen
+    return point_in_body(frame, point_in_world(other, point))
 
 
 @compiled
@@ -63,7 +52,7 @@ def _is_near(surface: Floats, point: Vector3, reach: float) -> bool:
     """Return True if the box of any leaf of the surface's tree is within ``reach`` [m] of a point."""
     node = 0
     while node < int(surface[N_NODES]):
-        at = int(surface[NODES]) + NODE * node
+        at = node_at(surface, node)
         if box_square(surface, at, *point) > reach * reach:
             node = int(surface[at + 6])
         elif surface[at + 8] > 0.0:
@@ -71,18 +60,6 @@ def _is_near(surface: Floats, point: Vector3, reach: float) -> bool:
         else:
             node += 1
     return False
-
-
-@compiled
-def _patch_of(surface: Floats, member: int) -> float:
-    """Return the patch of a feature by its number in the tree: triangles, then convex edges, then corners."""
-    n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
-    if member < n_triangles:
-        t = int(surface[TRIANGLES]) + TRIANGLE * member
-        return float(surface[int(surface[FACES]) + FACE * int(surface[t + 9]) + 4])
-    if member < n_triangles + n_edges:
-        return float(surface[int(surface[EDGES]) + EDGE * (member - n_triangles) + 13])
-    return float(surface[int(surface[CORNERS]) + CORNER * (member - n_triangles - n_edges) + 3])
 
 
 @compiled
@@ -123,19 +100,20 @@ def patches_near(
         The point in the axes of the surface, and the largest distance from it [m].
     kind, third : float
         The first and the third number of the candidates that are appended.
-    out, n, most : Floats, int
-        As in :func:`corners_near`.
+    out : Floats
+        Three numbers of each candidate, from index 1 on.
+    n, most : int
+        Number of candidates so far, and the number after which the search stops.
     """
-    members, first, node = int(surface[MEMBERS]), n, 0
+    first, node = n, 0
     while node < int(surface[N_NODES]) and n <= most:
-        at = int(surface[NODES]) + NODE * node
+        at = node_at(surface, node)
         if box_square(surface, at, x, y, z) > reach * reach:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
             if n <= most:
-                patch = _patch_of(surface, int(surface[members + int(surface[at + 7]) + i]))
-                n = _add_patch(patch, kind, third, first, out, n)
+                n = _add_patch(patch_of(surface, member_of(surface, at, i)), kind, third, first, out, n)
         node += 1
     return n
 
@@ -172,76 +150,23 @@ def patches_under(
     Return the number of candidates after that.  A face may be touched if it is within ``reach`` [m] of the vertex, and
     if a rotation by ``turn`` [rad] can turn all edges of the vertex out of the face (within ``ASTRAY``).  ``place`` is
     the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other arguments are those
-    of :func:`corners_near` and :func:`patches_near`.
+    of :func:`patches_near`.
     """
     point = seen_from(frame, other, place)
-    members, first, node = int(surface[MEMBERS]), n, 0
+    first, node = n, 0
     while node < int(surface[N_NODES]) and n <= most:
-        at = int(surface[NODES]) + NODE * node
+        at = node_at(surface, node)
         if box_square(surface, at, *point) > reach * reach:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
-            if member >= int(surface[N_TRIANGLES]) or n > most:
+            what, face, t = feature_of(surface, member_of(surface, at, i))
+            if what != ON_FACE or n > most:
                 continue
-            t = int(surface[TRIANGLES]) + TRIANGLE * member
-            f = int(surface[FACES]) + FACE * int(surface[t + 9])
+            f = face_at(surface, face)
             px, py, pz, _ = in_triangle(surface, t, *point)
             apart = minus(point, (px, py, pz))
             if dot(apart, apart) <= reach * reach and leaning(frame, other, surface, f, n_star, star) <= ASTRAY + turn:
                 n = _add_patch(surface[f + 4], kind, third, first, out, n)
-        node += 1
-    return n
-
-
-@compiled
-def corners_near(
-    frame: Floats,
-    other: Floats,
-    surface: Floats,
-    corners: Floats,
-    reach: float,
-    turn: float,
-    kind: float,
-    out: Floats,
-    n: int,
-    most: int,
-) -> int:
-    """Append candidates: pairs of a corner of the other body and a near patch of the surface in ``frame``.
-
-    Return the number of candidates after that.
-
-    Parameters
-    ----------
-    frame, other : Floats
-        Frame blocks.
-    surface, corners : Floats
-        Numbers of the surface in ``frame`` and of the surface of the other body.
-    reach : float
-        Largest distance of corner and patch [m].
-    turn : float
-        Largest relative rotation of the bodies until the next search [rad].
-    kind : float
-        The first number of these candidates.
-    out : Floats
-        Three numbers of each candidate, from index 1 on.
-    n, most : int
-        Number of candidates so far, and the number after which the search stops.
-    """
-    first = int(corners[N_TRIANGLES]) + int(corners[N_EDGES])
-    members, node = int(corners[MEMBERS]), 0
-    while node < int(corners[N_NODES]) and n <= most:
-        at = int(corners[NODES]) + NODE * node
-        if not is_node_near(frame, other, surface, corners, at, reach):
-            node = int(corners[at + 6])
-            continue
-        for i in range(int(corners[at + 8])):
-            corner = int(corners[members + int(corners[at + 7]) + i]) - first
-            if corner < 0:
-                continue
-            n = patches_under(
-                frame, other, surface, *corner_at(corners, corner), reach, turn, kind, float(corner), out, n, most
-            )
         node += 1
     return n

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from nonsmooth.compiled import compiled
 from nonsmooth.interfaces import CandidateSearch, FeaturePair
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -17,12 +18,12 @@ from ...meshes.patches import patches_for_ball
 from ...shapes.polytope import Polytope
 from ..features.bounds import edges_bound
 from ..features.writing import NO_CANDIDATE, write_apart
-from .edges_near import edges_near
+from .edges_near import edges_across
 from .mesh_point import write_over
 from .surface_edges import write_edges
-from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, corners_near
-from .surface_search import FAR, corner_at, edge_at
-from .surface_tables import surface_numbers
+from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, Near, is_node_near, patches_under
+from .surface_search import FAR, ON_CORNER, ON_EDGE, corner_at, edge_at, feature_of, member_of, node_at
+from .surface_tables import N_NODES, surface_numbers
 
 MOST_NEAR = 256
 """Largest number of pairs of features of two bodies that may be near each other at a time."""
@@ -34,6 +35,33 @@ DEPARTURES = MappingProxyType(
 )
 
 
+@compiled
+def _features_near(
+    frame: Floats, other: Floats, surface: Floats, parts: Floats, near: Near, kind: float, out: Floats, n: int
+) -> int:
+    """Append pairs of a feature of the other body and a near one of the surface in ``frame``; return their new number.
+
+    The features are two edges, or a corner and a patch, by the ``kind`` of the candidates.  ``parts`` are the numbers
+    of the surface of the other body.  ``out`` holds ``n`` candidates.
+    """
+    (reach, turn, most), node = near, 0
+    while node < int(parts[N_NODES]) and n <= most:
+        at = node_at(parts, node)
+        if not is_node_near(frame, other, surface, parts, at, reach):
+            node = int(parts[at + 6])
+            continue
+        for i in range(int(parts[at + 8])):
+            what, number, row = feature_of(parts, member_of(parts, at, i))
+            third = float(number)
+            if what == ON_EDGE and kind == EDGE_ACROSS:
+                n = edges_across(frame, other, surface, parts, row, third, near, kind, out, n)
+            elif what == ON_CORNER and kind != EDGE_ACROSS:
+                corner = corner_at(parts, number)
+                n = patches_under(frame, other, surface, *corner, reach, turn, kind, third, out, n, most)
+        node += 1
+    return n
+
+
 def find_near_features(
     a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Floats, most: float, turning: float
 ) -> None:
@@ -42,12 +70,10 @@ def find_near_features(
     On entry ``out[0]`` is the largest distance of a pair [m], on return the number of candidates.  The largest relative
     rotation of the bodies until the next search is ``turning`` [rad/m] times this distance.
     """
-    reach, limit, n = out[0], int(most), 0
-    turn = turning * reach
-    n = corners_near(a, b, surface_a, surface_b, reach, turn, OVER_FIRST, out, n, limit)
-    n = corners_near(b, a, surface_b, surface_a, reach, turn, OVER_SECOND, out, n, limit)
-    n = edges_near(a, b, surface_a, surface_b, reach, turn, EDGE_ACROSS, out, n, limit)
-    out[0] = float(n)
+    near = out[0], turning * out[0], int(most)
+    n = _features_near(a, b, surface_a, surface_b, near, OVER_FIRST, out, 0)
+    n = _features_near(b, a, surface_b, surface_a, near, OVER_SECOND, out, n)
+    out[0] = float(_features_near(a, b, surface_a, surface_b, near, EDGE_ACROSS, out, n))
 
 
 def evaluate_surface_features(

@@ -41,6 +41,57 @@ Found: TypeAlias = tuple[float, float, int, int, float, float, float]
 
 
 @compiled
+def node_at(surface: Floats, node: int) -> int:
+    """Return the index at which the row of a node of the tree begins."""
+    return int(surface[NODES]) + NODE * node
+
+
+@compiled
+def member_of(surface: Floats, at: int, i: int) -> int:
+    """Return the number of member ``i`` of the leaf at index ``at``: a triangle, else a convex edge, else a corner."""
+    return int(surface[int(surface[MEMBERS]) + int(surface[at + 7]) + i])
+
+
+@compiled
+def face_at(surface: Floats, face: int) -> int:
+    """Return the index at which the row of a face begins."""
+    return int(surface[FACES]) + FACE * face
+
+
+@compiled
+def edge_at(surface: Floats, edge: int) -> int:
+    """Return the index at which the row of a convex edge begins."""
+    return int(surface[EDGES]) + EDGE * edge
+
+
+@compiled
+def feature_of(surface: Floats, member: int) -> tuple[int, int, int]:
+    """Return kind and number of the feature of a member, and the index of its row, on a face that of the triangle."""
+    edge = member - int(surface[N_TRIANGLES])
+    if edge < 0:
+        t = int(surface[TRIANGLES]) + TRIANGLE * member
+        return ON_FACE, int(surface[t + 9]), t
+    corner = edge - int(surface[N_EDGES])
+    if corner < 0:
+        return ON_EDGE, edge, edge_at(surface, edge)
+    return ON_CORNER, corner, int(surface[CORNERS]) + CORNER * corner
+
+
+@compiled
+def patch_of(surface: Floats, member: int) -> float:
+    """Return the number of the patch to which a member belongs."""
+    kind, number, at = feature_of(surface, member)
+    return float(surface[face_at(surface, number) + 4 if kind == ON_FACE else at + 13 if kind == ON_EDGE else at + 3])
+
+
+@compiled
+def corner_at(surface: Floats, corner: int) -> tuple[Vector3, float, Floats]:
+    """Return the place of a corner [m], the number of its edges, and the unit vectors along them."""
+    c = int(surface[CORNERS]) + CORNER * corner
+    return vector_at(surface, c), surface[c + 5], block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
+
+
+@compiled
 def box_square(surface: Floats, at: int, x: float, y: float, z: float) -> float:
     """Return the square of the distance of a point from the box of the node at index ``at`` [m^2]."""
     dx = max(max(surface[at] - x, x - surface[at + 3]), 0.0)
@@ -117,11 +168,11 @@ def first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> i
     The leaf may hold features of ``patch`` (of any patch if it is negative).  The leaf's box is near the point
     (x, y, z), so that the distance found there excludes most other leaves.
     """
-    nodes, node = int(surface[NODES]), 0
-    while surface[nodes + NODE * node + 8] == 0.0:
+    node = 0
+    while surface[node_at(surface, node) + 8] == 0.0:
         left = node + 1
-        right = int(surface[nodes + NODE * left + 6])
-        one, two = nodes + NODE * left, nodes + NODE * right
+        right = int(surface[node_at(surface, left) + 6])
+        one, two = node_at(surface, left), node_at(surface, right)
         nearer = box_square(surface, one, x, y, z) <= box_square(surface, two, x, y, z)
         node = left if has_patch(surface, one, patch) and (nearer or not has_patch(surface, two, patch)) else right
     return node
@@ -135,27 +186,25 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
     J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE Transactions
     on Visualization and Computer Graphics 11 (2005) 243-253.
     """
-    nodes, members, triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[TRIANGLES])
-    if box_square(surface, nodes, x, y, z) > 0.0:
+    if box_square(surface, node_at(surface, 0), x, y, z) > 0.0:
         return 0.0
     least, side = math.inf, 0.0
     first = first_leaf(surface, -1.0, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):
-        at = nodes + NODE * (first if node < 0 else node)
+        at = node_at(surface, first if node < 0 else node)
         if node >= 0 and box_square(surface, at, x, y, z) > least:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
-            if member < int(surface[N_TRIANGLES]):
-                t = triangles + TRIANGLE * member
+            what, face, t = feature_of(surface, member_of(surface, at, i))
+            if what == ON_FACE:
                 qx, qy, qz, region = in_triangle(surface, t, x, y, z)
                 apart = minus((x, y, z), (qx, qy, qz))
                 square = dot(apart, apart)
                 if square < least:
                     least = square
-                    n = t + 22 + 3 * region if region > 0 else int(surface[FACES]) + FACE * int(surface[t + 9])
+                    n = t + 22 + 3 * region if region > 0 else face_at(surface, face)
                     side = dot(apart, vector_at(surface, n))
         node += 1
     return float(least**0.5) if side < 0.0 else 0.0
@@ -188,19 +237,6 @@ def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> floa
 
 
 @compiled
-def edge_at(surface: Floats, edge: int) -> int:
-    """Return the index at which the row of a convex edge begins."""
-    return int(surface[EDGES]) + EDGE * edge
-
-
-@compiled
-def corner_at(surface: Floats, corner: int) -> tuple[Vector3, float, Floats]:
-    """Return the place of a corner [m], the number of its edges, and the unit vectors along them."""
-    c = int(surface[CORNERS]) + CORNER * corner
-    return vector_at(surface, c), surface[c + 5], block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
-
-
-@compiled
 def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float, reach: float) -> Found:
     """Return the nearest feature of a patch that a ball about the point (x, y, z) may touch.
 
@@ -210,8 +246,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     edge and its corner, the ball may touch both; the face is preferred to the edge, the edge to the corner.  If no
     feature is nearer than ``reach`` [m], distance and distance past the end are ``reach``.
     """
-    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
-    margin, n_edges = REACH * surface[SIZE], int(surface[N_EDGES])
+    margin = REACH * surface[SIZE]
     same = 4.0 * margin * margin
     best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
     point, nearest = (x, y, z), (x, y, z - reach)
@@ -219,42 +254,32 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     first = first_leaf(surface, patch, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):
-        at = nodes + NODE * (first if node < 0 else node)
+        at = node_at(surface, first if node < 0 else node)
         if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, x, y, z) > best + same):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
-            what = ON_FACE
-            if member < n_triangles:
-                t = int(surface[TRIANGLES]) + TRIANGLE * member
-                which = int(surface[t + 9])
-                f = int(surface[FACES]) + FACE * which
+            member = member_of(surface, at, i)
+            what, which, row = feature_of(surface, member)
+            if patch_of(surface, member) != patch:
+                continue
+            if what == ON_FACE:
+                f = face_at(surface, which)
                 height = face_height(surface, f, x, y, z)
-                if surface[f + 4] != patch or height * height > best + same:
+                if height * height > best + same:
                     continue
-                over, ends = over_ends(surface, t, point)
+                over, ends = over_ends(surface, row, point)
                 if over <= margin and height < 0.0 and -height < under:
                     under, under_past, under_face = -height, ends - margin, which
                 if over <= margin and height >= 0.0:
-                    p = minus(point, times(height, vector_at(surface, f)))
-                    beyond = max(ends, -surface[SIZE])
+                    beyond, p = max(ends, -surface[SIZE]), minus(point, times(height, vector_at(surface, f)))
                 else:
-                    px, py, pz, _ = in_triangle(surface, t, x, y, z)
-                    p = px, py, pz
-                    beyond = max(over, -height + 2.0 * margin)
-            elif member < n_triangles + n_edges:
-                what, which = ON_EDGE, member - n_triangles
-                e = int(surface[EDGES]) + EDGE * which
-                if surface[e + 13] != patch:
-                    continue
-                beyond, p = past_edge(surface, e, point)
+                    px, py, pz, _ = in_triangle(surface, row, x, y, z)
+                    beyond, p = max(over, -height + 2.0 * margin), (px, py, pz)
+            elif what == ON_EDGE:
+                beyond, p = past_edge(surface, row, point)
             else:
-                what, which = ON_CORNER, member - n_triangles - n_edges
-                c = int(surface[CORNERS]) + CORNER * which
-                if surface[c + 3] != patch:
-                    continue
-                beyond, p = past_corner(surface, c, point), vector_at(surface, c)
+                beyond, p = past_corner(surface, row, point), vector_at(surface, row)
             beyond -= margin
             apart = minus(point, p)
             square = dot(apart, apart)
@@ -264,6 +289,6 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
                 best, distance, past, kind, number, nearest = key, square**0.5, beyond, what, which, p
         node += 1
     if under_face >= 0 and under * under < best and depth_inside(surface, x, y, z) > 0.0:
-        normal = vector_at(surface, int(surface[FACES]) + FACE * under_face)
+        normal = vector_at(surface, face_at(surface, under_face))
         return -under, under_past, ON_FACE, under_face, *ahead(point, under, normal)
     return distance, past, kind, number, *nearest

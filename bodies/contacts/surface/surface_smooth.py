@@ -12,48 +12,37 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import PAST_END, SIDE_A
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import OF_FUNCTION, is_round, support_of
-from ...vectors import Vector3, dot, minus, opposite, over, plus, put, size_of, times, vector_at
-from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
+from ...shapes.support_function import OF_FUNCTION, Core, is_round, support_of
+from ...vectors import Vector3, dot, minus, opposite, over, plus, size_of, times, vector_at
+from ..features.frames import point_in_body, point_in_world
 from ..features.vertex_face import REACH
 from ..smooth.boxy_line import across_line
-from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
-from ..smooth.smooth_newton import widest_from, write_surface
+from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, facing_point
+from ..smooth.smooth_newton import widest_from, write_smooth
 from .surface_ball import write_feature
 from .surface_search import (
     ON_CORNER,
     ON_EDGE,
     ON_FACE,
     box_square,
+    edge_at,
+    face_at,
     face_height,
+    feature_of,
     has_patch,
     in_triangle,
+    member_of,
     nearest_in_patch,
+    node_at,
     over_ends,
     past_edge,
+    patch_of,
     steepest,
 )
-from .surface_tables import (
-    CORNER,
-    CORNERS,
-    EDGE,
-    EDGES,
-    FACE,
-    FACES,
-    MEMBERS,
-    N_EDGES,
-    N_NODES,
-    N_PATCHES,
-    N_TRIANGLES,
-    NODE,
-    NODES,
-    SIZE,
-    TRIANGLE,
-    TRIANGLES,
-)
+from .surface_tables import N_EDGES, N_NODES, N_PATCHES, N_TRIANGLES, SIZE
 
 _SAME = 1e-15
 """Difference of two distances that is round-off, relative to the size of the bodies."""
@@ -67,7 +56,7 @@ The distance of the core is nan if the search failed.
 
 
 @compiled
-def _extent(core: Floats) -> float:
+def _extent(core: Core) -> float:
     """Return an upper bound of the distance of the body's farthest point from its centre [m].
 
     For round cores it is the largest semi-axis plus the radius.  For other cores, and for cores given by a function, it
@@ -79,14 +68,7 @@ def _extent(core: Floats) -> float:
 
 
 @compiled
-def _point_against(core: Floats, turn: Axes, center: Vector3, normal: Vector3) -> Vector3:
-    """Return the core's farthest point in the direction opposite to a normal [m], in the axes of the surface."""
-    farthest: Vector3 = plus(center, forth(turn, support_of(core, back(turn, opposite(normal)))[1]))
-    return farthest
-
-
-@compiled
-def _least(core: Floats, turn: Axes, way: Vector3) -> float:
+def _least(core: Core, turn: Axes, way: Vector3) -> float:
     """Return a lower bound of the smooth body's distance from a convex feature [m].
 
     The vector ``way`` leads from the feature's nearest point to the centre of the body.
@@ -98,16 +80,15 @@ def _least(core: Floats, turn: Axes, way: Vector3) -> float:
 
 
 @compiled
-def _on_face(surface: Floats, member: int, core: Floats, turn: Axes, center: Vector3) -> Reached:
+def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -> Reached:
     """Return how the core reaches the plane of a triangle.
 
     The distance past the end is positive if the core's nearest point to the plane is past the border of the triangle's
     face, or if the centre of the body is below the plane.
     """
-    t = int(surface[TRIANGLES]) + TRIANGLE * member
-    f = int(surface[FACES]) + FACE * int(surface[t + 9])
+    f = face_at(surface, int(surface[t + 9]))
     n = vector_at(surface, f)
-    p = _point_against(core, turn, center, n)
+    p = facing_point(core, turn, center, n)[0]
     height = dot(n, p) - surface[f + 3]
     beyond, past = over_ends(surface, t, p)
     if beyond > REACH * surface[SIZE]:
@@ -120,7 +101,7 @@ def _on_face(surface: Floats, member: int, core: Floats, turn: Axes, center: Vec
 
 
 @compiled
-def _on_edge(surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, center: Vector3, size: float) -> Reached:
+def _on_edge(surface: Floats, e: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float) -> Reached:
     """Return how the core reaches the line of an edge.
 
     The distance past the end is positive if the nearest point is past an end of the edge, or if the normal, from the
@@ -128,7 +109,7 @@ def _on_edge(surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, c
     """
     w, along = minus(center, vector_at(surface, e)), vector_at(surface, e + 3)
     g, _, n = widest_from(point, core, turn, w, along, w)
-    s = dot(_point_against(core, turn, w, n), along)
+    s = dot(facing_point(core, turn, w, n)[0], along)
     past = max(-s, s - surface[e + 6])
     past = max(past, size * dot(n, vector_at(surface, e + 7)))
     past = max(past, size * dot(n, vector_at(surface, e + 10)))
@@ -136,9 +117,7 @@ def _on_edge(surface: Floats, e: int, core: Floats, point: Floats, turn: Axes, c
 
 
 @compiled
-def _on_corner(
-    surface: Floats, c: int, core: Floats, point: Floats, turn: Axes, center: Vector3, size: float
-) -> Reached:
+def _on_corner(surface: Floats, c: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float) -> Reached:
     """Return how the core reaches a corner.
 
     The distance past the end is positive if an edge of the corner is nearer to the core than the corner itself.
@@ -175,8 +154,8 @@ def _look_at(
     surface: Floats,
     patch: float,
     member: int,
-    core: Floats,
-    point: Floats,
+    core: Core,
+    point: Core,
     turn: Axes,
     center: Vector3,
     best: float,
@@ -189,52 +168,48 @@ def _look_at(
     ``member`` is the number of the feature in the tree: triangles, then convex edges, then corners.  ``aim`` is the
     body's supporting plane for the nearest feature so far.
     """
-    n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
-    size, excluded = _extent(core), (0.0, 0.0, 1.0)
-    if member < n_triangles:
-        t = int(surface[TRIANGLES]) + TRIANGLE * member
-        f = int(surface[FACES]) + FACE * int(surface[t + 9])
-        least = face_height(surface, f, *center) - size
-        if surface[f + 4] != patch or least > best:
-            return math.inf, 0.0, excluded, least
-        if min(_above(surface, t, aim), min(_above(surface, t + 3, aim), _above(surface, t + 6, aim))) > best:
-            return math.inf, 0.0, excluded, least
-        g, past, n = _on_face(surface, member, core, turn, center)
-    elif member < n_triangles + n_edges:
-        e = int(surface[EDGES]) + EDGE * (member - n_triangles)
-        least = _above(surface, e, aim) - max(surface[e + 6] * dot(aim[0], vector_at(surface, e + 3)), 0.0)
-        if surface[e + 13] != patch or least > best:
-            return math.inf, 0.0, excluded, least
-        least = _least(core, turn, minus(center, past_edge(surface, e, center)[1]))
+    kind, number, at = feature_of(surface, member)
+    size, excluded = _extent(core), (math.inf, 0.0, (0.0, 0.0, 1.0), -math.inf)
+    if patch_of(surface, member) != patch:
+        return excluded
+    if kind == ON_FACE:
+        least = face_height(surface, face_at(surface, number), *center) - size
+        lowest = min(_above(surface, at, aim), min(_above(surface, at + 3, aim), _above(surface, at + 6, aim)))
+        if least > best or lowest > best:
+            return excluded
+        g, past, n = _on_face(surface, at, core, turn, center)
+    elif kind == ON_EDGE:
+        least = _above(surface, at, aim) - max(surface[at + 6] * dot(aim[0], vector_at(surface, at + 3)), 0.0)
         if least > best:
-            return math.inf, 0.0, excluded, least
-        g, past, n = _on_edge(surface, e, core, point, turn, center, size)
+            return excluded
+        least = _least(core, turn, minus(center, past_edge(surface, at, center)[1]))
+        if least > best:
+            return excluded
+        g, past, n = _on_edge(surface, at, core, point, turn, center, size)
     else:
-        c = int(surface[CORNERS]) + CORNER * (member - n_triangles - n_edges)
-        least = _above(surface, c, aim)
-        if surface[c + 3] != patch or least > best:
-            return math.inf, 0.0, excluded, least
-        least = _least(core, turn, minus(center, vector_at(surface, c)))
+        if _above(surface, at, aim) > best:
+            return excluded
+        least = _least(core, turn, minus(center, vector_at(surface, at)))
         if least > best:
-            return math.inf, 0.0, excluded, least
-        g, past, n = _on_corner(surface, c, core, point, turn, center, size)
+            return excluded
+        g, past, n = _on_corner(surface, at, core, point, turn, center, size)
     return g, past - REACH * surface[SIZE], n, least
 
 
 @compiled
-def _aim(surface: Floats, core: Floats, turn: Axes, center: Vector3, normal: Vector3) -> Aim:
+def _aim(surface: Floats, core: Core, turn: Axes, center: Vector3, normal: Vector3) -> Aim:
     """Return the smooth body's supporting plane across the unit vector ``normal``.
 
     The plane is raised by round-off: features in one plane then get the same bound, and none of them is excluded.
     """
-    p = _point_against(core, turn, center, normal)
+    p = facing_point(core, turn, center, normal)[0]
     none = _SAME * (abs(p[0]) + abs(p[1]) + abs(p[2]) + surface[SIZE])
     return normal, dot(normal, p) - core[RADIUS] + none
 
 
 @compiled
 def _nearest(
-    surface: Floats, patch: float, core: Floats, point: Floats, turn: Axes, center: Vector3, reach: float
+    surface: Floats, patch: float, core: Core, point: Core, turn: Axes, center: Vector3, reach: float
 ) -> tuple[float, float, int, int, Vector3]:
     """Return distance of the core [m], distance past the end [m], kind and number of a patch's feature, and normal.
 
@@ -243,8 +218,7 @@ def _nearest(
     feature is nearer than ``reach`` [m], gap and distance past the end are ``reach``.  The distance is nan if the
     search failed for a feature that may be nearer.
     """
-    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
-    size = _extent(core)
+    n_triangles, size = int(surface[N_TRIANGLES]), _extent(core)
     same = _SAME * (size + surface[SIZE])
     best, missed, found = reach, math.inf, 0
     distance, past, normal = reach + core[RADIUS], reach, (0.0, 0.0, 1.0)
@@ -263,13 +237,13 @@ def _nearest(
     for stage in range(2):
         node = 0
         while node < int(surface[N_NODES]):
-            at = nodes + NODE * node
+            at = node_at(surface, node)
             far = math.sqrt(box_square(surface, at, *center)) - size > best or _above_box(surface, at, aim) > best
             if far or not has_patch(surface, at, patch):
                 node = int(surface[at + 6])
                 continue
             for i in range(int(surface[at + 8])):
-                member = int(surface[members + int(surface[at + 7]) + i])
+                member = member_of(surface, at, i)
                 if (member < n_triangles) != (stage == 0):
                     continue
                 g, beyond, n, least = _look_at(surface, patch, member, core, point, turn, center, best, aim)
@@ -286,12 +260,8 @@ def _nearest(
             node += 1
     if not missed >= best:
         distance = math.nan
-    if found < n_triangles:
-        return distance, past, ON_FACE, int(surface[int(surface[TRIANGLES]) + TRIANGLE * found + 9]), normal
-    found -= n_triangles
-    if found < int(surface[N_EDGES]):
-        return distance, past, ON_EDGE, found, normal
-    return distance, past, ON_CORNER, found - int(surface[N_EDGES]), normal
+    kind, number, _ = feature_of(surface, found)
+    return distance, past, kind, number, normal
 
 
 @compiled
@@ -309,18 +279,13 @@ def write_surface_smooth(
     gap = g - second[RADIUS]
     if past > 0.0:
         gap = math.hypot(gap, past)
-    p = _point_against(second, turn, center, n)
+    p = facing_point(second, turn, center, n)[0]
     if kind == ON_EDGE and not is_round(second):
-        e = int(surface[EDGES]) + EDGE * number
+        e = edge_at(surface, number)
         start, along = vector_at(surface, e), vector_at(surface, e + 3)
         _, p, _ = across_line(second, turn, minus(center, start), along, n, 1.0, 0.0, 0.0)
         p = plus(p, start)
     # if there is one patch only, it is the whole surface, which has no end
-    out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 else 0.0
-    normal = vector_in_world(a, n)
-    put(out, NORMAL, normal)
-    put(out, POINT_B, minus(point_in_world(a, p), times(second[RADIUS], normal)))
-    put(out, POINT_A, minus(vector_at(out, POINT_B), times(gap, normal)))
-    write_tangent(a, out)
-    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(p, center)))
+    out[PAST_END] = past if surface[N_PATCHES] > 1.0 else 0.0
+    write_smooth(a, out, gap, second, axes_b, turn, center, n, p)
     write_feature(a, out, SIDE_A, surface, kind, number)

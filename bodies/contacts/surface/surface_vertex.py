@@ -12,26 +12,20 @@ from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex_face import CLOSED, REACH
 from .surface_search import (
+    ON_FACE,
     box_square,
     depth_inside,
+    face_at,
     face_height,
+    feature_of,
     first_leaf,
     has_patch,
     in_triangle,
+    member_of,
+    node_at,
     over_ends,
 )
-from .surface_tables import (
-    FACE,
-    FACES,
-    MEMBERS,
-    N_NODES,
-    N_TRIANGLES,
-    NODE,
-    NODES,
-    SIZE,
-    TRIANGLE,
-    TRIANGLES,
-)
+from .surface_tables import N_NODES, SIZE
 
 
 @compiled
@@ -144,7 +138,6 @@ def face_under(
     gap and distance past the end are ``reach``.
     """
     x, y, z = point_in_body(frame, point_in_world(other, place))
-    nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     # a point by itself has no edges beside it
     margin = (CLOSED if n_star > 0.0 else REACH) * size
@@ -153,17 +146,15 @@ def face_under(
     first = first_leaf(surface, patch, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):
-        at = nodes + NODE * (first if node < 0 else node)
+        at = node_at(surface, first if node < 0 else node)
         if node >= 0 and (box_square(surface, at, x, y, z) > best or not has_patch(surface, at, patch)):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
-            if member >= n_triangles:
+            what, face, t = feature_of(surface, member_of(surface, at, i))
+            if what != ON_FACE:
                 continue
-            t = int(surface[TRIANGLES]) + TRIANGLE * member
-            face = int(surface[t + 9])
-            f = int(surface[FACES]) + FACE * face
+            f = face_at(surface, face)
             height = face_height(surface, f, x, y, z)
             if surface[f + 4] != patch or height * height > best:
                 continue
@@ -175,7 +166,4 @@ def face_under(
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
         node += 1
-    found_face: tuple[int, float, float] = touched_face(
-        surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z
-    )
-    return found_face
+    return touched_face(surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z)

@@ -40,7 +40,7 @@ from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.engine.memory.written import PACKED
 from nonsmooth.engine.native.entries import Fingerprint
 from nonsmooth.engine.native.forms import FORMS
-from nonsmooth.types import Floats, Integers
+from nonsmooth.types import Floats, Integers, ReadFloats
 
 PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")
 
@@ -71,7 +71,7 @@ call_alone: Callable[..., Any] = _calls.call_alone
 """``call_alone(name, memory, *numbers)``: the same for an entry point that calls no other one: only it is compiled."""
 at: Callable[[Floats, int], Floats] = _calls.at
 """``at(floats, offset)``: the floats from an offset on, for kernels and for the functions of plug-ins."""
-call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _calls.call_support
+call_support: Callable[[ReadFloats, int, float, float, float], tuple[float, float, float]] = _calls.call_support
 """``call_support(floats, place, x, y, z)``: farthest point in the direction (x, y, z) [m].
 
 ``floats[place]`` is the address of ``support(direction, parameters, point)``; its parameters follow.
@@ -85,7 +85,7 @@ forget_watch: Callable[[int], None] = _calls.forget_watch
 """``forget_watch(address)``: free the C function that :func:`watch_address` made. The address is then invalid."""
 jit: Callable[[Callable[..., Any]], Any] = _calls.jit
 """``jit(function)``: a plug-in's function, compiled on demand."""
-shared: Callable[[Callable[..., Any]], Any] = _calls.shared
+shared: Callable[[_Function], _Function] = _calls.shared
 """Decorator of a function that plug-in functions may call, in compiled code and in Python."""
 unshared: Callable[[Any], Any] = _calls.unshared
 """``unshared(value)``: the Python function behind the result of :func:`shared`; other values are unchanged."""
