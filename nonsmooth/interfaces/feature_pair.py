@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import final
 
 from nonsmooth.parameters import Value
@@ -59,8 +59,6 @@ class FeaturePair:
         ``bound(a, b, out, ...)`` has the arguments of the evaluator.  It writes to ``out[0]`` a distance [m]: the
         contact stays open while the largest displacements of a point of either body add up to less.  Among convex
         bodies a contact is left out until they have moved that far.
-    departures : mapping of str to str
-        Properties of the conformance kit (:mod:`nonsmooth.testing`) that the contact is known not to have, and why.
     """
 
     evaluator: Callable[..., None]
@@ -68,7 +66,6 @@ class FeaturePair:
     features: tuple[str, ...]
     candidates: CandidateSearch | None = None
     bound: Callable[..., None] | None = None
-    departures: Mapping[str, str] = field(default_factory=dict)
 
     def parameters(self) -> Mapping[str, Value]:
         """Return the parameters of the evaluator by name."""

@@ -83,7 +83,7 @@ def check_contact_kinematics(
         contact = made[number]
         _check_record(kinematics, contact)
         label = contact.features[0] if len(made) > 1 else ""
-        found += properties_of(Subject(contact, _rows, options, kinematics, label))
+        found += properties_of(Subject(contact, _rows, options, kinematics, label=label))
     return found
 
 
@@ -245,6 +245,9 @@ class _Placed:
         """
         self.rig.put(_poses(self.case), np.zeros(12))
         axes, before = rotation(turned(_UNIT, turn)), self.rig.geometry[part]
+        # past the end of its features a contact need not have a normal
+        if self.rig.geometry[blocks.PAST_END] > 0.0:
+            return ""
         moved = [(axes @ place + SHIFT, turned(q, turn)) for place, q in _poses(self.case)]
         self.rig.put(moved, np.zeros(12))
         after, expected = self.rig.geometry[part], axes @ before

@@ -6,7 +6,7 @@ import inspect
 import sys
 import unittest
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from types import TracebackType
 from typing import Any, NamedTuple, final
@@ -108,6 +108,8 @@ class Subject:
         Keyword arguments of ``rows``.
     owner : type
         The class in whose name messages are written.
+    departures : mapping of str to str
+        Properties that the component is known not to have, with reasons.
     label : str
         What is added to the name of the class, to tell several subjects of one class apart; may be empty.
     """
@@ -116,17 +118,18 @@ class Subject:
     rows: Callable[..., list[Row]]
     options: Mapping[str, Any]
     owner: type
+    departures: Mapping[str, str] = field(default_factory=dict)
     label: str = ""
 
     def __reduce__(self) -> Any:
         """Pickle the component without its properties: another process makes them again."""
-        return Subject, (self.component, self.rows, self.options, self.owner, self.label)
+        return Subject, (self.component, self.rows, self.options, self.owner, dict(self.departures), self.label)
 
     @cached_property
     def all(self) -> Mapping[str, Row]:
         """The properties by name."""
         rows = {row.name: row for row in self.rows(self.component, **self.options)}
-        if unknown := sorted(set(self.component.departures) - set(rows)):
+        if unknown := sorted(set(self.departures) - set(rows)):
             fault = Broken("there are no such properties", "departures", unknown)
             rows["departures"] = Row("departures", "They name properties", lambda: _raise(fault))
         return rows

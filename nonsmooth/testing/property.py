@@ -155,11 +155,10 @@ def properties(component: Any, rows: Callable[..., list[Row]], **options: Any) -
     MissingPackagesError
         The package hypothesis or cloudpickle is not installed.
     """
-    return properties_of(Subject(component, rows, options, type(component)))
+    return properties_of(Subject(component, rows, options, type(component), type(component).departures))
 
 
 def properties_of(subject: Subject) -> list[Property]:
     """Return the properties of a subject, as :func:`properties` does."""
     require_packages()
-    departures = subject.component.departures
-    return [Property(row.name, row.says, subject, departures.get(row.name, "")) for row in subject.all.values()]
+    return [Property(row.name, row.says, subject, subject.departures.get(row.name, "")) for row in subject.all.values()]

@@ -222,8 +222,8 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
         write_round(out, side, 0.0)
     else:
         # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
-        flank = 1.0 if part == FLANK else 0.0
-        write_principal(out, side, *cross(axis, outward), max(radial, FLATTEST), away, 1.0 - flank, flank)
+        flank, turn = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
+        write_principal(out, side, *cross(axis, outward), turn, away, 1.0 - flank, flank)
 
 
 @compiled

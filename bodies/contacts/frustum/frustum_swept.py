@@ -20,7 +20,6 @@ from ..features.polytope_tables import core_numbers, star_lengths, star_of
 from ..features.swept_vertex import ended_gap, past_star
 from ..features.writing import place_sphere
 from ..polyhedron.swept_swept import MOST_CONTACTS
-from ..surface.surface_pairs import DEPARTURES
 from .apex_swept import evaluate_apex_over_core
 from .flank_edge import evaluate_edge_across_side
 from .frustum import HIGH_CAP, LOW_CAP, RIM_NAMES, part_names, rims_and_tips, rims_of, seen_by, size_of_both
@@ -108,13 +107,11 @@ def _of_edges(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
     numbers, edges = seen_by(first, second.core), range(len(second.core.edges))
     values: dict[str, Value] = {"frustum": numbers, "radius": second.sweep, **_core_of(first, second)}
     for i in edges if numbers[SIDE] > 0.0 else ():
-        yield FeaturePair(
-            evaluate_edge_across_side, {**values, "edge": float(i)}, (f"side and edge {i}",), departures=DEPARTURES
-        )
+        yield FeaturePair(evaluate_edge_across_side, {**values, "edge": float(i)}, (f"side and edge {i}",))
     for i, rim, half in itertools.product(edges, rims_of(numbers), (1.0, -1.0)):
         of_rim = {**values, "edge": float(i), "rim": float(rim), "half": half}
         names = (f"{RIM_NAMES[rim]} and edge {i}",)
-        yield FeaturePair(evaluate_edge_across_rim, of_rim, names, departures=DEPARTURES)
+        yield FeaturePair(evaluate_edge_across_rim, of_rim, names)
 
 
 def _core_of(first: Frustum, second: SweptPolytope) -> dict[str, Value]:

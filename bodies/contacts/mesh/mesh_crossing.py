@@ -26,7 +26,6 @@ from ..frustum.frustum import RIM_NAMES, center_in_world, nearest_part, rims_of
 from ..frustum.frustum_writing import gap_past_end
 from ..frustum.rim_edge import write_edge_across_rim
 from ..smooth.smooth_core import Axes, axes_in_world
-from ..surface.surface_pairs import DEPARTURES
 from ..surface.surface_search import depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
@@ -106,12 +105,10 @@ def crossings_of(numbers: Numbers, second: Features, size: float) -> Iterator[Fe
     edges = [(i, edge_row(second, i)) for i in range(len(second.edges))]
     values: dict[str, Value] = {"frustum": numbers, "surface": surface, "size": size}
     for i, row in edges if numbers[SIDE] > 0.0 else ():
-        yield FeaturePair(
-            evaluate_mesh_edge_across_side, {**values, "edge": row}, (f"side and edge {i}",), departures=DEPARTURES
-        )
+        yield FeaturePair(evaluate_mesh_edge_across_side, {**values, "edge": row}, (f"side and edge {i}",))
     for i, row in edges:
         for rim in rims_of(numbers):
             for half in (1.0, -1.0):
                 of_rim = {**values, "edge": row, "rim": float(rim), "half": half}
                 names = (f"{RIM_NAMES[rim]} and edge {i}",)
-                yield FeaturePair(evaluate_mesh_edge_across_rim, of_rim, names, departures=DEPARTURES)
+                yield FeaturePair(evaluate_mesh_edge_across_rim, of_rim, names)

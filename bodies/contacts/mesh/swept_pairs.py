@@ -27,7 +27,7 @@ from ..surface.edges_near import edges_across
 from ..surface.surface_ball import write_ball
 from ..surface.surface_edges import write_edges
 from ..surface.surface_near import NARROW, Near, patches_near, room_ahead, seen_from
-from ..surface.surface_pairs import DEPARTURES, MOST_NEAR
+from ..surface.surface_pairs import MOST_NEAR
 from ..surface.surface_search import FAR, ON_CORNER, corner_at, edge_at, feature_of, member_of, node_at, steepest
 from ..surface.surface_tables import N_NODES, part_names, surface_numbers
 
@@ -144,7 +144,7 @@ def contacts_each(first: TriangleMesh, second: SweptPolytope) -> Iterator[Featur
     side = [f"edge {j}" for j in range(len(core.edges))] if core.planes else ["side"]
     for i, j in itertools.product(range(len(own.edges)), range(len(core.edges))):
         edges = (f"edge {i} and {side[j]}",)
-        yield FeaturePair(evaluate_swept_features, numbers(ACROSS, i, j), edges, None, bound, DEPARTURES)
+        yield FeaturePair(evaluate_swept_features, numbers(ACROSS, i, j), edges, None, bound)
     for j, i in itertools.product(range(len(core.vertices)), range(patches.count)):
         names = tuple(f"{part} and vertex {j}" for part in part_names(own))
         yield FeaturePair(evaluate_swept_features, numbers(BALL, i, j), names)

@@ -19,7 +19,7 @@ from ..features.edge_crossing import cross_edges, least_sine
 from ..features.polytope_tables import core_numbers, edge_at
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
-from ..surface.surface_pairs import DEPARTURES, contacts_near, features_of_core
+from ..surface.surface_pairs import contacts_near, features_of_core
 from .convex_cores import past_if_convex
 from .polyhedron_point import vertex_over_faces
 from .swept_swept import MOST_CONTACTS, SweptSwept
@@ -88,7 +88,7 @@ def _each_pair(first: Polyhedron, second: Polyhedron) -> Iterator[FeaturePair]:
     for i, j in itertools.product(range(len(one.edges)), range(len(two.edges))):
         numbers = {**values, "edge_a": float(i), "edge_b": float(j)}
         names = (f"edge {i} and edge {j}",)
-        yield FeaturePair(evaluate_convex_edges, numbers, names, None, bound_of_convex_edges, DEPARTURES)
+        yield FeaturePair(evaluate_convex_edges, numbers, names, None, bound_of_convex_edges)
     for i in range(len(two.vertices)):
         yield vertex_over_faces(0, cores[0], len(one.planes), cores[1], i, size)
     for i in range(len(one.vertices)):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from types import MappingProxyType
 
 import numpy as np
 
@@ -27,12 +26,6 @@ from .surface_tables import N_NODES, surface_numbers
 
 MOST_NEAR = 256
 """Largest number of pairs of features of two bodies that may be near each other at a time."""
-DEPARTURES = MappingProxyType(
-    dict.fromkeys(
-        ("gap rate", "second-order terms"),
-        "two given edges face each other in hardly any random pose; the tests make poses from edges that cross",
-    )
-)
 
 
 @compiled
@@ -124,7 +117,7 @@ def contacts_each(one: Features, two: Features) -> Iterator[FeaturePair]:
     for i, j in itertools.product(range(len(one.edges)), range(len(two.edges))):
         numbers = {**values, "candidate": (EDGE_ACROSS, float(i), float(j), FAR)}
         edges = (f"edge {i} and edge {j}",)
-        yield FeaturePair(evaluate_surface_features, numbers, edges, None, bound_of_surface_edges, DEPARTURES)
+        yield FeaturePair(evaluate_surface_features, numbers, edges, None, bound_of_surface_edges)
     for kind, own, other, count in ((OVER_FIRST, one, two, counts[0]), (OVER_SECOND, two, one, counts[1])):
         for j, i in itertools.product(range(len(other.corners)), range(count)):
             names = tuple(f"face {face} and vertex {j}" for face in range(len(own.planes)))

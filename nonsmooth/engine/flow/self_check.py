@@ -245,17 +245,19 @@ def close_energy_account(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def scale_energy(ws: Workspace) -> float:
-    """Kinetic energy if all velocities were as large as their scales ``y_scale`` [J]. The bodies must be evaluated.
+    """Kinetic energy if each velocity alone were as large as its scale ``y_scale``, summed [J].
 
-    An energy for comparison, in states of rest too.
+    An energy for comparison, in states of rest too. The bodies must be evaluated. The reciprocal of a diagonal entry of
+    M^-1 is the mass that moves with a velocity if all other velocities are free.
     """
     total = 0.0
     for body in ws.bodies:
         inverse = inverse_mass(ws, body)
         for i in range(body.n_u):
             # entries i (n_u + 1) are the diagonal
-            # TODO: an energy needs the reciprocals of the diagonal of the inverse mass matrix.
-            total += 0.5 * inverse[i * (body.n_u + 1)] * ws.step.y_scale[ws.model.n_q + body.u + i] ** 2
+            own = inverse[i * (body.n_u + 1)]
+            if own > 0.0:
+                total += 0.5 * ws.step.y_scale[ws.model.n_q + body.u + i] ** 2 / own
     return total
 
 
