@@ -26,7 +26,7 @@ from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
 from nonsmooth.runs.outcome import RunOutcome, cause_of, imbalance_span
-from nonsmooth.solution.checks import friction_gain
+from nonsmooth.solution.checks import closing_gain, friction_gain
 from nonsmooth.solution.end import Counters, End, RunStatus
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.recorded import Recorded
@@ -181,8 +181,8 @@ class FinalState(NamedTuple):
             self.engine,
             worst_event=(now[run.worst_energy_time], now[run.worst_energy], now[run.worst_energy_ratio]),
             jump=(now[run.jump_time], now[run.jumped_energy]),
-            # energy that friction brought in [J]; not counted if a law stores energy, which it may return
-            rubbed=0.0 if self._friction_stores_energy() else friction_gain(solution),
+            # energy that contacts brought in [J]; that of a law that stores energy is not counted, as it may return it
+            added=closing_gain(solution) + (0.0 if self._friction_stores_energy() else friction_gain(solution)),
             energy=end.state.energy,
             bodies=dict(zip(self.system.names.bodies, self.system.bodies, strict=True)),
             # times and coordinates

@@ -1,4 +1,4 @@
-"""Findings about a solution: contacts without an overlap check, impulses outside of cones, energy from friction.
+"""Findings about a solution: contacts without an overlap check, impulses outside of cones, energy from contacts.
 
 They need not mean that a run is wrong.  The checks that make a run suspect are in :mod:`nonsmooth.solution.suspicion`.
 """
@@ -18,8 +18,8 @@ from nonsmooth.model.part_pairs import unchecked_contacts
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
-_FRICTION = 2
-"""Column of the friction loss in ``events.booked``, the energies accounted at events."""
+_FRICTION, _CLOSING = 2, 3
+"""Columns of the friction loss and of the closing loss in ``events.booked``, the energies accounted so far."""
 
 
 def contacts_without_body_check(solution: Solution) -> tuple[str, ...]:
@@ -70,6 +70,22 @@ def friction_gain(solution: Solution) -> float:
     return gain + _decrease(last, np.append(track.y[n_samples:-1, place], end))
 
 
+def closing_gain(solution: Solution) -> float:
+    """Energy that averaged normal forces added over a run [J]: the sum of all decreases of the closing loss.
+
+    The loss is compared from each sample or event to the next.  The normal force of the time-stepping fallback is
+    constant over a span, so that it may push while a gap opens.
+    """
+    track, gain, last, n_samples = solution.track, 0.0, np.zeros(0), 0
+    for block in solution.events.blocks():
+        # number of samples before the last event of this block
+        stop = int(np.searchsorted(track.time[:-1], block.time[-1])) if len(block) else 0
+        order = np.argsort(np.concatenate([block.time, track.time[n_samples:stop]]), kind="stable")
+        loss = np.concatenate([block.booked[:, _CLOSING], track.booked[n_samples:stop, _CLOSING]])[order]
+        gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
+    return gain + _decrease(last, track.booked[n_samples:, _CLOSING])
+
+
 def _decrease(last: Floats, loss: Floats) -> float:
     """Sum of the decreases of a loss [J] from one value to the next; ``last`` is the value before the first, if any."""
     return float(-np.sum(np.minimum(np.diff(loss, prepend=last), 0.0)))
@@ -78,9 +94,10 @@ def _decrease(last: Floats, loss: Floats) -> float:
 def findings(solution: Solution) -> str:
     """Text with the findings of all checks, each after a comma; "" without findings."""
     unchecked = len(contacts_without_body_check(solution))
-    outside, gain = int(np.count_nonzero(impulses_beyond_cone(solution))), friction_gain(solution)
+    outside = int(np.count_nonzero(impulses_beyond_cone(solution)))
+    gains = {"friction": friction_gain(solution), "averaged normal forces": closing_gain(solution)}
     found = [f", {unchecked} contacts whose bodies are not checked for overlap"] if unchecked else []
     found += [f", {outside} impulses outside of their friction cones"] if outside else []
     # report the gain only if it is above the unexplained energy: a smaller gain may be an error of the integration
-    found += [f", {gain:.1e} J added by friction"] if gain > solution.energy.unexplained else []
+    found += [f", {gain:.1e} J added by {by}" for by, gain in gains.items() if gain > solution.energy.unexplained]
     return "".join(found)

@@ -29,7 +29,7 @@ def suspicions(
     engine: Engine,
     worst_event: tuple[float, float, float],
     jump: tuple[float, float],
-    rubbed: float,
+    added: float,
     energy: EnergyAccount,
     bodies: Mapping[str, Body],
     samples: tuple[NDArray[np.float64], NDArray[np.float64]],
@@ -52,9 +52,9 @@ def suspicions(
     jump : tuple of float
         Last time at which a compliant contact began with overlapping bodies [s], and the energy that all contacts
         gained in this way [J].
-    rubbed : float
-        Energy that sustained friction added (:func:`nonsmooth.solution.checks.friction_gain`) [J]; 0 if a friction law
-        of the system can store energy, because it may return this energy.
+    added : float
+        Energy that sustained friction and averaged normal forces added (:mod:`nonsmooth.solution.checks`) [J], without
+        that of friction if a friction law of the system can store energy, because it may return this energy.
     energy : EnergyAccount
         Energy account of the run.
     bodies : mapping of str to Body
@@ -78,7 +78,7 @@ def suspicions(
         account, off = open_run(energy, tolerance, steps, scale, floor), ALLOWED * tolerances[0]
     else:
         account, off, remedy = broken_promise(energy, promised, name, floor), promised, _remedy_of(engine)
-    given = pushed(rubbed, energy, floor)
+    given = pushed(added, energy, floor)
     found = open_event(*worst_event), account, given, long_quaternion(bodies, *samples, off)
     said = "; ".join(filter(None, (jumped(*jump, energy, floor), *found)))
     # the sentence of `jumped`, about contacts that began with overlap, has its own remedy
@@ -131,11 +131,11 @@ def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0
 
 
 def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
-    """Sentence about friction that added an energy [J], "" if it is negligible."""
+    """Sentence about contacts that added an energy [J], "" if it is negligible."""
     if gained <= _MOST * max(energy.scale, floor):
         return ""
     return (
-        f"friction brought in {gained:.3g} J, {gained / energy.scale:.3g} of what was exchanged, as averaged forces may"
+        f"contacts brought in {gained:.3g} J, {gained / energy.scale:.3g} of what was exchanged, as averaged forces may"
     )
 
 

@@ -73,6 +73,7 @@ def test_the_text_has_units_and_no_round_off() -> None:
         "unseen_contacts": [],
         "impulses_beyond_cone": 0,
         "friction_gain": 0.0,
+        "closing_gain": 0.0,
         "mode_words": shares,
         "energy_residual": 1.2e-16,
         "cause": "",

@@ -29,6 +29,7 @@ KEYS = {
     "unseen_contacts",
     "impulses_beyond_cone",
     "friction_gain",
+    "closing_gain",
     "mode_words",
     "energy_residual",
     "cause",

@@ -11,7 +11,7 @@ import numpy as np
 
 from nonsmooth.cli.report.table import lines
 from nonsmooth.engine.memory.modes import LIMITS, Limit
-from nonsmooth.solution.checks import contacts_without_body_check, friction_gain, impulses_beyond_cone
+from nonsmooth.solution.checks import closing_gain, contacts_without_body_check, friction_gain, impulses_beyond_cone
 from nonsmooth.solution.modes import are_recorded, mode_shares
 from nonsmooth.solution.solution import Solution
 
@@ -50,13 +50,14 @@ _NUMBERS: Mapping[str, Callable[[Solution], Any]] = {
     "unseen_contacts": lambda solution: list(contacts_without_body_check(solution)),
     "impulses_beyond_cone": lambda solution: int(np.count_nonzero(impulses_beyond_cone(solution))),
     "friction_gain": friction_gain,
+    "closing_gain": closing_gain,
     "mode_words": lambda solution: mode_shares(solution) if are_recorded(solution) else None,
     "energy_residual": attrgetter("energy.residual"),
     "cause": attrgetter("end.cause"),
     "verdict": _verdict,
 }
 """Entry of a report that comes from the solution -> function that computes the entry from the solution."""
-UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J"}
+UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J", "closing_gain": "J"}
 """Entry of a report -> its SI unit. Entries from the solution that are not listed have no unit."""
 
 
@@ -94,6 +95,7 @@ def as_text(report: Report) -> str:
         "contacts whose bodies are not checked": str(len(plain["unseen_contacts"])),
         "impulses outside of cones": str(plain["impulses_beyond_cone"]),
         "friction gave": _with_unit(_spell(plain["friction_gain"]), UNITS["friction_gain"]),
+        "averaged normal forces gave": _with_unit(_spell(plain["closing_gain"]), UNITS["closing_gain"]),
     }
     rows += [(name, count) for name, count in counts.items() if count.partition(" ")[0] != "0"]
     table = lines([(name.replace("_", " "), text) for name, text in rows])
