@@ -1,4 +1,4 @@
-"""The interfaces: one abstract class a file."""
+"""The interfaces: one abstract class a file, and the records that they return."""
 
 from nonsmooth.interfaces.body import Body
 from nonsmooth.interfaces.contact_kinematics import ContactKinematics

@@ -11,7 +11,7 @@ from nonsmooth.interfaces.shape import Shape
 
 
 class ContactKinematics(ABC):
-    """Makes the potential contacts of two shapes; a subclass is used as it is, no object of it is made.
+    """Factory of the potential contacts of two shapes. The class itself is used, without an instance.
 
     The contract:
 

@@ -55,7 +55,7 @@ class FeaturePair:
     candidates : CandidateSearch or None
         Search that finds the pair of features; None if the pair never changes.
     bound : callable or None
-        Plain function that tells how far the bodies must move before the contact can close; None if that is unknown.
+        Plain function that computes a lower bound of the displacement before the contact can close; None without one.
         ``bound(a, b, out, ...)`` has the arguments of the evaluator.  It writes to ``out[0]`` a distance [m]: the
         contact stays open while the largest displacements of a point of either body add up to less.  Among convex
         bodies a contact is left out until they have moved that far.

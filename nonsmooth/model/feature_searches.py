@@ -39,7 +39,7 @@ class FeatureSearch:
     contacts : range
         Numbers of the contacts.
     owner : str
-        The first contact, for messages.
+        Name of the first contact, for messages.
     """
 
     candidates: CandidateSearch

@@ -215,8 +215,8 @@ def initial_state(law: Any) -> tuple[float, ...]:
 def _geometry_of(contact: Contact, tried: set[tuple[Any, ...]]) -> Kind:
     """Compile the kinematics of a contact, and collect the fields and the block of its kind.
 
-    A function with large tables takes long to try out, so each function is tried out once with the same tables.
-    ``tried`` holds the functions and tables that were tried out, and this function adds to it.
+    A function with large tables takes long to try out, so such a function is tried out once with the same tables.
+    ``tried`` holds these functions with their tables, and this function adds to it.
     """
     made, kinematics = Kind(), contact.kinematics
     function, available = kinematics.evaluator, kinematics.values
@@ -228,8 +228,8 @@ def _geometry_of(contact: Contact, tried: set[tuple[Any, ...]]) -> Kind:
     key = function, *map(id, tables.values())
     if key not in tried:
         # the trial reads the tables behind the parameters
-        whole = bind(function, "pair", available, owner)[1] if tables else values
-        try_out(function, "pair", available, whole, PAIR, owner, FRAMES)
+        with_tables = bind(function, "pair", available, owner)[1] if tables else values
+        try_out(function, "pair", available, with_tables, PAIR, owner, FRAMES)
     if tables:
         tried.add(key)
     start = made.block.store(_CONTACT.geometry_parameters, values)

@@ -67,9 +67,9 @@ def _options(engine: Engine) -> bytes:
 
 
 def _classes(model: LaidOut) -> bytes:
-    """Names of the classes of all parts of a system, and the number of the class of each part, as bytes.
+    """Names of the classes of all parts of a system and of the evaluators of contacts, and their number for each part.
 
-    Otherwise two classes with the same parameters would give the same digest.
+    Otherwise two classes or evaluators with the same parameters would give the same digest.
     """
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
@@ -81,7 +81,7 @@ def _classes(model: LaidOut) -> bytes:
     for same in groups_of(system.contacts):
         row = system.contacts.rows[same[0]]
         laws = row.laws.normal, row.laws.friction, row.laws.impact
-        deciding = ((one.evaluator, *map(type, laws)) for one in row.kinematics)
-        kinds += [[known.setdefault(part, len(known)) for part in parts] for parts in deciding]
+        for contact in row.kinematics:
+            kinds.append([known.setdefault(one, len(known)) for one in (contact.evaluator, *map(type, laws))])
     names = repr([(kind.__module__, name_of(kind)) for kind in known]).encode()
     return names + np.array(numbers).tobytes() + np.array(kinds, np.int64).tobytes()

@@ -324,8 +324,8 @@ class System(metaclass=Readable):
     def add_contact(self, contact: Contact) -> Contact:
         """Add a contact with given kinematics.
 
-        :meth:`contact` finds the kinematics of two shapes among the installed ones. This method takes any kinematics,
-        such as those under development. It also takes shapes that belong to no body. A scenario file cannot hold such
+        :meth:`contact` finds the kinematics of two shapes among the installed ones. This method takes any FeaturePair,
+        such as one under development. It also takes shapes that belong to no body. A scenario file cannot hold such
         a contact.
 
         Parameters
@@ -342,8 +342,8 @@ class System(metaclass=Readable):
         ------
         InvalidInput
             If the object is not a Contact, a body is not of this system, the bodies are the same, a frame is unknown,
-            the kinematics are no FeaturePair, a law is of the wrong kind or cannot be combined with the others, or the
-            name is taken.
+            ``contact.kinematics`` is not a FeaturePair, a law is of the wrong kind or cannot be combined with the
+            others, or the name is taken.
         """
         return self._declared.add_given(contact)
 

@@ -132,6 +132,8 @@ class CheckedFunction:
         Pairs of a text for messages and the arguments of a call.
     size : int
         Length of the block that the function writes; 0 if it returns a number.
+    said : str
+        Name of the function in messages; if empty, class of the component and name of the function.
     """
 
     owner: Any
@@ -140,6 +142,7 @@ class CheckedFunction:
     offered: Mapping[str, Any]
     inputs: Sequence[tuple[str, tuple[Any, ...]]]
     size: int = 0
+    said: str = ""
 
     @property
     def function(self) -> Caller:
@@ -148,8 +151,8 @@ class CheckedFunction:
 
     @property
     def title(self) -> str:
-        """Class of the component and name of the function, such as ``Coulomb.coefficient``."""
-        return f"{type(self.owner).__name__}.{self.name}"
+        """Name of the function in messages, such as ``Coulomb.coefficient``."""
+        return self.said or f"{type(self.owner).__name__}.{self.name}"
 
     @property
     def place(self) -> str:
@@ -182,7 +185,7 @@ class CheckedFunction:
 
     def compiled(self) -> Caller:
         """Return the compiled function. A call returns its number, or the block of numbers that the function writes."""
-        call = compiled_caller(self.function, self.form, self.offered, type(self.owner).__name__)
+        call = compiled_caller(self.function, self.form, self.offered, self.title)
         return lambda *given: self._result(call, given)
 
     def _result(self, call: Caller, given: tuple[Any, ...]) -> Any:
@@ -282,7 +285,7 @@ def all_rows(
 
 
 def function_rows(functions: Callable[[], Sequence[CheckedFunction]], found: Sequence[Row]) -> list[Row]:
-    """Return the properties of functions that the engine calls, then others that are checked if these can be run."""
+    """Return the checks of functions, then ``found``, which are checked only if the functions can be run."""
     return _Functions(functions).rows(found)
 
 

@@ -13,6 +13,7 @@ from typing import final
 
 import numpy as np
 
+from nonsmooth.binding.source import name_of
 from nonsmooth.engine.memory import blocks
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
@@ -69,8 +70,8 @@ def check_contact_kinematics(
     Raises
     ------
     InvalidInput
-        The shapes are not of the classes in ``pair``, there are no contacts between them, or a contact has no names of
-        features, or searches for its features, and so has no given features that can be checked.
+        The shapes are not of the classes in ``pair``. There are no contacts between them. A contact has no names of
+        features. A contact searches for its features, so that it has no given ones that can be checked.
     """
     made = _between(kinematics, first, second)
     if contacts is None:
@@ -91,9 +92,9 @@ def _between(kinematics: type[ContactKinematics], first: Shape, second: Shape) -
     """Contacts of two shapes; InvalidInput if the shapes are of other classes, or have no contact."""
     for shape, kind in zip((first, second), kinematics.pair, strict=True):
         if not isinstance(shape, kind):
-            raise InvalidInput(
-                f"{kinematics.__name__}: shape", f"must be a {kind.__name__}, as `pair` says", shape, "Give others."
-            )
+            name = kind.__name__
+            rule = f"must be a {name}, as `pair` says"
+            raise InvalidInput(f"{kinematics.__name__}: shape", rule, shape, f"Give a {name}.")
     made = kinematics.between(first, second)
     if not made:
         raise InvalidInput(f"{kinematics.__name__}.between", "must return a contact", made, "Return at least one.")
@@ -101,10 +102,11 @@ def _between(kinematics: type[ContactKinematics], first: Shape, second: Shape) -
 
 
 def _check_record(kinematics: type[ContactKinematics], contact: FeaturePair) -> None:
+    """Raise InvalidInput if a contact has no names of features, or searches for them."""
     names = contact.features
     if not names or len(set(names)) != len(names):
         remedy = "Name every pair of features, each differently."
-        raise InvalidInput(f"{kinematics.__name__}: features", "must be names, each another", names, remedy)
+        raise InvalidInput(f"{kinematics.__name__}: features", "must be different names, at least one", names, remedy)
     if contact.candidates is not None:
         raise InvalidInput(
             f"{kinematics.__name__}: a contact",
@@ -115,6 +117,8 @@ def _check_record(kinematics: type[ContactKinematics], contact: FeaturePair) -> 
 
 
 def _rows(contact: FeaturePair, shapes: tuple[Shape, Shape], reach: float) -> list[Row]:
+    """Return the properties of one contact of two shapes, whose bodies are at most ``reach`` apart [m]."""
+    # not empty as soon as the contact was smooth at an input
     smooth: set[int] = set()
     rig = functools.cache(lambda: ContactRig(contact, shapes))
     bounded = all(math.isfinite(shape.extent) for shape in shapes)
@@ -143,7 +147,7 @@ def _examine_where_smooth(one: Claim, contact: FeaturePair, smooth: set[int]) ->
         if not smooth:
             one.examine([contact], count)
     if not smooth:
-        raise NotChecked(f"it is smooth at none of {_MOST_DRAWS} places")
+        raise NotChecked(f"the contact is smooth at none of {_MOST_DRAWS} places")
 
 
 def _numbers(reach: float) -> tuple[DrawnNumber, ...]:
@@ -176,7 +180,9 @@ def _frame(pose: Pose) -> Array:
 def _evaluator(contact: FeaturePair, reach: float) -> CheckedFunction:
     cases = draws([Drawn(_numbers(reach), dict)], 8)
     inputs = [("a, b", tuple(map(_frame, _poses(case)))) for case in cases]
-    return CheckedFunction(contact, "evaluator", "pair", contact.values, inputs, blocks.PAIR)
+    return CheckedFunction(
+        contact, "evaluator", "pair", contact.values, inputs, blocks.PAIR, name_of(contact.evaluator)
+    )
 
 
 @final
@@ -258,7 +264,7 @@ class _Placed:
 
 @_AT_PLACES.claim(GIVEN, n_inputs=80)
 def _writes_its_block(contact: FeaturePair, at: _Placed) -> str:
-    """A call of the kinematics writes every number of its block that is not always zero, and nothing outside of it."""
+    """A call of the evaluator writes every number of its block that is not always zero, and nothing outside of it."""
     case, call = at.case, plain_caller(contact.evaluator, "pair", contact.values)
     turned_there = case | {"turn_a_x": case["turn_a_x"] + 1.0}
     here = tuple(map(_frame, _poses(case)))

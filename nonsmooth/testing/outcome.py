@@ -111,7 +111,7 @@ class Subject:
     departures : mapping of str to str
         Properties that the component is known not to have, with reasons.
     label : str
-        What is added to the name of the class, to tell several subjects of one class apart; may be empty.
+        Suffix of the name of the class in messages, if a class has several subjects; may be empty.
     """
 
     component: Any
@@ -171,7 +171,8 @@ def described(component: Any) -> tuple[str, Any]:
     Several parameters are returned as "parameters" and a mapping, no parameters as "" and "".
     """
     given = {name: getattr(component, name) for name in rules(type(component))}
-    given = {name: value for name, value in given.items() if value is not None}
+    # a record of a contact declares none, but has values
+    given = {name: value for name, value in (given or component.parameters()).items() if value is not None}
     if len(given) == 1:
         return next(iter(given.items()))
     return ("parameters", given) if given else ("", "")

@@ -22,11 +22,15 @@ from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
 
 @compiled
-def square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
-    """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q."""
+def squared_distance_of_segments(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
+    """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q.
+
+    e and f are unit vectors.  Minimise over one line, clamp to its segment, and repeat: C. Ericson, Real-Time Collision
+    Detection (2005), 5.1.9.
+    """
     across, along_e, along_f = dot(e, f), dot(w, e), dot(w, f)
-    sine = 1.0 - across * across
-    s = min(max((along_e - across * along_f) / sine, 0.0), p) if sine > 0.0 else 0.0
+    square = 1.0 - across * across
+    s = min(max((along_e - across * along_f) / square, 0.0), p) if square > 0.0 else 0.0
     t = min(max(s * across - along_f, 0.0), q)
     s = min(max(along_e + t * across, 0.0), p)
     apart = minus(ahead(w, t, f), times(s, e))
@@ -83,5 +87,5 @@ def edges_bound(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Float
     w = minus(point_in_world(b, vector_at(edges_b, at_b)), point_in_world(a, vector_at(edges_a, at_a)))
     e, f = _of_row(a, edges_a, at_a + ALONG, 1.0), _of_row(b, edges_b, at_b + ALONG, 1.0)
     p, q = edges_a[at_a + LENGTH], edges_b[at_b + LENGTH]
-    distance = math.sqrt(square_of_lines(w, e, p, f, q))
+    distance = math.sqrt(squared_distance_of_segments(w, e, p, f, q))
     return float(max(distance, 0.5 * min(p, q) * _between_arcs(a, b, edges_a, at_a, edges_b, at_b)))

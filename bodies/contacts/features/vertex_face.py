@@ -63,7 +63,8 @@ def separation_of_faces(frame: Floats, other: Floats, core: Floats, own: Floats)
 def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
     """Return the distance of a point's projection on a face beyond the face's borders [m]; negative inside them.
 
-    It is the largest height of the projection over the planes of the other faces.
+    It is the largest height of the projection over the planes of the other faces, -inf if there are none.  ``face`` is
+    the index at which the row of the face begins, ``height`` the height of the point over it [m].
     """
     foot, past = minus((x, y, z), times(height, vector_at(faces, face))), -math.inf
     for i in range(int(n_faces)):

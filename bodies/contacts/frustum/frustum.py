@@ -185,9 +185,9 @@ def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vec
 
 @compiled
 def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
-    """Return the largest separation of two frustums along normals of the second [m]: of caps and of side.
+    """Return the largest separation of two frustums along three directions of the second [m].
 
-    Of the side, the normal across the axis that points to the centre of the first is taken.
+    They are its axis, the opposite of it, and the part across the axis of the line from the first centre to the second.
     """
     axis = axis_in_world(b, second)
     _, _, sideways = across(minus(center_in_world(b, second), center_in_world(a, first)), axis)

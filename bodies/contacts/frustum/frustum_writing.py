@@ -44,9 +44,10 @@ def past_border(over: float, astray: float, size: float) -> float:
 
 @compiled
 def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, size: float) -> float:
-    """Return a length [m] that is positive if two cores overlap less than by ``gap`` [m] along another direction.
+    """Return a length [m] that is positive if two cores overlap by less than -``gap`` along another direction.
 
-    The directions are those of :func:`bodies.contacts.frustum.frustum.separation_by`.
+    The directions are those of :func:`bodies.contacts.frustum.frustum.separation_by`.  If the cores do not overlap, the
+    length is negative.
     """
     if gap >= -REACH * size:
         return -size
@@ -72,7 +73,7 @@ def past_disc(
     the frustum ``one`` that is lowest over the face, or the tip of a foot or cone (``is_tip``); ``gap`` is its height
     [m].  If p lies below the face, the line from p to the middle of the frustum must lead back through the disc, and
     the rim of the disc must lie below that line.  Discs in one plane touch with the faces of both sides; the engine
-    takes those that met.
+    takes the face on the side from which the other disc came.
     """
     axis, own_axis = axis_in_world(other, second), axis_in_world(one, first)
     center, middle = center_in_world(other, second), on_axis_in_world(one, first, 0.5 * (first[LOW] + first[HIGH]))

@@ -61,9 +61,10 @@ def _swing(radial: float, turn: float) -> float:
 
 @compiled
 def _lowest(frustum: Floats, upper: int, pose: FrustumPose, n: Vector3) -> tuple[Vector3, float, float]:
-    """Return a rim's farthest point along a normal [m], the normal's radial component, and a sine.
+    """Return a rim's farthest point along n [m], the radial component of n, and a sine.
 
-    The sine is that of the angle between the normal and the fan of normals of the rim, negative inside this fan.
+    n points into the surface, so that this is the rim's lowest point over it.  ``upper`` is 1 for the upper rim, 0 for
+    the lower one.  The sine is that of the angle between n and the fan of normals of the rim, negative inside this fan.
     """
     center, axis = pose
     axial, radial, outward = lowest_on_rim(n, axis, (1.0, 0.0, 0.0))

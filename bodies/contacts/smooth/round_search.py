@@ -169,8 +169,10 @@ def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: V
     """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
 
     The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
-    the angle between normal and axis, which starts at 0, and the angle round the axis.  With these unknowns the
-    equations are regular at the axis.  The normal is along the axis if ``up`` is 1, against it if ``up`` is -1.
+    the tilt, which is the angle between normal and axis and starts at 0, and the angle round the axis.  The derivative
+    of the gap by the tilt is zero, and so is that by the angle, divided by the sine of the tilt; ``matrix`` is their
+    Jacobian.  With these unknowns the equations are regular at the axis.  The normal is along the axis if ``up`` is 1,
+    against it if ``up`` is -1.  The gap is nan without convergence.
     """
     tilt, angle = 0.0, math.atan2(start[1], start[0])
     size = spread(place) + longest(core) + radius

@@ -199,6 +199,7 @@ def _from_start(first: Core, second: Core, turn: Axes, place: Vector3, start: Ve
             g, p, n = _both(first, second, turn, place, start)
         else:
             g, p, n = climb_boxy(first, second, turn, place, start)
+        # p is the point of the first core
         return g, ahead(p, g, n), n
     return widest_of_round(first, second, turn, place, start)
 
@@ -353,11 +354,11 @@ def widest_from(hull: Core, core: Core, turn: Axes, place: Vector3, axis: Vector
 
 @compiled
 def write_core(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3) -> None:
-    """Write the curvature matrices slide and turn of a smooth body at its outward normal, in the axes of the core.
+    """Write the curvature matrices slide and turn of a smooth body, along both tangents of the contact.
 
-    Slide is the identity.  Turn is the matrix of the radii of curvature [m]: the second derivative of the support
-    function at the normal, plus the core's radius.  The geometry block ``out`` must already hold normal and first
-    tangent; ``axes`` are the core's axes in the world.
+    ``normal`` is the body's outward normal in the axes of the core.  Slide is the identity.  Turn is the matrix of the
+    radii of curvature [m]: the second derivative of the support function at the normal, plus the core's radius.  The
+    geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     _, _, h = support_of(core, normal)
     t, u = tangents_in(axes, out)

@@ -6,7 +6,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, minus, over, put, size_of, times, vector_at
-from ..features.bounds import square_of_lines
+from ..features.bounds import squared_distance_of_segments
 from ..features.edge_crossing import ASTRAY, edge_astray
 from ..features.frames import vector_in_body, vector_in_world
 from .surface_near import Near, seen_from
@@ -82,7 +82,7 @@ def edges_across(
             if what != ON_EDGE or n > most:
                 continue
             e, p = vector_at(surface, one + 3), surface[one + 6]
-            square = square_of_lines(minus(start, vector_at(surface, one)), e, p, f, q)
+            square = squared_distance_of_segments(minus(start, vector_at(surface, one)), e, p, f, q)
             if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
                 put(out, 1 + 3 * n, (kind, float(own), number))
                 n += 1

@@ -64,9 +64,10 @@ def _is_near(surface: Floats, point: Vector3, reach: float) -> bool:
 
 @compiled
 def _add_patch(patch: float, kind: float, third: float, first: int, out: Floats, n: int) -> int:
-    """Append the candidate (kind, patch, third) to the ``n`` candidates in ``out``; return the number after that.
+    """Append the candidate (kind, patch, third) to the ``n`` candidates in ``out``; return their new number.
 
-    It is not appended if a candidate from number ``first`` on already has this patch.
+    It is not appended if a candidate from number ``first`` on already has this patch.  ``third`` is the number of the
+    feature that is over the patch.
     """
     for known in range(first, n):
         if out[2 + 3 * known] == patch:

@@ -58,9 +58,10 @@ def _features_near(
 def find_near_features(
     a: Floats, b: Floats, out: Floats, surface_a: Floats, surface_b: Floats, most: float, turning: float
 ) -> None:
-    """Write the near pairs of corners and patches, and of edges, to ``out`` as candidates.
+    """Write near pairs to ``out`` as candidates: corners of b over patches of a, those of a over b, and two edges.
 
-    On entry ``out[0]`` is the largest distance of a pair [m], on return the number of candidates.  The largest relative
+    At most ``most`` + 1 candidates are written, one more than there are contacts.  On entry ``out[0]`` is the largest
+    distance of a pair [m], on return the number of candidates.  The largest relative
     rotation of the bodies until the next search is ``turning`` [rad/m] times this distance.
     """
     near = out[0], turning * out[0], int(most)

@@ -83,7 +83,7 @@ def _is_blocked(ws: Workspace, contact: ContactRecord) -> bool:
     for other in ws.contacts:
         if other.pair != contact.pair or other.past_feature > 0.0 or are_alike(contact.normal, other.normal):
             continue
-        # the other face of a disc without thickness says nothing of the face that approaches
+        # a contact with the opposite normal is on the other face of a thin disc, and does not block this one
         if are_alike(opposite(contact.normal), other.normal):
             continue
         is_resting = dot(other.normal, v) >= -ws.tolerance.velocity and not _closes_along(ws, other)

@@ -245,7 +245,7 @@ def close_energy_account(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def scale_energy(ws: Workspace) -> float:
-    """Kinetic energy if each velocity alone were as large as its scale ``y_scale``, summed [J].
+    """Sum over all velocities of the kinetic energy of one at its scale ``y_scale``, while the others are free [J].
 
     An energy for comparison, in states of rest too. The bodies must be evaluated. The reciprocal of a diagonal entry of
     M^-1 is the mass that moves with a velocity if all other velocities are free.

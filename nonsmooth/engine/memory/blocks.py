@@ -26,9 +26,9 @@ The geometry block of a contact holds ``GAP``, ``NORMAL`` (from the first body t
 ``slide @ u = turn @ nu``: the witness sliding at u over the body turns the normal by nu (both in the
 tangent plane; they commute).  A sphere of radius r has slide 1, turn r; a plane slide 0, turn 1; a vertex slide 1,
 turn 0.  A point contact needs a curved or sharp side: two planes have none.  Then comes ``FEATURE``, the number of the
-pair of features that are in contact, out of the kinematics' ``features``, and last, at ``PAST_END``, how far the
+pair of features that are in contact, an index of ``FeaturePair.features``, and last, at ``PAST_END``, how far the
 witness points are past the ends of features that end, such as edges and the faces of a polyhedron [m]: negative within,
-0 where nothing ends.  Past an end the gap is a number that no rate belongs to, positive unless the bodies overlap, and
+0 where nothing ends.  Past an end the gap is a positive number that no rate belongs to, and
 a closed contact opens.
 
 A joint writes :data:`JOINT_ROW` floats per row: ``RESIDUAL`` [m or 1], ``AXIS`` and ``MOMENT``, a point on either body

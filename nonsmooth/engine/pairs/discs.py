@@ -54,9 +54,9 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     """Overlap of the discs of pair ``number`` in the plane of the first, where the second passed through [m], else 0.
 
     The position of the second centre is stored in the pair, as ``between``, for the next evaluation. A pair without a
-    margin counts as one without such a position. Discs that are not parallel count by the centre of the second one
+    margin has no stored position. Discs that are not parallel count by the centre of the second one
     only: their rims meet first. Parallel discs that lie on each other have not passed yet: the position before that
-    stays stored, so that the side on which they part tells.
+    stays stored. When they separate, it shows on which side the second one came.
     """
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
