@@ -29,12 +29,13 @@ Crossing: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, float, float, fl
 
 
 @compiled
-def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, x: float, y: float, z: float) -> float:
-    """Return the sine of the angle from the unit vector ``sign`` (x, y, z) to the range of normals of an edge.
+def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, n: Vector3) -> float:
+    """Return the sine of the angle from the unit vector ``sign`` n to the range of normals of an edge.
 
     The normals of an edge lie between the normals of its two faces.  The result is not positive within this range.  The
     row of the edge begins at index ``at`` of ``edge``.
     """
+    x, y, z = n
     n = vector_in_body(frame, (sign * x, sign * y, sign * z))
     return float(max(dot(n, vector_at(edge, at + INTO_FIRST)), dot(n, vector_at(edge, at + INTO_SECOND))))
 
@@ -97,8 +98,8 @@ def cross_edges(
         n = over(n, apart) if apart > 0.0 else tangent_of(e)
     # measured between the nearest points, so that the length of the edges does not multiply the error of the normal
     gap = dot(minus(ahead(w, t, f), times(s, e)), n)
-    astray = max(edge_astray(a, edge_a, at_a, 1.0, *n), edge_astray(b, edge_b, at_b, -1.0, *n))
-    reversed_astray = max(edge_astray(a, edge_a, at_a, -1.0, *n), edge_astray(b, edge_b, at_b, 1.0, *n))
+    astray = max(edge_astray(a, edge_a, at_a, 1.0, n), edge_astray(b, edge_b, at_b, -1.0, n))
+    reversed_astray = max(edge_astray(a, edge_a, at_a, -1.0, n), edge_astray(b, edge_b, at_b, 1.0, n))
     if reversed_astray < astray or (reversed_astray == astray and gap < 0.0):
         n, gap, astray = opposite(n), -gap, reversed_astray
     return ahead(start, s, e), e, f, n, gap, past_ends, max(past, size * (astray - ASTRAY))

@@ -120,5 +120,5 @@ def write_rim(out: Floats, side: int, axis: Vector3, radius: float, at: Touching
         Radius of the rounding about the rim [m].
     """
     (ax, ay, az), (_, (x, y, z), _, sine, slide, turn) = axis, at
-    write_principal(out, side, ay * z - az * y, az * x - ax * z, ax * y - ay * x, sine, radius, slide, turn)
+    write_principal(out, side, (ay * z - az * y, az * x - ax * z, ax * y - ay * x), sine, radius, slide, turn)
     write_sweep(out, side, sweep)

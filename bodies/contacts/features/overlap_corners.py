@@ -34,11 +34,12 @@ Springs have depths of a hundredth of the size. At a larger angle faces overlap 
 
 
 @compiled
-def _nearest_normal(n_faces: float, faces: Floats, x: float, y: float, z: float) -> tuple[int, float]:
+def _nearest_normal(n_faces: float, faces: Floats, n: Vector3) -> tuple[int, float]:
     """Return the number of the face whose normal is nearest to a unit vector, and the cosine of the angle between them.
 
-    The unit vector (x, y, z) is in body axes.
+    The unit vector n is in body axes.
     """
+    x, y, z = n
     found, most = 0, -1.0
     for i in range(int(n_faces)):
         f = FACE * i
@@ -49,13 +50,14 @@ def _nearest_normal(n_faces: float, faces: Floats, x: float, y: float, z: float)
 
 
 @compiled
-def _normal_near(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> Vector3:
+def _normal_near(frame: Floats, n_faces: float, faces: Floats, n: Vector3) -> Vector3:
     """Return the normal of the face that is nearest to a unit vector; zero if the angle between them is too large.
 
     Both vectors are in world axes.  The largest angle has the cosine ``_COSINE``.
     """
+    x, y, z = n
     x, y, z = vector_in_body(frame, (x, y, z))
-    face, cosine = _nearest_normal(n_faces, faces, x, y, z)
+    face, cosine = _nearest_normal(n_faces, faces, (x, y, z))
     if cosine < _COSINE:
         return 0.0, 0.0, 0.0
     f = FACE * face
@@ -71,9 +73,7 @@ def common_direction(
     faces_a: Floats,
     n_faces_b: float,
     faces_b: Floats,
-    x: float,
-    y: float,
-    z: float,
+    n: Vector3,
 ) -> Vector3:
     """Return the common direction of projection, a unit vector from the first body to the second.
 
@@ -89,8 +89,9 @@ def common_direction(
     x, y, z : float
         Contact normal from the first body to the second, in world axes.
     """
-    ux, uy, uz = _normal_near(a, n_faces_a, faces_a, x, y, z)
-    vx, vy, vz = _normal_near(b, n_faces_b, faces_b, -x, -y, -z)
+    x, y, z = n
+    ux, uy, uz = _normal_near(a, n_faces_a, faces_a, n)
+    vx, vy, vz = _normal_near(b, n_faces_b, faces_b, (-x, -y, -z))
     if ux * vx + uy * vy + uz * vz > -_FLUSH:
         return 0.0, 0.0, 0.0
     return ux, uy, uz
@@ -119,9 +120,7 @@ def vertex_past_corner(
     ends: Floats,
     n_star: float,
     star: Floats,
-    x: float,
-    y: float,
-    z: float,
+    point: Vector3,
     size: float,
 ) -> tuple[float, float]:
     """Return the distance by which a vertex misses a corner of the overlap [m]; zero or negative for a corner.
@@ -148,23 +147,24 @@ def vertex_past_corner(
     size : float
         Size of the larger body [m].
     """
+    x, y, z = point
     margin, past = CLOSED * size, math.inf
     ux, uy, uz = vector_in_body(other, direction)
     fx, fy, fz = ux, uy, uz
-    face, cosine = _nearest_normal(n_faces, faces, ux, uy, uz)
+    face, cosine = _nearest_normal(n_faces, faces, (ux, uy, uz))
     if cosine >= _COSINE:
         f = FACE * face
         fx, fy, fz = vector_at(faces, f)
-        height = plane_height(faces, f, x, y, z)
+        height = plane_height(faces, f, (x, y, z))
         # move the vertex parallel to the face, so that its foot point becomes its projection along the direction
         x, y, z = x + height * (fx - ux / cosine), y + height * (fy - uy / cosine), z + height * (fz - uz / cosine)
-        past = past_face(faces, n_faces, f, height, x, y, z)
+        past = past_face(faces, n_faces, f, height, (x, y, z))
     edge = -margin if is_of_first else margin
     if past <= edge:
         return past - edge, math.inf
     if past <= margin:
         return past + margin, math.inf
-    _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+    _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, (x, y, z))
     along = nx * fx + ny * fy + nz * fz
     nx, ny, nz = vector_in_world(other, (nx - along * fx, ny - along * fy, nz - along * fz))
     nx, ny, nz = vector_in_body(own, (nx, ny, nz))

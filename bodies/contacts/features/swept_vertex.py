@@ -37,9 +37,7 @@ The sphere about the vertex is a part of its body, so that its gap is always an 
 
 
 @compiled
-def past_star(
-    frame: Floats, star: Floats, n_star: float, distance: float, nx: float, ny: float, nz: float, size: float
-) -> float:
+def past_star(frame: Floats, star: Floats, n_star: float, distance: float, n: Vector3, size: float) -> float:
     """Return the distance of a contact past a vertex [m], less the tolerance ``2 END size``; negative if it is valid.
 
     The nearest point of the other body's core is at ``distance`` [m] from the vertex, against the normal (nx, ny, nz).
@@ -47,6 +45,7 @@ def past_star(
     the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the other
     core the result is negative.
     """
+    nx, ny, nz = n
     n, past = vector_in_body(frame, (nx, ny, nz)), -size
     for i in range(int(n_star) if distance > 0.0 else 0):
         past = max(past, -distance * dot(n, vector_at(star, 3 * i)))
@@ -151,14 +150,14 @@ def write_vertex(
     number, distance, x, y, z, within = nearest_of_core(core, point)
     n = vector_in_world(other, (x, y, z))
     # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
-    past = past_star(own_frame, star, n_star if number >= int(core[N_FACES]) else 0.0, distance, *n, size)
+    past = past_star(own_frame, star, n_star if number >= int(core[N_FACES]) else 0.0, distance, n, size)
     # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
     part = part_of_overlap(radius + sweep - distance, size)
     if distance > 0.0 and part > 0.0:
         # the contact normal and the common direction u point from the first body to the second
         sign = 1.0 - 2.0 * swap
         first, second = (own_faces, faces_of(core)) if swap == 1.0 else (faces_of(core), own_faces)
-        u = common_direction(a, b, *first, *second, *times(sign, n))
+        u = common_direction(a, b, *first, *second, times(sign, n))
         if dot(u, u) > 0.0:
             ends = block_at(core, int(core[ENDS]))
             beyond, within = vertex_past_corner(
@@ -171,7 +170,7 @@ def write_vertex(
                 ends,
                 n_star,
                 star,
-                *point,
+                point,
                 size,
             )
             past = (1.0 - part) * past + part * beyond
@@ -230,6 +229,6 @@ def write_swept(
         write_flat(out, side)
     elif edge < int(n_edges):
         e = EDGE * edge
-        write_principal(out, side, *vector_in_world(frame, vector_at(edges, e + 3)), 0.0, 1.0, 1.0, radius)
+        write_principal(out, side, vector_in_world(frame, vector_at(edges, e + 3)), 0.0, 1.0, 1.0, radius)
     else:
         write_round(out, side, radius)

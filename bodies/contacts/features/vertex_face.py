@@ -26,16 +26,16 @@ distance past their ends.
 
 
 @compiled
-def plane_height(faces: Floats, face: int, x: float, y: float, z: float) -> float:
-    """Return the height of a point (x, y, z) over the plane of a face [m], in the frame of the face's body."""
-    return float(dot(vector_at(faces, face), (x, y, z)) - faces[face + 3])
+def plane_height(faces: Floats, face: int, point: Vector3) -> float:
+    """Return the height of a point over the plane of a face [m], in the frame of the face's body."""
+    return float(dot(vector_at(faces, face), point) - faces[face + 3])
 
 
 @compiled
 def _least(frame: Floats, other: Floats, core: Floats, face: int, own: Floats, enough: float) -> float:
     """Return the least height of the other body's vertices over a face [m]; stop at a height below ``enough``."""
     n = vector_in_body(other, vector_in_world(frame, vector_at(core, face)))
-    base, least = plane_height(core, face, *point_in_body(frame, vector_at(other, POSITION))), math.inf
+    base, least = plane_height(core, face, point_in_body(frame, vector_at(other, POSITION))), math.inf
     for i in range(int(own[N_VERTICES])):
         v = int(own[VERTICES]) + VERTEX * i
         height = base + n[0] * own[v] + n[1] * own[v + 1] + n[2] * own[v + 2]
@@ -60,25 +60,26 @@ def separation_of_faces(frame: Floats, other: Floats, core: Floats, own: Floats)
 
 
 @compiled
-def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
+def past_face(faces: Floats, n_faces: float, face: int, height: float, point: Vector3) -> float:
     """Return the distance of a point's projection on a face beyond the face's borders [m]; negative inside them.
 
     It is the largest height of the projection over the planes of the other faces, -inf if there are none.  ``face`` is
     the index at which the row of the face begins, ``height`` the height of the point over it [m].
     """
-    foot, past = minus((x, y, z), times(height, vector_at(faces, face))), -math.inf
+    foot, past = minus(point, times(height, vector_at(faces, face))), -math.inf
     for i in range(int(n_faces)):
         if FACE * i != face:
-            past = max(past, plane_height(faces, FACE * i, *foot))
+            past = max(past, plane_height(faces, FACE * i, foot))
     return past
 
 
 @compiled
-def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
+def height_over(frame: Floats, n_faces: float, faces: Floats, point: Vector3) -> float:
     """Return the largest height of a world point over the planes of the faces [m]: negative inside the polyhedron."""
+    x, y, z = point
     point, highest = point_in_body(frame, (x, y, z)), -math.inf
     for i in range(int(n_faces)):
-        highest = max(highest, plane_height(faces, FACE * i, *point))
+        highest = max(highest, plane_height(faces, FACE * i, point))
     return highest
 
 
@@ -100,13 +101,13 @@ def nearest_face(
     # a point by itself has no edges beside it
     margin = (CLOSED if own[N_VERTICES] > 1.0 else REACH) * size
     enough = separation_of_faces(frame, other, core, own) - margin
-    highest = height_over(frame, n_faces, faces, *point)
+    highest = height_over(frame, n_faces, faces, point)
     found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
-        height = plane_height(faces, FACE * i, *place)
+        height = plane_height(faces, FACE * i, place)
         if height < enough or _least(frame, other, core, int(core[FACES]) + FACE * i, own, enough) < enough:
             continue
-        beyond = past_face(faces, n_faces, FACE * i, height, *place)
+        beyond = past_face(faces, n_faces, FACE * i, height, place)
         if height < 0.0:
             # a vertex below the plane of a face touches it from inside of the polyhedron only
             beyond = max(beyond, highest)
@@ -130,18 +131,18 @@ _SAME = 1e-14
 
 
 @compiled
-def _face(faces: Floats, n_faces: float, x: float, y: float, z: float) -> tuple[int, float]:
+def _face(faces: Floats, n_faces: float, point: Vector3) -> tuple[int, float]:
     """Return the face nearest to a point and the point's height over it [m]; -1 if an edge or a vertex is nearest."""
     highest, best = -math.inf, -1
     for i in range(int(n_faces)):
-        height = plane_height(faces, FACE * i, x, y, z)
+        height = plane_height(faces, FACE * i, point)
         if height > highest:
             best, highest = i, height
     if highest <= 0.0:
         return best, highest
     for i in range(int(n_faces)):
-        height = plane_height(faces, FACE * i, x, y, z)
-        if height > 0.0 and past_face(faces, n_faces, FACE * i, height, x, y, z) <= 0.0:
+        height = plane_height(faces, FACE * i, point)
+        if height > 0.0 and past_face(faces, n_faces, FACE * i, height, point) <= 0.0:
             return i, height
     return -1, 0.0
 
@@ -167,19 +168,19 @@ def _edge(edges: Floats, n_edges: float, point: Vector3) -> tuple[int, float]:
 
 @compiled
 def nearest_feature(
-    n_faces: float, faces: Floats, n_edges: float, edges: Floats, ends: Floats, x: float, y: float, z: float
+    n_faces: float, faces: Floats, n_edges: float, edges: Floats, ends: Floats, point: Vector3
 ) -> Nearest:
-    """Return the feature nearest to the point (x, y, z) of the body frame.
+    """Return the feature nearest to a point of the body frame.
 
     For a point inside, this is the nearest face, with a negative distance.  The direction from an edge to a point on
     it is undefined; a unit vector perpendicular to the edge is returned.
     """
-    face, distance = _face(faces, n_faces, x, y, z)
+    face, distance = _face(faces, n_faces, point)
     if face >= 0:
         return face, distance, *vector_at(faces, FACE * face), math.inf
-    edge, along = _edge(edges, n_edges, (x, y, z))
+    edge, along = _edge(edges, n_edges, point)
     e = EDGE * edge
-    n = minus(minus((x, y, z), vector_at(edges, e)), times(along, vector_at(edges, e + 3)))
+    n = minus(minus(point, vector_at(edges, e)), times(along, vector_at(edges, e + 3)))
     distance = size_of(n)
     n = over(n, distance) if distance > 0.0 else tangent_of(vector_at(edges, e + 3))
     within = min(along, edges[e + 6] - along)
@@ -193,4 +194,4 @@ def nearest_feature(
 def nearest_of_core(core: Floats, point: Vector3) -> Nearest:
     """Return the feature of a core that is nearest to a point of the body frame (:func:`nearest_feature`)."""
     ends = block_at(core, int(core[ENDS]))
-    return nearest_feature(*faces_of(core), *edges_of(core), ends, *point)
+    return nearest_feature(*faces_of(core), *edges_of(core), ends, point)

@@ -21,7 +21,7 @@ from nonsmooth.engine.memory.blocks import (
 )
 from nonsmooth.types import Floats
 
-from ...vectors import ahead, cross, dot, minus, over, put, size_of, times, vector_at
+from ...vectors import Vector3, ahead, cross, dot, minus, over, put, size_of, times, vector_at
 from .frames import write_tangent
 
 
@@ -61,15 +61,13 @@ def write_sweep(out: Floats, side: int, radius: float) -> None:
 def write_principal(
     out: Floats,
     side: int,
-    x: float,
-    y: float,
-    z: float,
+    along: Vector3,
     slide_along: float,
     turn_along: float,
     slide_across: float,
     turn_across: float,
 ) -> None:
-    """Write the curvature matrices of a surface that are diagonal along and across the unit tangent (x, y, z).
+    """Write the curvature matrices of a surface that are diagonal along and across the unit tangent ``along``.
 
     The matrices fulfil ``slide @ u = turn @ nu``: the contact point moves by u over the surface while the normal turns
     by nu.  The arguments are their diagonal elements.  The geometry block ``out`` must already hold the normal and the
@@ -88,7 +86,7 @@ def write_principal(
     """
     tangent = vector_at(out, TANGENT)
     # the second tangent is n x t1
-    c, s = dot((x, y, z), tangent), dot((x, y, z), cross(vector_at(out, NORMAL), tangent))
+    c, s = dot(along, tangent), dot(along, cross(vector_at(out, NORMAL), tangent))
     slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
     out[slide] = c * c * slide_along + s * s * slide_across
     out[slide + 1] = out[slide + 2] = c * s * (slide_along - slide_across)
@@ -121,12 +119,13 @@ def write_apart(a: Floats, out: Floats, size: float) -> None:
 
 
 @compiled
-def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: float, ny: float, nz: float) -> None:
+def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, n: Vector3) -> None:
     """Write gap, axes and witness points of two rounded bodies, from the nearest points of their cores.
 
     On entry, the witness points in ``out`` are the nearest points of the cores.  If the cores touch, these points give
     no normal, and (nx, ny, nz) is taken: it must be perpendicular to both cores.
     """
+    nx, ny, nz = n
     p, q = vector_at(out, POINT_A), vector_at(out, POINT_B)
     distance = size_of(minus(q, p))
     n = over(minus(q, p), distance) if distance > 0.0 else (nx, ny, nz)
@@ -138,15 +137,15 @@ def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: flo
 
 
 @compiled
-def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance: float, radius: float) -> None:
-    """Write gap, tangent and witness points of a sphere with centre (x, y, z) and ``radius`` [m].
+def place_sphere(a: Floats, out: Floats, center: Vector3, distance: float, radius: float) -> None:
+    """Write gap, tangent and witness points of a sphere with ``center`` and ``radius`` [m].
 
     ``distance`` is the distance of the centre from the other surface [m], along the normal that ``out`` already holds.
     """
     out[GAP] = distance - radius
     n = vector_at(out, NORMAL)
-    put(out, POINT_A, minus((x, y, z), times(distance, n)))
-    put(out, POINT_B, minus((x, y, z), times(radius, n)))
+    put(out, POINT_A, minus(center, times(distance, n)))
+    put(out, POINT_B, minus(center, times(radius, n)))
     write_tangent(a, out)
 
 

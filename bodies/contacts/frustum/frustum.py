@@ -151,7 +151,7 @@ def separation_over_faces(a: Floats, b: Floats, frustum: Floats, core: Floats) -
     best = -math.inf
     for i in range(int(core[N_FACES])):
         f = int(core[FACES]) + FACE * i
-        best = max(best, least_height(frustum, plane_height(core, f, *center), axis, vector_at(core, f)))
+        best = max(best, least_height(frustum, plane_height(core, f, center), axis, vector_at(core, f)))
     return best
 
 
@@ -223,7 +223,7 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
     else:
         # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
         flank, turn = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
-        write_principal(out, side, *cross(axis, outward), turn, away, 1.0 - flank, flank)
+        write_principal(out, side, cross(axis, outward), turn, away, 1.0 - flank, flank)
 
 
 @compiled

@@ -134,7 +134,7 @@ def evaluate_vertex_over_frustum(
             inside = highest
             if frustum[SIDE] == 0.0:
                 inside = tip_past_rim(b, n_star, star, lengths, minus(point, center), n, -height, frustum[0])
-                inside = min(inside, height_over(b, *faces_of(core), *below))
+                inside = min(inside, height_over(b, *faces_of(core), below))
             beyond = max(beyond, inside)
         if beyond - margin < past:
             found, gap, past = part, height, beyond - margin

@@ -136,7 +136,7 @@ def _into(frustum: Floats, point: Vector3) -> Vector3:
     away = math.sqrt(x * x + y * y)
     outside, radial, axial, _ = nearest_part(frustum, z, away)
     if outside <= 0.0:
-        return x, y, z
+        return point
     across = outside * radial / away if away > 0.0 else 0.0
     return x - across * x, y - across * y, z - outside * axial
 

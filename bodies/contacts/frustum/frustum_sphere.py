@@ -31,7 +31,7 @@ def write_frustum_ball(
     distance, radial, axial, part = nearest_part(first, along, away)
     put(out, NORMAL, ahead(times(radial, outward), axial, axis))
     out[FEATURE] = part_number(first, part)
-    place_sphere(a, out, *point, distance - first[SWEEP], radius)
+    place_sphere(a, out, point, distance - first[SWEEP], radius)
     write_part(out, SIDE_A, part, axis, outward, radial, away - distance * radial)
     write_sweep(out, SIDE_A, first[SWEEP])
     write_round(out, SIDE_B, radius)

@@ -47,9 +47,9 @@ def evaluate_rounded_vertex(
     point, distance, part = write_frustum_ball(a, b, out, first, radius, vector_at(place, 0))
     # over a cap the contact does not end at the vertex: an edge over the cap touches with both ends, also if it tilts
     is_flat = part in (LOW_CAP, HIGH_CAP)
-    past = past_star(b, star, 0.0 if is_flat else n_star, distance, out[1], out[2], out[3], size)
+    past = past_star(b, star, 0.0 if is_flat else n_star, distance, (out[1], out[2], out[3]), size)
     gap, out[PAST_END] = ended_gap(out[GAP], past, size)
-    place_sphere(a, out, *point, gap + radius, radius)
+    place_sphere(a, out, point, gap + radius, radius)
 
 
 write_rounded_vertex = compiled(evaluate_rounded_vertex)

@@ -198,7 +198,7 @@ def astray_of_edge(b: Floats, edge: Floats, axes: Axes, normal: Vector3) -> floa
     The contact normal, in the axes of the frustum, points from the frustum to the edge.  The fan lies between the
     normals of the two faces of the edge.
     """
-    return float(edge_astray(b, edge, 0, -1.0, *forth(axes, normal)))
+    return float(edge_astray(b, edge, 0, -1.0, forth(axes, normal)))
 
 
 @compiled
@@ -254,4 +254,4 @@ def write_crossing(
     sweep, outward = frustum[SWEEP], forth(axes, normal)
     gap = gap_past_end(distance - radius - sweep, max(PARALLEL, sine) * past)
     write_contact(a, out, gap, past, 0.0, outward, ahead(p, sweep, outward), False)
-    write_principal(out, SIDE_B, *vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)
+    write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

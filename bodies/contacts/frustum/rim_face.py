@@ -51,7 +51,7 @@ def _past_flat(faces: Floats, n_faces: float, face: int, center: Vector3, radius
     ``radius`` [m]: it lies within the face, or it crosses the border of the face.  If the whole face lies inside of the
     rim, the vertices and edges of the face carry the load instead.
     """
-    over = past_face(faces, n_faces, face, plane_height(faces, face, *center), *center)
+    over = past_face(faces, n_faces, face, plane_height(faces, face, center), center)
     if over <= -radius:
         return float(over)
     n, least = vector_at(faces, face), radius
@@ -59,14 +59,14 @@ def _past_flat(faces: Floats, n_faces: float, face: int, center: Vector3, radius
         f = FACE * i
         # distance and direction, in the plane of this face, from the centre to the line of another face
         along, sine, e = across(vector_at(faces, f), n)
-        away = along * plane_height(faces, face, *center) - plane_height(faces, f, *center)
+        away = along * plane_height(faces, face, center) - plane_height(faces, f, center)
         if f == face or abs(away) >= radius * sine:
             continue
         away /= sine
         half = math.sqrt(radius * radius - away * away)
         for sign in (-half, half):
             p = plus(ahead(center, away, e), times(sign, cross(n, e)))
-            least = min(least, past_face(faces, n_faces, face, plane_height(faces, face, *p), *p))
+            least = min(least, past_face(faces, n_faces, face, plane_height(faces, face, p), p))
     return float(max(over, least))
 
 
@@ -111,19 +111,19 @@ def evaluate_rim_over_faces(
     found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
         f = FACE * i
-        if least_height(frustum, plane_height(faces, f, *middle), own_axis, vector_at(faces, f)) < best - margin:
+        if least_height(frustum, plane_height(faces, f, middle), own_axis, vector_at(faces, f)) < best - margin:
             continue
         point, at = _touching(a, b, radius, place, axis, vector_in_world(b, vector_at(faces, f)))
         p = point_in_body(b, point)
-        height = plane_height(faces, f, *p)
-        beyond = past_face(faces, n_faces, f, height, *p)
+        height = plane_height(faces, f, p)
+        beyond = past_face(faces, n_faces, f, height, p)
         if radius > 0.0 and at[4] == FLATTEST:
             p = point_in_body(b, place)
             beyond = _past_flat(faces, n_faces, f, p, radius)
         if height < 0.0:
             # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
             for j in range(int(n_faces)):
-                beyond = max(beyond, plane_height(faces, FACE * j, *p))
+                beyond = max(beyond, plane_height(faces, FACE * j, p))
         if beyond - margin < past:
             found, gap, past = i, height, beyond - margin
     own = frustum[SWEEP]

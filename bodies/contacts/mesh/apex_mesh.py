@@ -48,10 +48,10 @@ def write_apex(
     """Write the geometry block of a round apex and a patch of the second body, searched up to ``reach`` [m]."""
     axis, apex = axis_in_world(a, first), on_axis_in_world(a, first, first[HIGH])
     place = point_in_body(b, apex)
-    found = nearest_in_patch(surface, patch, *place, reach)
+    found = nearest_in_patch(surface, patch, place, reach)
     # if there is one patch only, it is the whole surface, which has no end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
-    n = opposite(out_of_surface(b, surface, found, past, *place))
+    n = opposite(out_of_surface(b, surface, found, past, place))
     radius = first[SWEEP]
     gap = found[0] - radius
     beyond = past_apex(first, found[0], dot(n, axis), size)

@@ -85,7 +85,7 @@ def evaluate_corner_over_frustum(
             # the point of the disc nearest to the corner
             past_rim = tip_past_rim(b, n_star, star, lengths, minus(point, center), n, -height, frustum[0])
             below = vector_in_body(b, minus(ahead(point, -height, n), vector_at(b, POSITION)))
-            if past_rim > 0.0 and depth_inside(surface, *below) == 0.0:
+            if past_rim > 0.0 and depth_inside(surface, below) == 0.0:
                 beyond = min(-height, past_rim)
         key = height * height + max(beyond, 0.0) * max(beyond, 0.0)
         if key < best:

@@ -97,7 +97,7 @@ def rim_is_near(
     wide = max(size_of(minus(one, middle)), size_of(minus(two, middle)), size_of(minus(three, middle)))
     if _from_rim(frustum, upper, pose, middle) > reach + wide:
         return False
-    x, y, z, _ = in_triangle(surface, t, *lowest)
+    x, y, z, _ = in_triangle(surface, t, lowest)
     off, way = minus(lowest, (x, y, z)), reach + frustum[upper] * _swing(radial, turn)
     return bool(dot(off, off) <= way * way)
 
@@ -217,7 +217,7 @@ def corner_is_near(
         return True
     if frustum[SWEEP] > 0.0:
         down, way = opposite(normal_of_part(axis, outward, radial, axial)), reach - frustum[SWEEP]
-        return bool(distance <= 0.0 or distance * steepest(surface, c, *down) <= way + turn * distance)
+        return bool(distance <= 0.0 or distance * steepest(surface, c, down) <= way + turn * distance)
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if not has_part(frustum, part):
             continue
@@ -227,6 +227,6 @@ def corner_is_near(
             # as the corner moves by up to ``reach``, the side's normal turns round the axis: add a bound of the angle
             slack += 2.0 if reach >= away else 0.5 * math.pi * reach / away
         down = opposite(normal_of_part(axis, outward, radial, axial))
-        if abs(height) <= reach and beyond <= reach and steepest(surface, c, *down) <= ASTRAY + slack:
+        if abs(height) <= reach and beyond <= reach and steepest(surface, c, down) <= ASTRAY + slack:
             return True
     return False

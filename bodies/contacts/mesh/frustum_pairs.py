@@ -177,7 +177,7 @@ def find_near_frustum(
             b, a, surface, place, points[v + 3], star, sweep + reach, turn, POINT, float(i), out, n, limit
         )
     if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[1] == 0.0:
-        n = patches_near(surface, *ahead(pose[0], frustum[HIGH], pose[1]), sweep + reach, APEX, 0.0, out, n, limit)
+        n = patches_near(surface, ahead(pose[0], frustum[HIGH], pose[1]), sweep + reach, APEX, 0.0, out, n, limit)
     out[0] = float(n) if n <= limit else most + 1.0
 
 

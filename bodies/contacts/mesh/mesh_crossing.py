@@ -40,7 +40,7 @@ def _is_aside(b: Floats, out: Floats, frustum: Floats, axes: Axes, place: Vector
 
     ``place`` is the centre of the frustum in the world, ``axes`` are its axes.
     """
-    if depth_inside(surface, *point_in_body(b, vector_at(out, POINT_A))) > 0.0:
+    if depth_inside(surface, point_in_body(b, vector_at(out, POINT_A))) > 0.0:
         return False
     along, away, _ = across(minus(vector_at(out, POINT_B), place), (axes[2], axes[5], axes[8]))
     outside, _, _, _ = nearest_part(frustum, along, away)
@@ -59,7 +59,7 @@ def _judge(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, sur
     if out[PAST_END] > 0.0:
         return
     if gap >= -CLOSED * size:
-        astray = edge_astray(b, edge, 0, -1.0, *vector_at(out, NORMAL))
+        astray = edge_astray(b, edge, 0, -1.0, vector_at(out, NORMAL))
         beyond = size * (astray - _ASTRAY)
     elif _is_aside(b, out, frustum, axes_in_world(a, frustum), center_in_world(a, frustum), surface):
         beyond = -gap

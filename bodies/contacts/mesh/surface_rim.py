@@ -96,7 +96,7 @@ def rim_under(
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
-        apart_at_least = math.sqrt(box_square(surface, at, *center)) - radius
+        apart_at_least = math.sqrt(box_square(surface, at, center)) - radius
         if apart_at_least > math.sqrt(best) or not has_patch(surface, at, patch):
             node = int(surface[at + 6])
             continue
@@ -111,11 +111,11 @@ def rim_under(
                 continue
             axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, f)), axis, otherwise)
             p = ahead(center, radius, outward)
-            height = face_height(surface, f, *p)
+            height = face_height(surface, f, p)
             if height * height > best:
                 continue
             lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
-            over, inside, ends, square = over_face(surface, t, height, lean, margin, *p)
+            over, inside, ends, square = over_face(surface, t, height, lean, margin, p)
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face, point_under = -height, inside, face, p
             key = square + max(ends, 0.0) * max(ends, 0.0)
@@ -124,9 +124,7 @@ def rim_under(
         node += 1
     if under * under < best:
         point = point_under
-    face, gap, past = touched_face(
-        surface, found, best, height_best, apart, past, under_face, under, under_past, *point
-    )
+    face, gap, past = touched_face(surface, found, best, height_best, apart, past, under_face, under, under_past, point)
     return face, gap, past
 
 
@@ -143,14 +141,14 @@ def rim_over(
     size, f = surface[SIZE], int(surface[FACES]) + FACE * face
     axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, f)), axis, otherwise)
     point = ahead(center, radius, outward)
-    height = face_height(surface, f, *point)
+    height = face_height(surface, f, point)
     lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
     best, height_best, apart, past = reach * reach, 0.0, reach, reach
     under, under_past, under_face = math.inf, 0.0, -1
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
-        if box_square(surface, at, *point) > best:
+        if box_square(surface, at, point) > best:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -158,14 +156,14 @@ def rim_over(
             t = int(surface[TRIANGLES]) + TRIANGLE * member
             if member >= n_triangles or int(surface[t + 9]) != face:
                 continue
-            over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, *point)
+            over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, point)
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face = -height, inside, face
             key = square + max(ends, 0.0) * max(ends, 0.0)
             if key < best:
                 best, height_best, apart, past = key, height, math.sqrt(square), ends
         node += 1
-    _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, *point)
+    _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, point)
     return gap, past
 
 
@@ -193,6 +191,6 @@ def write_rim(
     _, sine, outward = lowest_on_rim(n, axis, otherwise)
     point = ahead(ahead(point_in_world(a, place), radius, outward), sweep, n)
     write_contact(a, out, gap_at_distance(gap, past, sweep), past, float(face), n, point, False)
-    write_principal(out, SIDE_A, *cross(axis, outward), max(sine, FLATTEST), radius, 1.0, 0.0)
+    write_principal(out, SIDE_A, cross(axis, outward), max(sine, FLATTEST), radius, 1.0, 0.0)
     write_sweep(out, SIDE_A, sweep)
     write_flat(out, SIDE_B)

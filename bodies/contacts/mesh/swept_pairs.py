@@ -64,7 +64,7 @@ def corners_over(a: Floats, b: Floats, surface: Floats, core: Floats, near: Near
                 continue
             to_core = opposite(vector_in_body(a, vector_in_world(b, (x, y, z))))
             is_over_face = number < int(core[N_FACES]) or distance <= 0.0
-            if is_over_face or distance * steepest(surface, c, *to_core) <= reach + turn * distance:
+            if is_over_face or distance * steepest(surface, c, to_core) <= reach + turn * distance:
                 put(out, 1 + 3 * n, (UNDER, float(corner), 0.0))
                 n += 1
         node += 1
@@ -85,7 +85,7 @@ def find_near_swept(
     turn, around = turning * reach, core[SWEEP] + reach
     for i in range(int(core[N_VERTICES])):
         point = seen_from(a, b, vector_at(core, vertex_at(core, i)))
-        n = patches_near(surface, *point, around, BALL, float(i), out, n, limit)
+        n = patches_near(surface, point, around, BALL, float(i), out, n, limit)
     n = corners_over(a, b, surface, core, (reach, turn, limit), out, n)
     for j in range(int(core[N_CORE_EDGES])):
         n = edges_across(a, b, surface, core, core_edge_at(core, j), float(j), (around, turn, limit), ACROSS, out, n)

@@ -88,13 +88,13 @@ def past_if_convex(
     """
     p, e, f, n, gap, _, _ = crossing
     ends = min(core_a[one + LENGTH], core_b[two + LENGTH]) * size_of(cross(e, f))
-    inside = max(edge_astray(a, core_a, one, 1.0, *n), edge_astray(b, core_b, two, -1.0, *n))
+    inside = max(edge_astray(a, core_a, one, 1.0, n), edge_astray(b, core_b, two, -1.0, n))
     is_flush = ends < within and inside > -_FLUSH
     if past <= within and (gap < -within or is_flush):
         best = max(separation_of_faces(a, b, core_a, core_b), separation_of_faces(b, a, core_b, core_a))
         if is_flush and best >= gap - within:
             past = max(past, within - ends)
-        outside = min(height_over(b, *faces_of(core_b), *p), height_over(a, *faces_of(core_a), *ahead(p, gap, n)))
+        outside = min(height_over(b, *faces_of(core_b), p), height_over(a, *faces_of(core_a), ahead(p, gap, n)))
         if gap < -within and outside > within:
             best = max(best, _separation_of_edges(a, b, core_a, core_b, parallel))
         past = max(past, best - gap - within)

@@ -48,7 +48,7 @@ def bound_of_vertex_over_faces(
     """Write the height of a vertex over the faces [m]."""
     own_frame, other = (a, b) if swap == 1.0 else (b, a)
     place = point_in_world(own_frame, vector_at(own, vertex_at(own, vertex)))
-    out[0] = height_over(other, *faces_of(core), *place)
+    out[0] = height_over(other, *faces_of(core), place)
 
 
 def vertex_over_faces(

@@ -45,8 +45,8 @@ def evaluate_convex_edges(
     # take the edge as tangent: it is fixed to a body. If both edges lie in a face, round-off turns the normal, and a
     # tangent that is computed from the normal would turn with it
     put(out, TANGENT, e)
-    write_principal(out, SIDE_A, *e, 0.0, 1.0, 1.0, 0.0)
-    write_principal(out, SIDE_B, *f, 0.0, 1.0, 1.0, 0.0)
+    write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, 0.0)
+    write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, 0.0)
 
 
 def bound_of_convex_edges(

@@ -47,7 +47,7 @@ def evaluate_swept_edges(
         past = max(past, over + END * size)
         past = past_if_convex(a, b, core_a, one, core_b, two, crossing, past, PARALLEL, END * size)
     elif past <= 0.0:
-        past, u = over + END * size, common_direction(a, b, *faces_of(core_a), *faces_of(core_b), *n)
+        past, u = over + END * size, common_direction(a, b, *faces_of(core_a), *faces_of(core_b), n)
         # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
         part = part_of_overlap(radius_a + radius_b - gap, size)
         if part > 0.0 and dot(u, u) > 0.0:
@@ -63,8 +63,8 @@ def evaluate_swept_edges(
     put(out, POINT_A, ahead(p, radius_a, n))
     put(out, POINT_B, ahead(ahead(p, radius_a, n), gap, n))
     write_tangent(a, out)
-    write_principal(out, SIDE_A, *e, 0.0, 1.0, 1.0, radius_a)
-    write_principal(out, SIDE_B, *f, 0.0, 1.0, 1.0, radius_b)
+    write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, radius_a)
+    write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, radius_b)
 
 
 def bound_of_swept_edges(

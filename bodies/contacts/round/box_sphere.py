@@ -96,7 +96,7 @@ def evaluate_box_sphere(
     p = minus(point_in_body(a, center), vector_at(center_a, 0))
     sides, distance, n = _nearest_feature(vector_at(half, 0), turned_by(w, -x, -y, -z, p[0], p[1], p[2]))
     put(out, NORMAL, vector_in_world(a, _in_body(orientation, n)))
-    place_sphere(a, out, center[0], center[1], center[2], distance - rounding, radius)
+    place_sphere(a, out, (center[0], center[1], center[2]), distance - rounding, radius)
     on_x, on_y, on_z = abs(sides[0]), abs(sides[1]), abs(sides[2])
     if on_x + on_y + on_z == 1:
         write_flat(out, SIDE_A)
@@ -105,7 +105,7 @@ def evaluate_box_sphere(
     else:
         # an edge lies along the axis that it does not bound
         x, y, z = vector_in_world(a, _in_body(orientation, (1.0 - on_x, 1.0 - on_y, 1.0 - on_z)))
-        write_principal(out, SIDE_A, x, y, z, 0.0, 1.0, 1.0, rounding)
+        write_principal(out, SIDE_A, (x, y, z), 0.0, 1.0, 1.0, rounding)
     write_round(out, SIDE_B, radius)
     number = 9 * (sides[0] + 1) + 3 * (sides[1] + 1) + sides[2] + 1
     out[FEATURE] = number - 1 if number > 13 else number

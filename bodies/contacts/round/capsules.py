@@ -49,8 +49,7 @@ def _within(coordinate: float, half: float) -> float:
 @compiled
 def _write_side(out: Floats, side: int, axis: Vector3, radius: float) -> None:
     """Write the curvature matrices of the side of a capsule with this unit axis in the world."""
-    x, y, z = axis
-    write_principal(out, side, x, y, z, 0.0, 1.0, 1.0, radius)
+    write_principal(out, side, axis, 0.0, 1.0, 1.0, radius)
 
 
 def evaluate_capsule_sphere(a: Floats, b: Floats, out: Floats, first: Floats, radius: float, center: Floats) -> None:
@@ -63,7 +62,7 @@ def evaluate_capsule_sphere(a: Floats, b: Floats, out: Floats, first: Floats, ra
     put(out, POINT_B, point)
     put(out, POINT_A, ahead(middle, near, axis))
     x, y, z = tangent_of(axis)
-    join_cores(a, out, own, radius, x, y, z)
+    join_cores(a, out, own, radius, (x, y, z))
     if near == along:
         _write_side(out, SIDE_A, axis, own)
         out[FEATURE] = 1.0
@@ -128,7 +127,7 @@ def evaluate_capsules(a: Floats, b: Floats, out: Floats, first: Floats, second: 
     normal = cross(u, v)
     sine = size_of(normal)
     x, y, z = over(normal, sine) if sine > 0.0 else tangent_of(u)
-    join_cores(a, out, radius_a, radius_b, x, y, z)
+    join_cores(a, out, radius_a, radius_b, (x, y, z))
     side_a, side_b = abs(s) < half_a, abs(t) < half_b
     write_round(out, SIDE_A, radius_a)
     write_round(out, SIDE_B, radius_b)
@@ -136,7 +135,7 @@ def evaluate_capsules(a: Floats, b: Floats, out: Floats, first: Floats, second: 
         _write_side(out, SIDE_B, v, radius_b)
     if side_a and side_b and is_parallel:
         x, y, z = u
-        write_principal(out, SIDE_A, x, y, z, 1.0, 0.0, 1.0, radius_a)
+        write_principal(out, SIDE_A, (x, y, z), 1.0, 0.0, 1.0, radius_a)
     elif side_a:
         _write_side(out, SIDE_A, u, radius_a)
     part_a, part_b = 0.0 if side_a else math.copysign(1.0, s), 0.0 if side_b else math.copysign(1.0, t)

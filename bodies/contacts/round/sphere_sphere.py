@@ -21,7 +21,7 @@ def evaluate_spheres(
     """Write the geometry block of two spheres, given by radius [m] and centre in the body frame [m]."""
     put(out, POINT_A, point_in_world(a, vector_at(center_a, 0)))
     put(out, POINT_B, point_in_world(b, vector_at(center_b, 0)))
-    join_cores(a, out, radius_a, radius_b, a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8])
+    join_cores(a, out, radius_a, radius_b, (a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8]))
     write_round(out, SIDE_A, radius_a)
     write_round(out, SIDE_B, radius_b)
 

@@ -416,7 +416,7 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:
         x, y, z = vector_in_world(a, _edge(first, feature - n_faces)[0])
-        write_principal(out, SIDE_A, x, y, z, 0.0, 1.0, 1.0, first[RADIUS])
+        write_principal(out, SIDE_A, (x, y, z), 0.0, 1.0, 1.0, first[RADIUS])
     else:
         write_round(out, SIDE_A, first[RADIUS])
 

@@ -42,8 +42,8 @@ def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Flo
     if sine <= _ALONG:
         return True
     n = over(n, sine)
-    ahead = max(edge_astray(a, surface_a, one, 1.0, *n), edge_astray(b, surface_b, two, -1.0, *n))
-    behind = max(edge_astray(a, surface_a, one, -1.0, *n), edge_astray(b, surface_b, two, 1.0, *n))
+    ahead = max(edge_astray(a, surface_a, one, 1.0, n), edge_astray(b, surface_b, two, -1.0, n))
+    behind = max(edge_astray(a, surface_a, one, -1.0, n), edge_astray(b, surface_b, two, 1.0, n))
     # a rotation by `turn` turns the normals of an edge by `turn`, the common normal of both by at most 2 turn / sine
     return bool(min(ahead, behind) <= ASTRAY + turn * (1.0 + 2.0 / sine))
 

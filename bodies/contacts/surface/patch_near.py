@@ -28,7 +28,7 @@ A candidate has three numbers: its kind, the number of the patch, and 0.
 def find_near_patches(a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, place: Floats) -> None:
     """Find the patches with a feature near the ball that encloses the second body, about a place in its frame [m]."""
     most, reach = int(surface[N_PATCHES]), extent + out[0]
-    out[0] = float(patches_near(surface, *seen_from(a, b, vector_at(place, 0)), reach, NEAR, 0.0, out, 0, most))
+    out[0] = float(patches_near(surface, seen_from(a, b, vector_at(place, 0)), reach, NEAR, 0.0, out, 0, most))
 
 
 def patch_contacts(

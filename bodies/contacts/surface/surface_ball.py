@@ -20,16 +20,16 @@ from .surface_tables import N_EDGES, N_FACES, N_PATCHES
 
 
 @compiled
-def out_of_surface(frame: Floats, surface: Floats, found: Found, past: float, x: float, y: float, z: float) -> Vector3:
-    """Return the unit normal, in world axes, at a surface's nearest point to the point (x, y, z) of the body frame.
+def out_of_surface(frame: Floats, surface: Floats, found: Found, past: float, point: Vector3) -> Vector3:
+    """Return the unit normal, in world axes, at a surface's nearest point to a point of the body frame.
 
-    On a face it is the normal of the face; else it points from the nearest point to (x, y, z).  ``found`` is the result
+    On a face it is the normal of the face; else it points from the nearest point to ``point``.  ``found`` is the result
     of :func:`nearest_in_patch`, and ``past`` the distance past the end of the feature [m].
     """
     distance, _, kind, number, px, py, pz = found
     n = vector_at(surface, face_at(surface, number))
     if not (kind == ON_FACE and (past <= 0.0 or distance == 0.0)):
-        n = over(minus((x, y, z), (px, py, pz)), distance)
+        n = over(minus(point, (px, py, pz)), distance)
     return vector_in_world(frame, n)
 
 
@@ -44,7 +44,7 @@ def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: 
         write_flat(out, side)
     elif kind == ON_EDGE:
         along = vector_in_world(frame, vector_at(surface, edge_at(surface, number) + 3))
-        write_principal(out, side, *along, 0.0, 1.0, 1.0, 0.0)
+        write_principal(out, side, along, 0.0, 1.0, 1.0, 0.0)
         out[FEATURE] += surface[N_FACES]
     else:
         write_round(out, side, 0.0)
@@ -71,20 +71,20 @@ def write_ball(
     """
     center = point_in_world(b, place)
     x, y, z = point_in_body(a, center)
-    found = nearest_in_patch(surface, patch, x, y, z, reach)
+    found = nearest_in_patch(surface, patch, (x, y, z), reach)
     distance, kind, number = found[0], found[2], found[3]
     # if there is one patch only, it is the whole surface: the contact point can never be past its end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
-    n = out_of_surface(a, surface, found, past, x, y, z)
+    n = out_of_surface(a, surface, found, past, (x, y, z))
     # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
     if n_star > 0.0 and kind != ON_FACE:
-        beyond = past_star(b, star, n_star, distance, *n, size)
+        beyond = past_star(b, star, n_star, distance, n, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
     put(out, NORMAL, n)
     if past > 0.0:
         apart = max(distance - radius, 0.0)
         distance = math.sqrt(apart * apart + past * past) + radius
-    place_sphere(a, out, *center, distance, radius)
+    place_sphere(a, out, center, distance, radius)
     out[PAST_END] = past
     write_feature(a, out, SIDE_A, surface, kind, number)
     write_round(out, SIDE_B, radius)

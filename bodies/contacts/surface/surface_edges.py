@@ -43,5 +43,5 @@ def write_edges(
     put(out, POINT_A, p)
     put(out, POINT_B, ahead(p, gap, n))
     write_tangent(a, out)
-    write_principal(out, SIDE_A, *e, 0.0, 1.0, 1.0, 0.0)
-    write_principal(out, SIDE_B, *f, 0.0, 1.0, 1.0, radius)
+    write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, 0.0)
+    write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, radius)

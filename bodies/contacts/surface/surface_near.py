@@ -53,7 +53,7 @@ def _is_near(surface: Floats, point: Vector3, reach: float) -> bool:
     node = 0
     while node < int(surface[N_NODES]):
         at = node_at(surface, node)
-        if box_square(surface, at, *point) > reach * reach:
+        if box_square(surface, at, point) > reach * reach:
             node = int(surface[at + 6])
         elif surface[at + 8] > 0.0:
             return True
@@ -79,9 +79,7 @@ def _add_patch(patch: float, kind: float, third: float, first: int, out: Floats,
 @compiled
 def patches_near(
     surface: Floats,
-    x: float,
-    y: float,
-    z: float,
+    point: Vector3,
     reach: float,
     kind: float,
     third: float,
@@ -109,7 +107,7 @@ def patches_near(
     first, node = n, 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
-        if box_square(surface, at, x, y, z) > reach * reach:
+        if box_square(surface, at, point) > reach * reach:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -157,7 +155,7 @@ def patches_under(
     first, node = n, 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
-        if box_square(surface, at, *point) > reach * reach:
+        if box_square(surface, at, point) > reach * reach:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -165,7 +163,7 @@ def patches_under(
             if what != ON_FACE or n > most:
                 continue
             f = face_at(surface, face)
-            px, py, pz, _ = in_triangle(surface, t, *point)
+            px, py, pz, _ = in_triangle(surface, t, point)
             apart = minus(point, (px, py, pz))
             if dot(apart, apart) <= reach * reach and leaning(frame, other, surface, f, n_star, star) <= ASTRAY + turn:
                 n = _add_patch(surface[f + 4], kind, third, first, out, n)

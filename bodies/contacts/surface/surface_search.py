@@ -92,8 +92,9 @@ def corner_at(surface: Floats, corner: int) -> tuple[Vector3, float, Floats]:
 
 
 @compiled
-def box_square(surface: Floats, at: int, x: float, y: float, z: float) -> float:
+def box_square(surface: Floats, at: int, point: Vector3) -> float:
     """Return the square of the distance of a point from the box of the node at index ``at`` [m^2]."""
+    x, y, z = point
     dx = max(max(surface[at] - x, x - surface[at + 3]), 0.0)
     dy = max(max(surface[at + 1] - y, y - surface[at + 4]), 0.0)
     dz = max(max(surface[at + 2] - z, z - surface[at + 5]), 0.0)
@@ -101,9 +102,9 @@ def box_square(surface: Floats, at: int, x: float, y: float, z: float) -> float:
 
 
 @compiled
-def face_height(surface: Floats, face: int, x: float, y: float, z: float) -> float:
+def face_height(surface: Floats, face: int, point: Vector3) -> float:
     """Return the height of a point over the plane of the face whose row begins at index ``face`` [m]."""
-    return float(dot(vector_at(surface, face), (x, y, z)) - surface[face + 3])
+    return float(dot(vector_at(surface, face), point) - surface[face + 3])
 
 
 @compiled
@@ -124,14 +125,14 @@ def over_ends(surface: Floats, triangle: int, point: Vector3) -> tuple[float, fl
 
 
 @compiled
-def in_triangle(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float, float, int]:
-    """Return a triangle's point nearest to (x, y, z), and 0 if it is inside, 1 to 3 on an edge, 4 to 6 at a vertex.
+def in_triangle(surface: Floats, triangle: int, point: Vector3) -> tuple[float, float, float, int]:
+    """Return a triangle's point nearest to ``point``, and 0 if it is inside, 1 to 3 on an edge, 4 to 6 at a vertex.
 
     By the regions of C. Ericson, "Real-Time Collision Detection" (Morgan Kaufmann, 2005), section 5.1.5.
     """
     a = vector_at(surface, triangle)
     b, c = minus(vector_at(surface, triangle + 3), a), minus(vector_at(surface, triangle + 6), a)
-    p = minus((x, y, z), a)
+    p = minus(point, a)
     d1, d2 = dot(b, p), dot(c, p)
     if d1 <= 0.0 and d2 <= 0.0:
         return *a, 4
@@ -162,45 +163,45 @@ def has_patch(surface: Floats, at: int, patch: float) -> bool:
 
 
 @compiled
-def first_leaf(surface: Floats, patch: float, x: float, y: float, z: float) -> int:
+def first_leaf(surface: Floats, patch: float, point: Vector3) -> int:
     """Return the number of the tree node in which the search for a patch's nearest feature starts: a leaf.
 
     The leaf may hold features of ``patch`` (of any patch if it is negative).  The leaf's box is near the point
-    (x, y, z), so that the distance found there excludes most other leaves.
+    ``point``, so that the distance found there excludes most other leaves.
     """
     node = 0
     while surface[node_at(surface, node) + 8] == 0.0:
         left = node + 1
         right = int(surface[node_at(surface, left) + 6])
         one, two = node_at(surface, left), node_at(surface, right)
-        nearer = box_square(surface, one, x, y, z) <= box_square(surface, two, x, y, z)
+        nearer = box_square(surface, one, point) <= box_square(surface, two, point)
         node = left if has_patch(surface, one, patch) and (nearer or not has_patch(surface, two, patch)) else right
     return node
 
 
 @compiled
-def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
+def depth_inside(surface: Floats, point: Vector3) -> float:
     """Return how far a point is inside of the body [m], 0 outside.
 
     The sign comes from the normal at the nearest point; on edges and at vertices, from normals weighted by angles:
     J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE Transactions
     on Visualization and Computer Graphics 11 (2005) 243-253.
     """
-    if box_square(surface, node_at(surface, 0), x, y, z) > 0.0:
+    if box_square(surface, node_at(surface, 0), point) > 0.0:
         return 0.0
     least, side = math.inf, 0.0
-    first = first_leaf(surface, -1.0, x, y, z)
+    first = first_leaf(surface, -1.0, point)
     node = -1
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and box_square(surface, at, x, y, z) > least:
+        if node >= 0 and box_square(surface, at, point) > least:
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
             what, face, t = feature_of(surface, member_of(surface, at, i))
             if what == ON_FACE:
-                qx, qy, qz, region = in_triangle(surface, t, x, y, z)
-                apart = minus((x, y, z), (qx, qy, qz))
+                qx, qy, qz, region = in_triangle(surface, t, point)
+                apart = minus(point, (qx, qy, qz))
                 square = dot(apart, apart)
                 if square < least:
                     least = square
@@ -224,21 +225,21 @@ def past_edge(surface: Floats, edge: int, point: Vector3) -> tuple[float, Vector
 @compiled
 def past_corner(surface: Floats, corner: int, point: Vector3) -> float:
     """Return how far a point is past the normals of a corner [m]."""
-    return float(steepest(surface, corner, *minus(point, vector_at(surface, corner))))
+    return float(steepest(surface, corner, minus(point, vector_at(surface, corner))))
 
 
 @compiled
-def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
-    """Return the largest component of the vector (x, y, z) along an edge of a corner, in the axes of the surface."""
+def steepest(surface: Floats, corner: int, n: Vector3) -> float:
+    """Return the largest component of n along an edge of a corner, in the axes of the surface."""
     most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
     for i in range(int(surface[corner + 5])):
-        most = max(most, dot((x, y, z), vector_at(surface, star + 3 * i)))
+        most = max(most, dot(n, vector_at(surface, star + 3 * i)))
     return most
 
 
 @compiled
-def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float, reach: float) -> Found:
-    """Return the nearest feature of a patch that a ball about the point (x, y, z) may touch.
+def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float) -> Found:
+    """Return the nearest feature of a patch that a ball about the point point may touch.
 
     A ball may touch a feature if no neighbouring point of the surface is nearer: the distance past the feature's end is
     then not positive.  If the ball may touch no feature, the result is the feature with the least sum of two squares,
@@ -246,16 +247,17 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     edge and its corner, the ball may touch both; the face is preferred to the edge, the edge to the corner.  If no
     feature is nearer than ``reach`` [m], distance and distance past the end are ``reach``.
     """
+    x, y, z = point
     margin = REACH * surface[SIZE]
     same = 4.0 * margin * margin
     best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
-    point, nearest = (x, y, z), (x, y, z - reach)
+    nearest = x, y, z - reach
     under, under_past, under_face = math.inf, 0.0, -1
-    first = first_leaf(surface, patch, x, y, z)
+    first = first_leaf(surface, patch, point)
     node = -1
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, x, y, z) > best + same):
+        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, point) > best + same):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -265,7 +267,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
                 continue
             if what == ON_FACE:
                 f = face_at(surface, which)
-                height = face_height(surface, f, x, y, z)
+                height = face_height(surface, f, point)
                 if height * height > best + same:
                     continue
                 over, ends = over_ends(surface, row, point)
@@ -274,7 +276,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
                 if over <= margin and height >= 0.0:
                     beyond, p = max(ends, -surface[SIZE]), minus(point, times(height, vector_at(surface, f)))
                 else:
-                    px, py, pz, _ = in_triangle(surface, row, x, y, z)
+                    px, py, pz, _ = in_triangle(surface, row, point)
                     beyond, p = max(over, -height + 2.0 * margin), (px, py, pz)
             elif what == ON_EDGE:
                 beyond, p = past_edge(surface, row, point)
@@ -288,7 +290,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
             if key < best - same or (alike and (past > 0.0 or what < kind)):
                 best, distance, past, kind, number, nearest = key, square**0.5, beyond, what, which, p
         node += 1
-    if under_face >= 0 and under * under < best and depth_inside(surface, x, y, z) > 0.0:
+    if under_face >= 0 and under * under < best and depth_inside(surface, point) > 0.0:
         normal = vector_at(surface, face_at(surface, under_face))
         return -under, under_past, ON_FACE, under_face, *ahead(point, under, normal)
     return distance, past, kind, number, *nearest

@@ -93,7 +93,7 @@ def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -
     beyond, past = over_ends(surface, t, p)
     if beyond > REACH * surface[SIZE]:
         foot = minus(p, times(height, n))
-        x, y, z, _ = in_triangle(surface, t, *foot)
+        x, y, z, _ = in_triangle(surface, t, foot)
         past = size_of(minus(foot, (x, y, z)))
     past = max(past, -surface[SIZE])
     # if the body's centre is below the plane, the body is past the end of the face
@@ -124,7 +124,7 @@ def _on_corner(surface: Floats, c: int, core: Core, point: Core, turn: Axes, cen
     """
     w = minus(center, vector_at(surface, c))
     g, _, n = widest_from(point, core, turn, w, (0.0, 0.0, 0.0), w)
-    return g, max(-dot(n, w), size * steepest(surface, c, *n)), n
+    return g, max(-dot(n, w), size * steepest(surface, c, n)), n
 
 
 @compiled
@@ -173,7 +173,7 @@ def _look_at(
     if patch_of(surface, member) != patch:
         return excluded
     if kind == ON_FACE:
-        least = face_height(surface, face_at(surface, number), *center) - size
+        least = face_height(surface, face_at(surface, number), center) - size
         lowest = min(_above(surface, at, aim), min(_above(surface, at + 3, aim), _above(surface, at + 6, aim)))
         if least > best or lowest > best:
             return excluded
@@ -225,7 +225,7 @@ def _nearest(
     aim: Aim = (0.0, 0.0, 0.0), -math.inf
     # first evaluate the feature nearest to the centre, then all faces, which cost least; their distances exclude most
     # edges and corners from the search
-    _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, *center, reach + size)
+    _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, center, reach + size)
     if kind != ON_FACE:
         found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
         g, beyond, n, _ = _look_at(surface, patch, found, core, point, turn, center, best, aim)
@@ -238,7 +238,7 @@ def _nearest(
         node = 0
         while node < int(surface[N_NODES]):
             at = node_at(surface, node)
-            far = math.sqrt(box_square(surface, at, *center)) - size > best or _above_box(surface, at, aim) > best
+            far = math.sqrt(box_square(surface, at, center)) - size > best or _above_box(surface, at, aim) > best
             if far or not has_patch(surface, at, patch):
                 node = int(surface[at + 6])
                 continue

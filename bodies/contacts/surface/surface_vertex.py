@@ -44,9 +44,9 @@ def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: fl
 
 @compiled
 def over_face(
-    surface: Floats, triangle: int, height: float, lean: float, margin: float, x: float, y: float, z: float
+    surface: Floats, triangle: int, height: float, lean: float, margin: float, point: Vector3
 ) -> tuple[float, float, float, float]:
-    """Return four numbers for a vertex (x, y, z) and a triangle of the surface.
+    """Return four numbers for a vertex, ``point``, and a triangle of the surface.
 
     1. Distance past the edges of the triangle [m].
     2. Distance past those of its edges that are on the border of its face [m].
@@ -63,12 +63,12 @@ def over_face(
     margin : float
         Distance past an edge up to which the vertex is still over the triangle [m].
     """
-    over, ends = over_ends(surface, triangle, (x, y, z))
+    over, ends = over_ends(surface, triangle, point)
     over, ends = max(over - margin, lean), max(ends - margin, lean)
     past, square = ends, height * height
     if over > 0.0 or height < 0.0:
-        qx, qy, qz, _ = in_triangle(surface, triangle, x, y, z)
-        apart = minus((x, y, z), (qx, qy, qz))
+        qx, qy, qz, _ = in_triangle(surface, triangle, point)
+        apart = minus(point, (qx, qy, qz))
         square = dot(apart, apart)
         out = square - height * height if height > 0.0 else square
         past = max(math.sqrt(max(out, 0.0)) - margin, over)
@@ -86,9 +86,7 @@ def touched_face(
     inner: int,
     under: float,
     inner_past: float,
-    x: float,
-    y: float,
-    z: float,
+    point: Vector3,
 ) -> tuple[int, float, float]:
     """Select one of two faces for a point; return its number, the gap and the distance past its end [m].
 
@@ -110,7 +108,7 @@ def touched_face(
     is_above = inner >= 0 and under * under < key
     # depths within the margin are round-off: the point may be on a border
     is_round_off = under <= CLOSED * surface[SIZE]
-    if is_above and (is_round_off or under <= (1.0 + REACH) * depth_inside(surface, x, y, z)):
+    if is_above and (is_round_off or under <= (1.0 + REACH) * depth_inside(surface, point)):
         return inner, -under, inner_past
     return found, height if past <= 0.0 else math.hypot(apart, past), past
 
@@ -143,11 +141,11 @@ def face_under(
     margin = (CLOSED if n_star > 0.0 else REACH) * size
     best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
     under, under_past, under_face = math.inf, 0.0, -1
-    first = first_leaf(surface, patch, x, y, z)
+    first = first_leaf(surface, patch, (x, y, z))
     node = -1
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and (box_square(surface, at, x, y, z) > best or not has_patch(surface, at, patch)):
+        if node >= 0 and (box_square(surface, at, (x, y, z)) > best or not has_patch(surface, at, patch)):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -155,15 +153,15 @@ def face_under(
             if what != ON_FACE:
                 continue
             f = face_at(surface, face)
-            height = face_height(surface, f, x, y, z)
+            height = face_height(surface, f, (x, y, z))
             if surface[f + 4] != patch or height * height > best:
                 continue
             lean = size * (leaning(frame, other, surface, f, n_star, star) - ASTRAY)
-            over, inside, ends, square = over_face(surface, t, height, lean, margin, x, y, z)
+            over, inside, ends, square = over_face(surface, t, height, lean, margin, (x, y, z))
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face = -height, inside, face
             key = square + max(ends, 0.0) * max(ends, 0.0)
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
         node += 1
-    return touched_face(surface, found, best, height_best, apart, past, under_face, under, under_past, x, y, z)
+    return touched_face(surface, found, best, height_best, apart, past, under_face, under, under_past, (x, y, z))
