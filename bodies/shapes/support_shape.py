@@ -19,7 +19,7 @@ from nonsmooth.interfaces.body import Vector
 
 from .drawing import arc, revolved, solid_of
 from .smooth import SmoothShape
-from .support_function import OF_FUNCTION
+from .support_function import FUNCTION, OF_FUNCTION
 
 _SHARPEST, _FLATTEST = 1e-3, 1e3
 """Least and largest radius of curvature that a shape may have, relative to its size."""
@@ -27,6 +27,34 @@ _LOOKS = 400
 """Number of directions, evenly over the sphere, along which a shape is checked before its first use."""
 _ROUND_OFF = 1e-9
 _DERIVED = ("core", "length", "_integrals", "_checked")
+
+
+@final
+class _Address(float):
+    """Address of the compiled support function of a shape. In another process it is pickled as that of the shape there.
+
+    Attributes
+    ----------
+    shape : SupportShape
+        The shape.
+    """
+
+    shape: SupportShape
+
+    @classmethod
+    def of(cls, address: int, shape: SupportShape) -> _Address:
+        """Return an address that belongs to a shape."""
+        made = cls(address)
+        made.shape = shape
+        return made
+
+    def __reduce__(self) -> Any:
+        """Pickle the shape, whose function has another address in another process."""
+        return _address_of, (self.shape,)
+
+
+def _address_of(shape: SupportShape) -> float:
+    return shape.core[FUNCTION]
 
 
 class SupportShape(SmoothShape):
@@ -89,7 +117,7 @@ class SupportShape(SmoothShape):
         half, (x, y, z) = (0.5 * (high - low)).tolist(), (0.5 * (low + high)).tolist()
         address, heap = bind_support(self, (x, y, z))
         axes = np.eye(3).ravel().tolist()
-        return (*half, OF_FUNCTION, OF_FUNCTION, 0.0, x, y, z, *axes, float(address), *heap)
+        return (*half, OF_FUNCTION, OF_FUNCTION, 0.0, x, y, z, *axes, _Address.of(address, self), *heap)
 
     @functools.cached_property
     def length(self) -> float:

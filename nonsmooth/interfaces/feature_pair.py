@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import final
 
-from nonsmooth.parameters import Value
+from nonsmooth.parameters import Rule, Value
 
 
 @final
@@ -62,7 +62,7 @@ class FeaturePair:
     """
 
     evaluator: Callable[..., None]
-    values: Mapping[str, Value]
+    values: Mapping[str, Value] = field(metadata={"rule": Rule("parameters of the evaluator by name", unit="")})
     features: tuple[str, ...]
     candidates: CandidateSearch | None = None
     bound: Callable[..., None] | None = None

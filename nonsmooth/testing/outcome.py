@@ -171,8 +171,7 @@ def described(component: Any) -> tuple[str, Any]:
     Several parameters are returned as "parameters" and a mapping, no parameters as "" and "".
     """
     given = {name: getattr(component, name) for name in rules(type(component))}
-    # a record of a contact declares none, but has values
-    given = {name: value for name, value in (given or component.parameters()).items() if value is not None}
+    given = {name: value for name, value in given.items() if value is not None}
     if len(given) == 1:
         return next(iter(given.items()))
     return ("parameters", given) if given else ("", "")

@@ -148,13 +148,14 @@ def _squeezed() -> None:
 
 
 def _passed() -> None:
-    """Sharp discs edge to edge, out of one plane by a nanometre."""
-    one, two = DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0)
-    system = ns.System([one, two], gravity=0.0)
-    system.contact(one, two, **RIGID)
-    system.place(one, velocity=(1.0, 0.0, 0.0))
-    system.place(two, position=(0.12, 0.0, 1e-9))
-    ns.simulate(system, 0.06)
+    """A sharp disc falls flat onto a part of another one that lies on a plate."""
+    plate, low, high = Plate(), DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0)
+    system = ns.System([plate, low, high])
+    for one, two in ((plate, low), (plate, high), (low, high)):
+        system.contact(one, two, **RIGID | {"friction": Coulomb(0.3)})
+    system.place(low, position=(0.0, 0.0, 0.0))
+    system.place(high, position=(0.02, 0.0, 0.01))
+    ns.simulate(system, 0.2)
 
 
 def _quaternion() -> None:

@@ -31,7 +31,7 @@ def test_what_is_printed_is_short(build: Any) -> None:
         (solution.track, "Track(2002 states, 0 to 0.5 s; "),
         (solution.recorded, "Recorded(2001 samples, "),
         (transition_graph(solution), "TransitionGraph("),
-        (system.contacts[0], "Contact('plate - ball': PlaneSphere; Unilateral, Coulomb, EnergeticImpact)"),
+        (system.contacts[0], "Contact('plate - ball': plane-sphere; Unilateral, Coulomb, EnergeticImpact)"),
     ):
         assert repr(thing).startswith(said)
         assert len(repr(thing)) < 130

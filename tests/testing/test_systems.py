@@ -86,7 +86,7 @@ class Empty(Pair):
 def test_kinematics_that_give_nothing_to_check_are_refused() -> None:
     """By the rule that is broken."""
     for kinematics, second, words in (
-        (Nameless, SECOND, "Nameless: features must be names"),
+        (Nameless, SECOND, "Nameless: features must be different names"),
         (Empty, SECOND, "Empty.between must return a contact"),
         (Pair, Plane(), "Pair: shape must be a Sphere"),
     ):
