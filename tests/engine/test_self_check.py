@@ -45,13 +45,13 @@ _point: Any = compiled(BallJoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.1)).evaluator)
 
 
 def jumping_gap(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
-    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
+    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
     if b[0] > 0.05:
         out[0] = out[0] - depth
 
 
 def short_normal(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
-    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
+    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
     if b[0] > 0.05:
         out[0] = out[0] - depth
         for i in range(1, 4):
@@ -59,14 +59,14 @@ def short_normal(a: Floats, b: Floats, out: Floats, depth: float, radius: float)
 
 
 def ending(a: Floats, b: Floats, out: Floats, depth: float, radius: float) -> None:
-    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
+    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
     out[PAST_END] = depth if b[0] > 0.05 else -1.0
     if b[0] > 0.05 and out[0] > 0.0:
         out[0] += depth
 
 
 def handing(a: Floats, b: Floats, out: Floats, depth: float, radius: float, x: float, onto: float) -> None:
-    _sound(a, b, out, radius, (0.0, 0.0, 0.0), 0.0)
+    _sound(a, b, out, radius, 0.0, 0.0, 0.0, 0.0)
     past = onto * (x - b[0])
     if past > 0.0:
         past += depth

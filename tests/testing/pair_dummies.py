@@ -28,7 +28,7 @@ BEYOND = 20.0
 
 def evaluate(a: Floats, b: Floats, out: Floats, fault: float) -> None:
     left = out[14]
-    _sound(a, b, out, 0.2, (0.1, 0.0, 0.0), 0.3, (0.0, -0.05, 0.0))
+    _sound(a, b, out, 0.2, 0.1, 0.0, 0.0, 0.3, 0.0, -0.05, 0.0)
     if fault == 1.0 and out[0] <= 0.0:
         # what another contact left there
         out[14] = left + 1e-9

@@ -24,7 +24,9 @@ MANY = 200
 def ball_over_plane(plane: Shape, radius: float, center: Sequence[float], name: str) -> FeaturePair:
     """Return the contact of a plane and a ball, whose centre is in its body frame [m]; a point has radius 0."""
     assert isinstance(plane, Ground)
-    values: dict[str, Value] = {"radius": radius, "center": tuple(center), "height": plane.height}
+    x, y, z = center
+    # three numbers, not a vector: this is the commonest contact, and a vector is one more reference to follow
+    values: dict[str, Value] = {"radius": radius, "x": x, "y": y, "z": z, "height": plane.height}
     return FeaturePair(evaluate_ball_over_plane, values, (f"plane-{name}",))
 
 

@@ -35,7 +35,9 @@ def place_over_plane(a: Floats, out: Floats, center: Vector3, height: float, rad
     write_flat(out, SIDE_A)
 
 
-def evaluate_ball_over_plane(a: Floats, b: Floats, out: Floats, radius: float, center: Floats, height: float) -> None:
-    """Write the geometry block; the ball's centre is in its body frame [m], and a point has radius 0."""
-    place_over_plane(a, out, point_in_world(b, vector_at(center, 0)), height, radius)
+def evaluate_ball_over_plane(
+    a: Floats, b: Floats, out: Floats, radius: float, x: float, y: float, z: float, height: float
+) -> None:
+    """Write the geometry block; the ball's centre (x, y, z) is in its body frame [m], and a point has radius 0."""
+    place_over_plane(a, out, point_in_world(b, (x, y, z)), height, radius)
     write_round(out, SIDE_B, radius)

@@ -10,17 +10,27 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.sphere import Sphere
-from ...vectors import put, vector_at
+from ...vectors import put
 from ..features.frames import point_in_world
 from ..features.writing import join_cores, write_round
 
 
 def evaluate_spheres(
-    a: Floats, b: Floats, out: Floats, radius_a: float, center_a: Floats, radius_b: float, center_b: Floats
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    radius_a: float,
+    x_a: float,
+    y_a: float,
+    z_a: float,
+    radius_b: float,
+    x_b: float,
+    y_b: float,
+    z_b: float,
 ) -> None:
     """Write the geometry block of two spheres, given by radius [m] and centre in the body frame [m]."""
-    put(out, POINT_A, point_in_world(a, vector_at(center_a, 0)))
-    put(out, POINT_B, point_in_world(b, vector_at(center_b, 0)))
+    put(out, POINT_A, point_in_world(a, (x_a, y_a, z_a)))
+    put(out, POINT_B, point_in_world(b, (x_b, y_b, z_b)))
     join_cores(a, out, radius_a, radius_b, (a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8]))
     write_round(out, SIDE_A, radius_a)
     write_round(out, SIDE_B, radius_b)
@@ -37,10 +47,7 @@ class SphereSphere(ContactKinematics):
         """Return the single contact of two spheres."""
         assert isinstance(first, Sphere)
         assert isinstance(second, Sphere)
-        values: dict[str, Value] = {
-            "radius_a": first.radius,
-            "center_a": (first.x, first.y, first.z),
-            "radius_b": second.radius,
-            "center_b": (second.x, second.y, second.z),
-        }
+        # numbers, not vectors: this is a common contact, and a vector is one more reference to follow
+        values: dict[str, Value] = {f"{name}_a": value for name, value in first.numbers().items()}
+        values |= {f"{name}_b": value for name, value in second.numbers().items()}
         return (FeaturePair(evaluate_spheres, values, ("sphere-sphere",)),)
