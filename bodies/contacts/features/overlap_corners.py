@@ -86,7 +86,7 @@ def common_direction(
         Frame blocks of the two bodies.
     n_faces_a, faces_a, n_faces_b, faces_b : float and Floats
         Number and rows of the faces of both cores (:data:`bodies.contacts.features.polytope_tables.FACE`).
-    x, y, z : float
+    n : Vector3
         Contact normal from the first body to the second, in world axes.
     """
     x, y, z = n
@@ -142,7 +142,7 @@ def vertex_past_corner(
         Faces and edges of the core of the other body (:mod:`bodies.contacts.features.polytope_tables`).
     n_star, star : float and Floats
         Unit vectors along the edges of the vertex, in the axes of its body.
-    x, y, z : float
+    point : Vector3
         The vertex in the frame of the other body [m].
     size : float
         Size of the larger body [m].

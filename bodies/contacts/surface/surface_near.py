@@ -95,7 +95,7 @@ def patches_near(
     ----------
     surface : Floats
         Numbers of the surface.
-    x, y, z, reach : float
+    point, reach : Vector3, float
         The point in the axes of the surface, and the largest distance from it [m].
     kind, third : float
         The first and the third number of the candidates that are appended.

@@ -102,7 +102,7 @@ def touched_face(
         it, distance from it, and distance past its end [m].
     inner, under, inner_past : int and float
         The face above a point inside, or -1; depth below it, and distance past its end [m].
-    x, y, z : float
+    point : Vector3
         The point [m].
     """
     is_above = inner >= 0 and under * under < key
