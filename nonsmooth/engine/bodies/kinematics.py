@@ -333,6 +333,19 @@ def row(ws: Workspace, c: int, r: int, du: int) -> float:
     return float(product(ws.floats, total, contact.jacobian_b + r * b.n_u, du + b.u, b.n_u))
 
 
+@kernel("f8(ws, i8, i8, i8)")
+def row_size(ws: Workspace, c: int, r: int, du: int) -> float:
+    """Size of the two parts of :func:`row`, of which each body has one: the round-off of their sum is relative to it.
+
+    Where two bodies fall together, their parts cancel each other, and the sum is round-off alone.
+    """
+    contact = ws.contacts[c]
+    a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
+    part_a = product(ws.floats, 0.0, contact.jacobian_a + r * a.n_u, du + a.u, a.n_u)
+    part_b = product(ws.floats, 0.0, contact.jacobian_b + r * b.n_u, du + b.u, b.n_u)
+    return float(max(abs(part_a), abs(part_b)))
+
+
 @kernel("void(ws, i8)")
 def evaluate_jacobian(ws: Workspace, c: int) -> None:
     """Write the rows n, t1, t2 of the Jacobians of contact ``c``, their responses, and the prescribed rates [m/s].

@@ -14,7 +14,7 @@ bound slides against this friction. The directions of the slips are made exact a
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.anisotropy import turn_facing
-from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
+from nonsmooth.engine.bodies.kinematics import evaluate_contact, row, row_size
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.null_space_forces import shift_forces
@@ -107,7 +107,8 @@ def _write_contact(ws: Workspace, active: ActiveContact) -> None:
         if r != NORMAL_ROW and contact.mode == Mode.SLIDE:
             # the rate at the end holds the guessed acceleration, which is subtracted again
             active.free[r] = free + contact.rate[r] / ws.problem.stage_time - row(ws, c, r, ws.problem.guess)
-        ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(free), abs(contact.bias[r]))
+        size = max(abs(contact.bias[r]), row_size(ws, c, r, ws.island.du.start))
+        ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, size)
 
 
 # --- any number of contacts -------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.articulations import constrain
 from nonsmooth.engine.bodies.compliance import decouple_normals
-from nonsmooth.engine.bodies.kinematics import row
+from nonsmooth.engine.bodies.kinematics import row, row_size
 from nonsmooth.engine.contact.search import find_modes
 from nonsmooth.engine.contact.trial import verify
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
@@ -162,8 +162,9 @@ def write_contact_problem(ws: Workspace) -> None:
             # bias: the acceleration at constant velocities of the bodies
             bias, free = contact.bias[r], row(ws, active.contact, r, ws.island.du.start)
             active.free[r] = bias + free
-            # of the two parts and not of their sum, which may cancel and leave their round-off
-            ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(bias), abs(free))
+            # of the parts and not of their sum, which may cancel and leave their round-off
+            size = max(abs(bias), row_size(ws, active.contact, r, ws.island.du.start))
+            ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, size)
         write_friction(ws, active)
     # the normal forces of compliant contacts are known
     decouple_normals(ws)
