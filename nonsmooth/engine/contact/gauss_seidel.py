@@ -21,12 +21,14 @@ SWEEPS = 20
 def sweep(ws: Workspace, max_sweeps: int) -> bool:
     """Improve the forces of all active contacts by sweeps. True if they have settled within ``max_sweeps``.
 
-    All normal forces count as unknown. ``sticks`` and ``direction`` of contacts at rest become those of the forces
-    found. If False, the forces are those of the last sweep.
+    ``sticks`` and ``direction`` of contacts at rest become those of the forces found. If False, the forces are those of
+    the last sweep.
     """
     for active in ws.actives:
-        # those of compliant contacts, too: G and b make their forces the known ones
-        active.is_normal_force_unknown = True
+        # those of compliant contacts are unknown, too: G and b make their forces the known ones
+        active.is_normal_force_unknown = not active.has_given_force
+        if active.has_given_force:
+            active.normal_force = active.given_force
         active.sticks = False
     return gauss_seidel(ws, max_sweeps)
 

@@ -117,6 +117,14 @@ def _search_along_step(ws: Workspace, mean: float) -> float:
     return -1.0
 
 
+@kernel("f8(ws, ActiveContact)")
+def _trial_normal_force(ws: Workspace, active: ActiveContact) -> float:
+    """Normal force y_n = f_n - a_n / g of a contact before it is projected on positive ones, or the given one [N]."""
+    if active.has_given_force:
+        return float(active.given_force)
+    return float(active.normal_force - active.normal_acceleration / diagonal_block(ws, active.index).nn)
+
+
 @kernel("v2(ws, ActiveContact)")
 def _trial_friction(ws: Workspace, active: ActiveContact) -> Pair:
     """Friction y_t = f_t - a_t / g of a contact before it is projected on Coulomb's disc [N].
@@ -141,7 +149,7 @@ def write_natural_map(ws: Workspace) -> float:
         right = at(ws.floats, ws.problem.right.start + 3 * active.index)
         for r in range(3):
             active.acceleration[r] = acceleration(ws, active, r)
-        y = active.normal_force - active.normal_acceleration / diagonal_block(ws, active.index).nn
+        y = _trial_normal_force(ws, active)
         right[0] = active.normal_force - max(0.0, y)
         radius = active.friction_coefficient * max(0.0, y)
         t1, t2 = active.friction
@@ -176,10 +184,9 @@ def _write_jacobian(ws: Workspace) -> bool:
     if not open_band(ws, n, ws.problem.matrix.start):
         return False
     for active in ws.actives:
-        own = diagonal_block(ws, active.index).nn
-        y = active.normal_force - active.normal_acceleration / own
-        # closed: f_n - y_n = a_n / g; open: f_n
-        if y > 0.0:
+        own, y = diagonal_block(ws, active.index).nn, _trial_normal_force(ws, active)
+        # closed: f_n - y_n = a_n / g; open, or y_n given: f_n
+        if y > 0.0 and not active.has_given_force:
             _add_row(ws, active, NORMAL_ROW, own)
             # so that redundant forces do not make the matrix singular
             ws.floats[_entry(ws, active, NORMAL_ROW, NORMAL_ROW)] += _SHIFT
@@ -266,6 +273,8 @@ def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1
             # the part of (z1, z2) across the unit vector is this number times (c2, -c1)
             across = c2 * z1 - c1 * z2
             # growth of the radius mu y_n
-            growth = active.friction_coefficient * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
+            growth = 0.0
+            if not active.has_given_force:
+                growth = active.friction_coefficient * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
             ws.floats[first + j] -= factor * c2 * across + c1 * growth
             ws.floats[second + j] += factor * c1 * across - c2 * growth

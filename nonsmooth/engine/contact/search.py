@@ -250,7 +250,8 @@ def _guess_modes_from_accelerations(ws: Workspace) -> bool:
     small = EQUAL * ws.problem.small_acceleration
     for active in ws.actives:
         # modes of the past are kept, to continue it; the mode of a contact that separates is, too
-        if active.mode_tried == active.mode_past or active.normal_acceleration > small:
+        separates = active.mode_tried == Mode.OPEN if active.has_given_force else active.normal_acceleration > small
+        if active.mode_tried == active.mode_past or separates:
             continue
         is_still = active.is_at_rest and length(active.slip_acceleration) <= small
         mode = Mode.STICK if is_still else Mode.SLIDE

@@ -54,8 +54,7 @@ class Verdict(IntEnum):
 def find_tried_forces(ws: Workspace) -> None:
     """Find the forces of the active contacts in the modes under trial [N], and count the effort, which is limited.
 
-    In these modes the forces follow from linear equations. No inequality is checked. Normal forces that a law gives
-    stay as they are.
+    In these modes the forces follow from linear equations. No inequality is checked. A law may give normal forces.
     """
     for active in ws.actives:
         is_open = active.mode_tried == Mode.OPEN
@@ -64,6 +63,8 @@ def find_tried_forces(ws: Workspace) -> None:
         active.sticks = active.mode_tried == Mode.STICK and active.static_coefficient > 0.0
         if is_open:
             active.normal_force = 0.0
+        elif active.has_given_force:
+            active.normal_force = active.given_force
     resolve(ws)
     ws.totals.n_evaluations += 1
     # the cost of an elimination grows with the cube
@@ -158,6 +159,9 @@ def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Ve
 
     If ``is_lenient``, tensile forces that are not unique are redistributable rather than a violation.
     """
+    if active.has_given_force:
+        # it has no friction without a force, and its normal acceleration is free
+        return Verdict.FULFILLED if active.mode_tried == Mode.OPEN else _check_friction(ws, active)
     if active.mode_tried == Mode.OPEN:
         # a contact that approaches is not open
         separates = active.normal_acceleration >= -ws.problem.small_acceleration
@@ -240,6 +244,8 @@ def guess_modes_from_forces(ws: Workspace) -> None:
             # a contact that the search has let slide must not stick again
             if not active.was_freed and norm <= g * active.friction_coefficient * active.normal_force:
                 active.mode_tried = Mode.STICK
+        if active.has_given_force:
+            compression = active.given_force
         if compression <= 0.0:
             active.mode_tried = Mode.OPEN
 

@@ -19,10 +19,9 @@ from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_i
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import find_touching
-from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
-from nonsmooth.engine.contact.problem import accelerate_touching
+from nonsmooth.engine.contact.problem import accelerate_touching, solve_contact
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
 from nonsmooth.engine.events.averaging import average_active
@@ -298,15 +297,18 @@ def stop_creeping(ws: Workspace) -> float:
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         assemble_delassus(ws)
+        ws.problem.acceleration_scale = 0.0
         for active in ws.actives:
             contact = ws.contacts[active.contact]
             # unknown normal impulses, without friction; with rates as free accelerations, forces are impulses
-            active.is_at_rest, active.is_normal_force_unknown = False, True
-            active.friction_coefficient = active.normal_force = 0.0
-            active.direction = contact.direction
+            active.is_at_rest = active.has_given_force = False
+            active.friction_coefficient = active.static_coefficient = 0.0
+            active.mode_tried, active.direction = Mode.UNKNOWN, contact.direction
             for r in range(3):
                 active.free[r] = contact.rate[r]
-        gauss_seidel(ws, SWEEPS)
+            ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(contact.normal_rate))
+        if not solve_contact(ws):
+            continue
         add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
         for active in ws.actives:
             contact, impulse = ws.contacts[active.contact], active.normal_force

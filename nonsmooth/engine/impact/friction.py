@@ -4,10 +4,9 @@ Where a phase changes, contacts at rest must choose. Their modes solve the probl
 the velocities, Eq. (17) with impulses in place of forces:
 
 1. Slips at rest are stopped exactly. What is left of them is round-off, but its direction would act as that of a slip.
-2. Block Gauss-Seidel (:mod:`nonsmooth.engine.contact.cone`) finds sticking contacts and directions.
-3. Newton's method (:mod:`nonsmooth.engine.contact.slip_directions`) makes the directions exact. Next to the static
-   bound they decide whether a slip grows.
-4. Contacts that were found on their bounds but do not start to slip stick.
+2. If all contacts at rest can stick, they do. If not, the search for modes of the motion
+   (:mod:`nonsmooth.engine.contact.search`) finds which do, and the exact directions of the others. Next to the static
+   bound the directions decide whether a slip grows.
 
 Between two choices the directions of slips follow from their velocities. :func:`count_stopped_slips`, :func:`orient`
 and :func:`count_slow_step` keep them well-defined.
@@ -15,22 +14,20 @@ and :func:`count_slow_step` keep them well-defined.
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
-from nonsmooth.engine.contact.forces import friction_of_slip, resolve
+from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
-from nonsmooth.engine.contact.slip_directions import find_slip_directions
-from nonsmooth.engine.contact.trial import find_tried_forces
+from nonsmooth.engine.contact.search import find_modes
+from nonsmooth.engine.contact.trial import find_tried_forces, verify
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import GuardKind, guard_of
 from nonsmooth.engine.impact.rates import evaluate_impact_rates, slip_slope
 from nonsmooth.engine.impact.state import NOISE, is_loaded, normal_force, state_of
 from nonsmooth.engine.memory.modes import Mode, Phase
+from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.arrays import clear
 from nonsmooth.engine.numerics.vectors import length, unit
 
-_NO_START = 1e-10
-"""Slope of a slip that does not start, relative to the largest normal one. Redundant friction is not more exact."""
 _PATIENCE = 20
 """Number of steps that a slip may take next to rest without slowing down, before friction is chosen again."""
 
@@ -57,9 +54,7 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
     if has_contact_at_rest:
         # slopes of rates have no part without contact forces
         clear(ws.floats, ws.problem.free_accelerations.start, 3 * len(ws.actives))
-        gauss_seidel(ws, SWEEPS)
-        _refine_starting_slips(ws)
-        _hold_slips_without_start(ws)
+        _find_modes(ws)
     for active in ws.actives:
         # without a normal force no friction holds the contact
         if active.normal_force <= 0.0:
@@ -124,67 +119,51 @@ def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
     """Write the data for the choice of friction of an active contact: coefficient, slip direction, normal force [N].
 
     The normal force of a held contact is unknown, that of a loaded one follows from its deformation. ``probe`` is a
-    short pseudo-time. Friction is written as if the contact slid.
+    short pseudo-time.
     """
     speed = length(active.slip)
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
     if speed == 0.0 and max(active.friction_coefficient, active.static_coefficient) > 0.0:
         # stopping the slips of others has stopped this one, too
         active.is_at_rest = True
-    active.is_normal_force_unknown = active.phase == Phase.HELD
+    active.has_given_force = active.phase != Phase.HELD
     active.sticks = False
-    active.normal_force = 0.0
+    active.given_force = 0.0
     if is_loaded(active):
         # a deformation that has not begun is taken a short pseudo-time later
         deformation = state_of(ws, active).deformation
         if not deformation > 0.0:
             deformation = -probe * active.gap_rate
-        active.normal_force = normal_force(ws, active, deformation)
+        active.given_force = normal_force(ws, active, deformation)
+    active.normal_force = active.given_force
     active.direction = ws.contacts[active.contact].direction
     if not active.is_at_rest and speed > 0.0:
         active.direction = unit(active.slip)
-    friction_of_slip(ws, active.index)
 
 
 @kernel()
-def _refine_starting_slips(ws: Workspace) -> None:
-    """Make the directions in which contacts at rest start to slip exact, by Newton's method.
+def _find_modes(ws: Workspace) -> None:
+    """Find which contacts at rest stick, and in which directions the others start to slip.
 
-    If it fails, the directions are those of before. The forces are found in either case.
+    The modes fulfil the contact laws exactly, or are the last ones that the search has tried.
     """
-    # the largest acceleration under a contact's own normal force
-    ws.problem.acceleration_scale = 0.0
+    # of several solutions, the one in which most contacts stick is taken, so that is tried first
+    ws.problem.effort = ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
-        # Newton's method reads the modes under trial, given normal forces and that scale
+        may_stick = active.is_at_rest and active.static_coefficient > 0.0
+        active.mode_past = Mode.STICK if may_stick else Mode.SLIDE
+        # without a normal force no friction holds the contact
+        if active.has_given_force and not active.given_force > 0.0:
+            active.mode_past = Mode.OPEN
+        active.mode_tried = active.mode_past
+        # the largest acceleration under a contact's own normal force
         own = diagonal_block(ws, active.index)
-        active.has_given_force = is_loaded(active)
-        active.mode_tried = Mode.STICK if active.sticks else Mode.SLIDE
-        if active.normal_force <= 0.0:
-            active.mode_tried = Mode.OPEN
-        # kept in case Newton's method fails
-        active.direction_found = active.direction
-        acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
+        acceleration = max(own.nn, own.t11, own.t22) * active.given_force
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
-    if not find_slip_directions(ws):
-        for active in ws.actives:
-            active.direction = active.direction_found
+    if not (verify(ws, is_lenient=False) or find_modes(ws, Solver.NEWTON) or find_modes(ws, Solver.GAUSS_SEIDEL)):
         find_tried_forces(ws)
-
-
-@kernel()
-def _hold_slips_without_start(ws: Workspace) -> None:
-    """Let contacts stick that were found on their static bounds but whose slips do not start.
-
-    The distribution of redundant friction is arbitrary, so some contacts are on their bounds by chance.
-    """
-    largest = 0.0
     for active in ws.actives:
-        # slope of a gap rate under the contact's own force, as a scale
-        largest = max(largest, diagonal_block(ws, active.index).nn * active.normal_force)
-    for active in ws.actives:
-        may_stick = active.is_at_rest and not active.sticks and active.static_coefficient > 0.0
-        if may_stick and length(slip_slope(ws, active)) <= _NO_START * largest:
-            active.sticks = True
+        active.sticks = active.mode_tried == Mode.STICK
 
 
 # --- between two choices ----------------------------------------------------------------------------------------------

@@ -321,7 +321,8 @@ def _write_given(ws: Workspace, active: ActiveContact, y: int, guess: int) -> No
     own = diagonal_block(ws, active.index)
     active.has_given_force, active.mode_tried, active.is_at_rest = is_loaded(active), active.mode_past, False
     if active.has_given_force:
-        active.normal_force = normal_force(ws, active, state_at(ws, y, active).deformation)
+        active.given_force = normal_force(ws, active, state_at(ws, y, active).deformation)
+        active.normal_force = active.given_force
     if active.mode_past == Mode.SLIDE:
         active.friction_coefficient = slip_coefficient(ws, active.contact, length(active.slip))
         # the contact problem treats a slip that friction may stop as one that begins

@@ -34,6 +34,7 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     has_redundant_force: bool = question(_SOLUTION, "The force is not unique.")
     was_freed: bool = question(_SOLUTION, "The search has let the contact slide.")
     has_given_force: bool = question(_SOLUTION, "The normal force is given by a law.")
+    given_force: float = real(_SOLUTION, "N", "The normal force that the law gives.")
     acceleration: Floats = row(_SOLUTION, 3, "m/s^2", "Acceleration, n, t1, t2.")
     normal_acceleration: float = real(_SOLUTION, "m/s^2", "Normal acceleration.", inside=("acceleration", 0))
     slip_acceleration: Vector2 = vector(_SOLUTION, 2, "m/s^2", "Slip acceleration.", inside=("acceleration", 1))
