@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import nonsmooth as ns
-from laws import Coulomb, EnergeticImpact, Frictionless
+from bodies import BoxBody, Compound, Part
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 
 
 def _sphere(mass: float = 0.3, radius: float = 0.02) -> tuple[Any, Any, Any]:
@@ -270,3 +271,24 @@ def test_a_tetrahedron_on_three_corners_rattles_to_the_end(e: float) -> None:
     assert np.min(normal.T @ result.velocity) > -1e-8 * np.max(np.abs(normal.T @ u))
     lost = np.sum(result.restitution_loss) + np.sum(result.friction_loss)
     assert result.velocity @ result.velocity + 2.0 * lost == pytest.approx(u @ u, rel=1e-7)
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.9])
+@pytest.mark.parametrize("n_parts", [1, 2, 3])
+@pytest.mark.parametrize("across", [(0.0, 0.0), (0.2, 0.0), (0.3, 0.4)])
+def test_flush_bodies_that_stick_move_as_one(friction: float, n_parts: int, across: tuple[float, float]) -> None:
+    """After a plastic impact with enough friction, however many contacts share it, nothing slips."""
+    box = BoxBody(half_x=0.006, half_y=0.006, half_z=0.006)
+    one, two = (
+        Compound(parts=tuple(Part(box, position=(0.012 * i, 0.0, 0.0)) for i in range(n_parts))) for _ in range(2)
+    )
+    system = ns.System([one, two], gravity=0.0)
+    system.contact(one, two, normal=Unilateral(), friction=Coulomb(friction), impact=EnergeticImpact(0.0))
+    system.place(one, velocity=(0.0, -2.0, 0.0))
+    system.place(two, position=(0.001, -0.0121, 0.002), velocity=(across[0], 2.0, across[1]))
+    events = ns.simulate(system, 4e-5).events
+    ours, theirs = events.u_after[-1].reshape(2, 6)
+    between = np.subtract(*events.q[-1].reshape(2, 7)[::-1, :3])
+    # the bodies have not turned before the impact, so their axes are those of the world
+    np.testing.assert_allclose(theirs[3:], ours[3:], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(theirs[:3], ours[:3] + np.cross(ours[3:], between), rtol=0, atol=1e-11)
