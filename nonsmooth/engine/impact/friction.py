@@ -15,6 +15,7 @@ and :func:`count_slow_step` keep them well-defined.
 from __future__ import annotations
 
 from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.search import find_modes
 from nonsmooth.engine.contact.trial import find_tried_forces, verify
@@ -161,9 +162,19 @@ def _find_modes(ws: Workspace) -> None:
         acceleration = max(own.nn, own.t11, own.t22) * active.given_force
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
     if not (verify(ws, is_lenient=False) or find_modes(ws, Solver.NEWTON) or find_modes(ws, Solver.GAUSS_SEIDEL)):
-        find_tried_forces(ws)
+        _exchange_modes(ws)
     for active in ws.actives:
         active.sticks = active.mode_tried == Mode.STICK
+
+
+@kernel()
+def _exchange_modes(ws: Workspace) -> None:
+    """Find modes by releasing contacts that exceed their bound, and stopping those that would slip back, one by one."""
+    for active in ws.actives:
+        if active.mode_past == Mode.STICK:
+            active.mode_past, active.mode_tried = Mode.SLIDE, Mode.STICK
+    if not oppose_slips(ws):
+        find_tried_forces(ws)
 
 
 # --- between two choices ----------------------------------------------------------------------------------------------
