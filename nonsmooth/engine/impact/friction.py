@@ -6,7 +6,7 @@ the velocities, Eq. (17) with impulses in place of forces:
 1. Slips at rest are stopped exactly. What is left of them is round-off, but its direction would act as that of a slip.
 2. If all contacts at rest can stick, they do. If not, the search for modes of the motion
    (:mod:`nonsmooth.engine.contact.search`) finds which do, and the exact directions of the others. Next to the static
-   bound the directions decide whether a slip grows.
+   bound the directions decide whether a slip grows. If the search finds none, contacts slip and stop one by one.
 
 Between two choices the directions of slips follow from their velocities. :func:`count_stopped_slips`, :func:`orient`
 and :func:`count_slow_step` keep them well-defined.
