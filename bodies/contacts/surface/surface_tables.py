@@ -14,7 +14,7 @@ import numpy as np
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import SharedNumbers
 
-from ...meshes.features import Features
+from ...meshes.features import FLAT, Features
 from ...meshes.patches import Patches
 from ...meshes.topology import Integers, neighbours
 
@@ -39,9 +39,9 @@ node       lowest corner of its box (3) [m]; highest corner (3) [m]; number of t
            patches of all features in its subtree, one bit for each patch
 face       outward normal (3); distance of its plane from the origin [m]; number of its patch
 triangle   vertices (9) [m]; number of its face; for each edge the outward normal in the plane (3) and
-           the edge's distance from the origin along it [m]; for each edge 1 if the face ends there,
-           else 0; outward normals, of any length, at the edges (9) and at the vertices (9): they give
-           the sign of the distance of a point
+           the edge's distance from the origin along it [m]; for each edge where the face ends there
+           (``INSIDE``, ``CONVEX``, ``CONCAVE``); outward normals, of any length, at the edges (9) and at
+           the vertices (9): they give the sign of the distance of a point
 edge       first end (3) [m]; unit vector along it (3); length [m]; unit vectors from the edge into its
            two faces (6); number of its patch
 corner     position (3) [m]; number of its patch; index of the unit vectors along its edges; number of
@@ -49,6 +49,9 @@ corner     position (3) [m]; number of its patch; index of the unit vectors alon
 =========  ============================================================================================
 
 The members of a node are the features in its box, by number: triangles first, then convex edges, then corners.
+"""
+INSIDE, CONVEX, CONCAVE = 0.0, 1.0, 2.0
+"""Kinds of edges of a triangle: inside of its face, or on the border of the face, where the next face bends down or up.
 """
 BITS = 52
 """Largest number of patches whose bits a float stores exactly, one bit for each patch.
@@ -145,6 +148,8 @@ def _triangles(features: Features) -> Vector:
     at_edges = np.repeat(normals, 3, axis=0)
     between = at_edges[pairs[:, 0]] + at_edges[pairs[:, 1]]
     at_edges[pairs[:, 0]] = at_edges[pairs[:, 1]] = between
+    # at a concave edge the normal of the next face leads back over the triangle
+    is_concave = np.einsum("nij,nij->ni", out, at_edges.reshape(-1, 3, 3)) < -FLAT
     angles = np.arccos(np.clip(-np.einsum("nij,nij->ni", along, np.roll(along, 1, axis=1)), -1.0, 1.0))
     at_vertices = np.zeros_like(features.vertices)
     np.add.at(at_vertices, features.triangles.reshape(-1), angles.reshape(-1, 1) * np.repeat(normals, 3, axis=0))
@@ -153,7 +158,7 @@ def _triangles(features: Features) -> Vector:
             corners.reshape(-1, 9),
             features.face_of[:, None],
             np.concatenate([out, heights[:, :, None]], axis=2).reshape(-1, 12),
-            np.logical_not(features.inner),
+            np.where(features.inner, INSIDE, np.where(is_concave, CONCAVE, CONVEX)),
             at_edges.reshape(-1, 9),
             at_vertices[features.triangles].reshape(-1, 9),
         ]
