@@ -89,9 +89,9 @@ def past_depth(
     """Return how far a feature of the other body is from an overlap of this depth with a surface [m].
 
     The result is positive if a face of the surface is less deep than the ``depth``, or if the point is outside of the
-    body by more than the margin ``CLOSED`` and the angle ``ASTRAY`` of its normal allow.  Only faces that the feature may touch count, however near others are:
-    bodies with flush faces on springs are pressed deeper into each other than their sides are apart.  An edge of the
-    feature that leads below a face, or an end below it, excludes this face.
+    body by more than the margin ``CLOSED`` and the angle ``ASTRAY`` of its normal allow.  Only faces that the feature
+    may touch count, however near others are: bodies with flush faces on springs are pressed deeper into each other than
+    their sides are apart.  An edge of the feature that leads below a face, or an end below it, excludes this face.
 
     Parameters
     ----------
