@@ -10,6 +10,7 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, dot, minus, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
+from ..features.overlap_corners import FLUSH
 from ..features.vertex_face import CLOSED, REACH
 from .surface_search import (
     ON_FACE,
@@ -89,7 +90,7 @@ def past_depth(
     """Return how far a feature of the other body is from an overlap of this depth with a surface [m].
 
     The result is positive if a face of the surface is less deep than the ``depth``, or if the point is outside of the
-    body by more than the margin ``CLOSED`` and the angle ``ASTRAY`` of its normal allow.  Only faces that the feature
+    body by more than the margin ``CLOSED`` and the angle ``FLUSH`` of flush faces allow.  Only faces that the feature
     may touch count, however near others are: bodies with flush faces on springs are pressed deeper into each other than
     their sides are apart.  An edge of the feature that leads below a face, or an end below it, excludes this face.
 
@@ -135,7 +136,7 @@ def past_depth(
                 least_deep = deep
         node += 1
     outside = math.sqrt(least) if side >= 0.0 else 0.0
-    return max(depth - (1.0 + REACH) * least_deep, outside - margin - ASTRAY * depth)
+    return max(depth - (1.0 + REACH) * least_deep, outside - margin - FLUSH * depth)
 
 
 @compiled
