@@ -110,7 +110,7 @@ def _write_crossing(
     crossing = crossing_of(a, b, surface, one, core, two, sweep, size)
     p, _, _, n, gap, _, past = crossing
     if gap < 0.0 and past <= 0.0:
-        past = max(past, past_surface(a, b, surface, core, two, -gap, ahead(p, gap, n)))
+        past = max(past, past_surface(a, b, surface, core, two, (0.0, 0.0), -gap, ahead(p, gap, n)))
     write_edges(a, out, crossing, past, sweep)
 
 

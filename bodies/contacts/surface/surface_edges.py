@@ -32,16 +32,24 @@ def crossing_of(
 
 @compiled
 def past_surface(
-    frame: Floats, other: Floats, surface: Floats, edges: Floats, at: int, depth: float, point: Vector3
+    frame: Floats,
+    other: Floats,
+    surface: Floats,
+    edges: Floats,
+    at: int,
+    beyond: tuple[float, float],
+    depth: float,
+    point: Vector3,
 ) -> float:
     """Return how far an edge of the other body is from an overlap of this depth with a surface [m].
 
     See :func:`bodies.contacts.surface.surface_vertex.past_depth`.  The row of the edge begins at the index ``at`` of
-    ``edges``; ``point`` is its nearest point in the world [m].
+    ``edges``; its body goes on past its ends by the lengths ``beyond`` [m].  ``point`` is the nearest point of the edge
+    in the world [m].
     """
-    start = vector_at(edges, at)
-    end = ahead(start, edges[at + LENGTH], vector_at(edges, at + ALONG))
-    ends = seen_from(frame, other, start), seen_from(frame, other, end)
+    start, along = vector_at(edges, at), vector_at(edges, at + ALONG)
+    first, second = ahead(start, -beyond[0], along), ahead(start, edges[at + LENGTH] + beyond[1], along)
+    ends = seen_from(frame, other, first), seen_from(frame, other, second)
     into = block_at(edges, at + INTO_FIRST)
     return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point)))
 

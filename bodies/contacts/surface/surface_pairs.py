@@ -22,7 +22,7 @@ from .edges_near import edges_across
 from .mesh_point import write_over
 from .surface_edges import crossing_of, past_surface, write_edges
 from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, Near, is_node_near, patches_under
-from .surface_search import FAR, ON_CORNER, ON_EDGE, corner_at, edge_at, feature_of, member_of, node_at
+from .surface_search import FAR, ON_CORNER, ON_EDGE, beyond_ends, corner_at, edge_at, feature_of, member_of, node_at
 from .surface_tables import N_NODES, surface_numbers
 
 MOST_NEAR = 256
@@ -79,8 +79,9 @@ def _write_crossing(
     crossing = crossing_of(a, b, surface_a, one, surface_b, two, 0.0, size)
     p, _, _, n, gap, _, past = crossing
     if gap < 0.0 and past <= 0.0:
-        past = max(past, past_surface(b, a, surface_b, surface_a, one, -gap, p))
-        past = max(past, past_surface(a, b, surface_a, surface_b, two, -gap, ahead(p, gap, n)))
+        past = max(past, past_surface(b, a, surface_b, surface_a, one, beyond_ends(surface_a, one), -gap, p))
+        q = ahead(p, gap, n)
+        past = max(past, past_surface(a, b, surface_a, surface_b, two, beyond_ends(surface_b, two), -gap, q))
     write_edges(a, out, crossing, past, 0.0)
 
 

@@ -67,6 +67,12 @@ def edge_at(surface: Floats, edge: int) -> int:
 
 
 @compiled
+def beyond_ends(surface: Floats, edge: int) -> tuple[float, float]:
+    """Return by how much the body goes on past the ends of the edge whose row begins at the index ``edge`` [m]."""
+    return surface[edge + 14], surface[edge + 15]
+
+
+@compiled
 def feature_of(surface: Floats, member: int) -> tuple[int, int, int]:
     """Return kind and number of the feature of a member, and the index of its row, on a face that of the triangle."""
     edge = member - int(surface[N_TRIANGLES])

@@ -28,7 +28,7 @@ SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CO
 ``SIZE`` is the index of the size [m].  Names that begin with ``N_`` are indices of a number of rows or of patches.  The
 others are indices of the offset at which the rows of that name begin.
 """
-NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
+NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 16, 6
 """Number of floats in the row of each kind.  Numbers in brackets count floats, if there are several.
 
 =========  ============================================================================================
@@ -43,7 +43,8 @@ triangle   vertices (9) [m]; number of its face; for each edge the outward norma
            (``INSIDE``, ``CONVEX``, ``CONCAVE``); outward normals, of any length, at the edges (9) and at
            the vertices (9): they give the sign of the distance of a point
 edge       first end (3) [m]; unit vector along it (3); length [m]; unit vectors from the edge into its
-           two faces (6); number of its patch
+           two faces (6); number of its patch; lengths by which the body goes on past the first and the
+           second end (2) [m]: 0 at a corner, else the size of the surface
 corner     position (3) [m]; number of its patch; index of the unit vectors along its edges; number of
            its edges
 =========  ============================================================================================
@@ -66,12 +67,14 @@ _LEAF = 4
 def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
     """Return the numbers of a surface whose features are divided into patches: head, rows, unit vectors at corners."""
     triangles = _triangles(features)
-    edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float)])
+    ends_of = np.array(features.edges, dtype=int).reshape(-1, 4)[:, :2]
+    beyond = np.where(np.isin(ends_of, features.corners), 0.0, features.size)
+    edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float), beyond])
     lengths = np.array([len(star) for star in features.stars], dtype=int)
     tips = features.vertices[list(features.corners)]
     stars = [np.array(star_of(features, i)) for i in range(len(features.corners))]
     corners = np.column_stack([tips, patches.of_corners, 3 * (np.cumsum(lengths) - lengths), lengths])
-    ends = features.vertices[np.array(features.edges, dtype=int).reshape(-1, 4)[:, :2]]
+    ends = features.vertices[ends_of]
     boxes = [features.vertices[features.triangles], ends, tips[:, None]]
     low = np.concatenate([box.min(axis=1) for box in boxes])
     high = np.concatenate([box.max(axis=1) for box in boxes])
@@ -99,7 +102,7 @@ def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
 
 
 def edge_rows(features: Features) -> Vector:
-    """Return a row for each convex edge, shape [n, 13]: the contents of an ``EDGE`` row, but without the patch."""
+    """Return a row for each convex edge, shape [n, 13]: the first numbers of an ``EDGE`` row."""
     edges = np.array(features.edges, dtype=int).reshape(-1, 4)
     start, way = features.vertices[edges[:, 0]], features.vertices[edges[:, 1]] - features.vertices[edges[:, 0]]
     length = np.linalg.norm(way, axis=1, keepdims=True)
@@ -109,7 +112,7 @@ def edge_rows(features: Features) -> Vector:
 
 
 def edge_row(features: Features, number: int) -> Numbers:
-    """Return the row of one convex edge, 13 numbers: the contents of an ``EDGE`` row, but without the patch."""
+    """Return the row of one convex edge, 13 numbers: the first numbers of an ``EDGE`` row."""
     one, two, left, right = features.edges[number]
     start, way = features.vertices[one], features.vertices[two] - features.vertices[one]
     length = math.hypot(*way)
