@@ -57,7 +57,7 @@ def test_a_capsule_lies_in_a_groove_of_two(fall: float, shift: float, angle: flo
 @pytest.mark.parametrize("shift", [0.0, 1e-12, 1e-9, 1e-3])
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
 def test_capsules_collide_side_by_side(restitution: float, shift: float, angle: float, axis: str) -> None:
-    """Momentum is kept and no energy comes; they separate by the impact's ratio if both ends of the line meet at once."""
+    """Momentum is kept, no energy comes, and they separate by the impact's ratio if both ends meet at once."""
     one, two = CapsuleBody(RADIUS, HALF), CapsuleBody(RADIUS, HALF)
     system = ns.System([one, two], gravity=0.0)
     system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(restitution))
