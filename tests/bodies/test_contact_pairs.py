@@ -134,7 +134,6 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "disc-superellipsoid": (DISC, SUPERELLIPSOID, 1),
     "capsule-ellipsoid": (CAPSULE, ELLIPSOID, 1),
     "capsule-superellipsoid": (CAPSULE, SUPERELLIPSOID, 1),
-    "capsule-capsule": (CAPSULE, Capsule(0.1, 0.3, x=0.02, axis_y=-0.6, axis_z=0.8), 5),
 }
 """Pairs of shapes, and how many contacts they have."""
 SMOOTH = "ellipsoid"
