@@ -26,8 +26,7 @@ from .contacts.polyhedron.polyhedron_polyhedron import PolyhedronPolyhedron as P
 from .contacts.polyhedron.polyhedron_sphere import PolyhedronSphere as PolyhedronSphere
 from .contacts.polyhedron.swept_swept import SweptSwept as SweptSwept
 from .contacts.round.box_sphere import BoxSphere as BoxSphere
-from .contacts.round.capsules import CapsuleCapsule as CapsuleCapsule
-from .contacts.round.capsules import CapsuleSphere as CapsuleSphere
+from .contacts.round.capsule_sphere import CapsuleSphere as CapsuleSphere
 from .contacts.round.sphere_sphere import SphereSphere as SphereSphere
 from .contacts.smooth.polytope_smooth import CapsuleSmooth as CapsuleSmooth
 from .contacts.smooth.polytope_smooth import PolyhedronSmooth as PolyhedronSmooth

@@ -16,7 +16,7 @@ from .topology import Integers, neighbours
 Edge: TypeAlias = tuple[int, int, int, int]
 Bools: TypeAlias = NDArray[np.bool_]
 
-_FLAT = 1e-9
+FLAT = 1e-9
 """Sine of an angle between faces below which there is no edge."""
 _IN_LINE = 1e-9
 """Sine of an angle below which edges go on in line."""
@@ -83,7 +83,7 @@ def features_of(vertices: Vector, triangles: Integers) -> Features:
     owner = face_of[pairs // 3]
     inner = np.zeros(triangles.size, dtype=bool)
     inner[pairs[owner[:, 0] == owner[:, 1]].ravel()] = True
-    flat = (owner[:, 0] == owner[:, 1]) | (np.abs(heights) <= _FLAT)
+    flat = (owner[:, 0] == owner[:, 1]) | (np.abs(heights) <= FLAT)
     ends = np.stack([triangles.reshape(-1)[pairs[:, 0]], triangles.reshape(-1)[_after(pairs[:, 0])]], axis=1)
     convex = ~flat & (heights < 0.0)
     rows = [(*end, *own) for end, own in zip(ends[convex].tolist(), owner[convex].tolist(), strict=True)]

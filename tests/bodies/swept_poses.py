@@ -28,8 +28,12 @@ def random_shapes(rng: np.random.Generator) -> dict[str, tuple[SweptPolytope, Sw
     def rounded(hull: ConvexHull, rounding: float) -> ConvexHull:
         return ConvexHull(hull.points, rounding=rounding)
 
-    axis = rng.normal(size=3)
-    capsule = Capsule(2e-3, 7e-3, *rng.uniform(-2e-3, 2e-3, 3).tolist(), *(axis / np.linalg.norm(axis)).tolist())
+    def capsule_of(radius: float, half_length: float) -> Capsule:
+        axis = rng.normal(size=3)
+        along = (axis / np.linalg.norm(axis)).tolist()
+        return Capsule(radius, half_length, *rng.uniform(-2e-3, 2e-3, 3).tolist(), *along)
+
+    capsule = capsule_of(2e-3, 7e-3)
     return {
         "rounded boxes": (box(1e-3), box(3e-3)),
         "rounded box-box": (box(2e-4), box(0.0)),
@@ -38,6 +42,7 @@ def random_shapes(rng: np.random.Generator) -> dict[str, tuple[SweptPolytope, Sw
         "capsule-box": (capsule, box(0.0)),
         "rounded box-capsule": (box(1e-3), capsule),
         "hull-capsule": (random_hull(rng, 9, 8e-3), capsule),
+        "capsules": (capsule, capsule_of(3e-3, 4e-3)),
     }
 
 

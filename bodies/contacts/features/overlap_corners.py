@@ -26,11 +26,13 @@ from .vertex_face import CLOSED, nearest_feature, past_face, plane_height
 
 _COSINE = math.sqrt(1.0 - ASTRAY * ASTRAY)
 """Cosine of the largest angle between a contact normal and the normal of a face next to it."""
-_FLUSH = math.sqrt(1.0 - 0.02**2)
-"""Cosine of the largest angle between two faces that are next to each other: 0.02 rad.
+FLUSH = 0.02
+"""Sine of the largest angle between two faces that are next to each other.
 
 Springs have depths of a hundredth of the size. At a larger angle faces overlap along an edge only.
 """
+_FLUSH_COSINE = math.sqrt(1.0 - FLUSH * FLUSH)
+"""Cosine of the angle ``FLUSH``."""
 
 
 @compiled
@@ -92,7 +94,7 @@ def common_direction(
     x, y, z = n
     ux, uy, uz = _normal_near(a, n_faces_a, faces_a, n)
     vx, vy, vz = _normal_near(b, n_faces_b, faces_b, (-x, -y, -z))
-    if ux * vx + uy * vy + uz * vz > -_FLUSH:
+    if ux * vx + uy * vy + uz * vz > -_FLUSH_COSINE:
         return 0.0, 0.0, 0.0
     return ux, uy, uz
 

@@ -13,10 +13,23 @@ from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Point
-from ...vectors import Vector3, dot, minus, put, times, vector_at
+from ...vectors import Vector3, cross, dot, minus, put, times, vector_at
+from .edge_crossing import ASTRAY
 from .frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
-from .polytope_tables import EDGE, ENDS, N_FACES, SWEEP, core_numbers, edges_of, faces_of, part_names, vertex_at
+from .polytope_tables import (
+    ALONG,
+    EDGE,
+    EDGES,
+    ENDS,
+    N_FACES,
+    SWEEP,
+    core_numbers,
+    edges_of,
+    faces_of,
+    part_names,
+    vertex_at,
+)
 from .vertex_face import Nearest, nearest_of_core
 from .writing import write_flat, write_principal, write_round
 
@@ -108,6 +121,20 @@ def write_vertex_over(
 
 
 @compiled
+def _is_along_side(own: Floats, other: Floats, core: Floats, number: int, n_star: float, star: Floats) -> bool:
+    """Return whether the nearest feature of a core is the side of a capsule, nearly parallel to the vertex's own.
+
+    The vertex is the end of a segment, with the single unit vector ``star`` in the frame ``own``.  The largest sine of
+    the angle is ``ASTRAY``.
+    """
+    if n_star != 1.0 or core[N_FACES] > 0.0 or number > 0:
+        return False
+    along = vector_in_world(other, vector_at(core, int(core[EDGES]) + ALONG))
+    across = cross(along, vector_in_world(own, vector_at(star, 0)))
+    return bool(dot(across, across) <= ASTRAY * ASTRAY)
+
+
+@compiled
 def write_vertex(
     a: Floats,
     b: Floats,
@@ -174,6 +201,9 @@ def write_vertex(
                 size,
             )
             past = (1.0 - part) * past + part * beyond
+        elif _is_along_side(own_frame, other, core, number, n_star, star):
+            # a side along a side touches with both ends, also if it tilts
+            past = (1.0 - part) * past - part * size
     found = number, distance, x, y, z, within
     write_vertex_over(a, b, out, swap, p, radius, found, past, core[N_FACES], *edges_of(core), sweep, size)
 

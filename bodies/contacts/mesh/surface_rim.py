@@ -14,11 +14,11 @@ from ...vectors import Vector3, ahead, cross, opposite, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.vertex_face import REACH
+from ..features.vertex_face import CLOSED, REACH
 from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
 from ..frustum.frustum import axis_in_world
 from ..frustum.frustum_writing import astray_of_rim, write_contact
-from ..surface.surface_search import box_square, face_height, has_patch
+from ..surface.surface_search import box_square, depth_inside, face_height, has_patch
 from ..surface.surface_tables import (
     FACE,
     FACES,
@@ -31,7 +31,7 @@ from ..surface.surface_tables import (
     TRIANGLE,
     TRIANGLES,
 )
-from ..surface.surface_vertex import over_face, touched_face
+from ..surface.surface_vertex import over_face
 
 _FLAT = 1e-12
 """Sine of the angle between rim and face below which the lowest point of the rim is round-off."""
@@ -59,6 +59,15 @@ def rim_in_surface(a: Floats, b: Floats, frustum: Floats, place: Vector3) -> Rim
 
 
 @compiled
+def _is_nearest(surface: Floats, depth: float, point: Vector3) -> bool:
+    """Return whether a face at a depth [m] above a point is the nearest part of the surface to the point.
+
+    Depths within the margin ``CLOSED`` are round-off: the point may be on a border.
+    """
+    return bool(depth <= CLOSED * surface[SIZE] or depth <= (1.0 + REACH) * depth_inside(surface, point))
+
+
+@compiled
 def rim_under(
     surface: Floats,
     patch: float,
@@ -70,8 +79,8 @@ def rim_under(
     """Return the face of a patch that a rim faces, the gap, and the distance past the border of the face [m].
 
     For each face, the gap is measured at the point of the rim that is lowest over this face.  From these gaps, the face
-    is chosen as for a vertex (:func:`bodies.contacts.surface.surface_vertex.touched_face`).  If the point lies past the
-    border of the face, the gap is positive.
+    is chosen as for a vertex (:func:`bodies.contacts.surface.surface_vertex.face_under`), but a point inside of the
+    body belongs to the nearest face.  If the point lies past the border of the face, the gap is positive.
 
     Parameters
     ----------
@@ -92,7 +101,7 @@ def rim_under(
     margin = REACH * size
     best, height_best, apart, past, found = math.inf, 0.0, 0.0, math.inf, 0
     under, under_past, under_face = math.inf, 0.0, -1
-    point, point_under = center, center
+    point_under = center
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
@@ -120,12 +129,11 @@ def rim_under(
                 under, under_past, under_face, point_under = -height, inside, face, p
             key = square + max(ends, 0.0) * max(ends, 0.0)
             if key < best:
-                best, height_best, apart, past, found, point = key, height, math.sqrt(square), ends, face, p
+                best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
         node += 1
-    if under * under < best:
-        point = point_under
-    face, gap, past = touched_face(surface, found, best, height_best, apart, past, under_face, under, under_past, point)
-    return face, gap, past
+    if under_face >= 0 and under * under < best and _is_nearest(surface, under, point_under):
+        return under_face, -under, under_past
+    return found, height_best if past <= 0.0 else math.hypot(apart, past), past
 
 
 @compiled
@@ -144,7 +152,7 @@ def rim_over(
     height = face_height(surface, f, point)
     lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
     best, height_best, apart, past = reach * reach, 0.0, reach, reach
-    under, under_past, under_face = math.inf, 0.0, -1
+    under, under_past = math.inf, 0.0
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
@@ -158,13 +166,14 @@ def rim_over(
                 continue
             over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, point)
             if over <= 0.0 and height < 0.0 and -height < under:
-                under, under_past, under_face = -height, inside, face
+                under, under_past = -height, inside
             key = square + max(ends, 0.0) * max(ends, 0.0)
             if key < best:
                 best, height_best, apart, past = key, height, math.sqrt(square), ends
         node += 1
-    _, gap, past = touched_face(surface, face, best, height_best, apart, past, under_face, under, under_past, point)
-    return gap, past
+    if under * under < best and _is_nearest(surface, under, point):
+        return -under, under_past
+    return height_best if past <= 0.0 else math.hypot(apart, past), past
 
 
 @compiled

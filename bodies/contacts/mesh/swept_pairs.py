@@ -13,7 +13,7 @@ from nonsmooth.types import Floats
 from ...meshes.patches import Patches, patches_for_ball
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.triangle_mesh import TriangleMesh
-from ...vectors import minus, opposite, plus, put, size_of, times, vector_at
+from ...vectors import ahead, minus, opposite, plus, put, size_of, times, vector_at
 from ..features.bounds import edges_bound
 from ..features.frames import vector_in_body, vector_in_world
 from ..features.polytope_tables import N_EDGES as N_CORE_EDGES
@@ -25,10 +25,19 @@ from ..features.vertex_face import nearest_of_core
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..surface.edges_near import edges_across
 from ..surface.surface_ball import write_ball
-from ..surface.surface_edges import write_edges
+from ..surface.surface_edges import crossing_of, past_surface, write_edges
 from ..surface.surface_near import NARROW, Near, patches_near, room_ahead, seen_from
 from ..surface.surface_pairs import MOST_NEAR
-from ..surface.surface_search import FAR, ON_CORNER, corner_at, edge_at, feature_of, member_of, node_at, steepest
+from ..surface.surface_search import (
+    FAR,
+    ON_CORNER,
+    corner_at,
+    edge_at,
+    feature_of,
+    member_of,
+    node_at,
+    steepest,
+)
 from ..surface.surface_tables import N_NODES, part_names, surface_numbers
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
@@ -92,6 +101,19 @@ def find_near_swept(
     out[0] = float(n) if n <= limit else most + 1.0
 
 
+@compiled
+def _write_crossing(
+    a: Floats, b: Floats, out: Floats, surface: Floats, one: int, core: Floats, two: int, size: float
+) -> None:
+    """Write the geometry block of an edge of a surface and one of a core; their rows begin at ``one`` and ``two``."""
+    sweep = core[SWEEP]
+    crossing = crossing_of(a, b, surface, one, core, two, sweep, size)
+    p, _, _, n, gap, _, past = crossing
+    if gap < 0.0 and past <= 0.0:
+        past = max(past, past_surface(a, b, surface, core, two, (0.0, 0.0), -gap, ahead(p, gap, n)))
+    write_edges(a, out, crossing, past, sweep)
+
+
 def evaluate_swept_features(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, core: Floats, size: float
 ) -> None:
@@ -108,7 +130,7 @@ def evaluate_swept_features(
     elif kind == UNDER:
         write_vertex(a, b, out, 1.0, core, (0.0, block_at(core, 0)), *corner_at(surface, i), 0.0, size)
     elif kind == ACROSS:
-        write_edges(a, b, out, surface, edge_at(surface, i), core, core_edge_at(core, j), sweep, size)
+        _write_crossing(a, b, out, surface, edge_at(surface, i), core, core_edge_at(core, j), size)
     else:
         write_apart(a, out, size)
 

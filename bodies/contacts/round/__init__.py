@@ -1,1 +1,1 @@
-"""Spheres and capsules in closed form."""
+"""Spheres, also against capsules and boxes, in closed form."""

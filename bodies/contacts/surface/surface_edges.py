@@ -4,37 +4,64 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...vectors import ahead, put
-from ..features.edge_crossing import PARALLEL, cross_edges, least_sine
-from ..features.frames import write_tangent
+from ...vectors import Vector3, ahead, put, vector_at
+from ..features.edge_crossing import PARALLEL, Crossing, cross_edges, least_sine
+from ..features.frames import point_in_body, write_tangent
+from ..features.polytope_tables import ALONG, INTO_FIRST, LENGTH
 from ..features.vertex_face import CLOSED
 from ..features.writing import write_principal
-
-_NEAR_ENDS = 4.0
-"""Least distance of overlapping edges' contact points from the ends of the edges, as a multiple of the overlap.
-
-Closer to an end, the edges may pass each other without an overlap of the bodies.
-"""
+from .surface_near import seen_from
+from .surface_vertex import past_depth
 
 
 @compiled
-def write_edges(
-    a: Floats, b: Floats, out: Floats, edge_a: Floats, at_a: int, edge_b: Floats, at_b: int, radius: float, size: float
-) -> None:
+def crossing_of(
+    a: Floats, b: Floats, edge_a: Floats, at_a: int, edge_b: Floats, at_b: int, radius: float, size: float
+) -> Crossing:
+    """Return the crossing of two edges (:func:`bodies.contacts.features.edge_crossing.cross_edges`).
+
+    The second edge has a radius [m].  The rows of the edges begin at the indices ``at_a`` and ``at_b``.
+    """
+    parallel = least_sine(size) if radius == 0.0 else PARALLEL
+    return cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, CLOSED * size, size)
+
+
+@compiled
+def past_surface(
+    frame: Floats,
+    other: Floats,
+    surface: Floats,
+    edges: Floats,
+    at: int,
+    beyond: tuple[float, float],
+    depth: float,
+    point: Vector3,
+) -> float:
+    """Return how far an edge of the other body is from an overlap of this depth with a surface [m].
+
+    See :func:`bodies.contacts.surface.surface_vertex.past_depth`.  The row of the edge begins at the index ``at`` of
+    ``edges``; its body goes on past its ends by the lengths ``beyond`` [m].  ``point`` is the nearest point of the edge
+    in the world [m].
+    """
+    start, along = vector_at(edges, at), vector_at(edges, at + ALONG)
+    first, second = ahead(start, -beyond[0], along), ahead(start, edges[at + LENGTH] + beyond[1], along)
+    ends = seen_from(frame, other, first), seen_from(frame, other, second)
+    into = block_at(edges, at + INTO_FIRST)
+    return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point)))
+
+
+@compiled
+def write_edges(a: Floats, out: Floats, crossing: Crossing, past: float, radius: float) -> None:
     """Write the geometry block of two edges at the nearest points of their lines; the second edge has a radius [m].
 
-    The contact is open, with a positive gap, if the edges do not cross or do not face each other
-    (:func:`bodies.contacts.features.edge_crossing.cross_edges`), and if they overlap near their ends.  The rows of the
-    edges begin at the indices ``at_a`` and ``at_b``.
+    If the distance ``past`` [m] of the edges past the boundary of their features is positive, the contact is open, with
+    a positive gap.
     """
-    margin, parallel = CLOSED * size, least_sine(size) if radius == 0.0 else PARALLEL
-    p, e, f, n, gap, over, past = cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, margin, size)
-    if gap < 0.0:
-        past = max(past, over - _NEAR_ENDS * gap - margin)
+    p, e, f, n, gap, _, _ = crossing
     gap -= radius
     if past > 0.0:
         gap = math.hypot(gap, past)

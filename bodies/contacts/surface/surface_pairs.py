@@ -15,13 +15,14 @@ from nonsmooth.types import Floats
 from ...meshes.features import Features, features_of
 from ...meshes.patches import patches_for_ball
 from ...shapes.polytope import Polytope
+from ...vectors import ahead
 from ..features.bounds import edges_bound
 from ..features.writing import NO_CANDIDATE, write_apart
 from .edges_near import edges_across
 from .mesh_point import write_over
-from .surface_edges import write_edges
+from .surface_edges import crossing_of, past_surface, write_edges
 from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, Near, is_node_near, patches_under
-from .surface_search import FAR, ON_CORNER, ON_EDGE, corner_at, edge_at, feature_of, member_of, node_at
+from .surface_search import FAR, ON_CORNER, ON_EDGE, beyond_ends, corner_at, edge_at, feature_of, member_of, node_at
 from .surface_tables import N_NODES, surface_numbers
 
 MOST_NEAR = 256
@@ -70,6 +71,20 @@ def find_near_features(
     out[0] = float(_features_near(a, b, surface_a, surface_b, near, EDGE_ACROSS, out, n))
 
 
+@compiled
+def _write_crossing(
+    a: Floats, b: Floats, out: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, size: float
+) -> None:
+    """Write the geometry block of two edges that cross; their rows begin at the indices ``one`` and ``two``."""
+    crossing = crossing_of(a, b, surface_a, one, surface_b, two, 0.0, size)
+    p, _, _, n, gap, _, past = crossing
+    if gap < 0.0 and past <= 0.0:
+        past = max(past, past_surface(b, a, surface_b, surface_a, one, beyond_ends(surface_a, one), -gap, p))
+        q = ahead(p, gap, n)
+        past = max(past, past_surface(a, b, surface_a, surface_b, two, beyond_ends(surface_b, two), -gap, q))
+    write_edges(a, out, crossing, past, 0.0)
+
+
 def evaluate_surface_features(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface_a: Floats, surface_b: Floats, size: float
 ) -> None:
@@ -85,7 +100,7 @@ def evaluate_surface_features(
     elif kind == OVER_SECOND:
         write_over(a, b, out, 1.0, surface_b, float(i), *corner_at(surface_a, j), reach, 0.0)
     elif kind == EDGE_ACROSS:
-        write_edges(a, b, out, surface_a, edge_at(surface_a, i), surface_b, edge_at(surface_b, j), 0.0, size)
+        _write_crossing(a, b, out, surface_a, edge_at(surface_a, i), surface_b, edge_at(surface_b, j), size)
     else:
         write_apart(a, out, size)
 

@@ -12,12 +12,14 @@ from ...vectors import Vector3, ahead, dot, minus, plus, times, vector_at
 from ..features.vertex_face import REACH
 from .surface_tables import (
     BITS,
+    CONCAVE,
     CORNER,
     CORNERS,
     EDGE,
     EDGES,
     FACE,
     FACES,
+    INSIDE,
     MEMBERS,
     N_EDGES,
     N_NODES,
@@ -65,6 +67,12 @@ def edge_at(surface: Floats, edge: int) -> int:
 
 
 @compiled
+def beyond_ends(surface: Floats, edge: int) -> tuple[float, float]:
+    """Return by how much the body goes on past the ends of the edge whose row begins at the index ``edge`` [m]."""
+    return surface[edge + 14], surface[edge + 15]
+
+
+@compiled
 def feature_of(surface: Floats, member: int) -> tuple[int, int, int]:
     """Return kind and number of the feature of a member, and the index of its row, on a face that of the triangle."""
     edge = member - int(surface[N_TRIANGLES])
@@ -108,18 +116,24 @@ def face_height(surface: Floats, face: int, point: Vector3) -> float:
 
 
 @compiled
-def over_ends(surface: Floats, triangle: int, point: Vector3) -> tuple[float, float]:
+def over_ends(surface: Floats, triangle: int, height: float, point: Vector3) -> tuple[float, float]:
     """Return two distances of a point past edges of a triangle [m]; negative if the point is inside of them.
 
     The first is the largest distance past any of the three edges.  The second is the largest one past the edges on the
-    border of the triangle's face; -inf if there are none.  Both are measured in the plane of the triangle.
+    border of the triangle's face; -inf if there are none.  Both are measured in the plane of the triangle.  Below the
+    plane a face does not end at a concave edge: a point inside of the body near an inner corner is below both faces.
+
+    ``height`` is the height of the point over the plane [m].
     """
     over, ends = -math.inf, -math.inf
     for i in range(3):
+        border = surface[triangle + 22 + i]
+        if height < 0.0 and border == CONCAVE:
+            continue
         e = triangle + 10 + 4 * i
         out = dot(vector_at(surface, e), point) - surface[e + 3]
         over = max(over, out)
-        if surface[triangle + 22 + i] > 0.0:
+        if border != INSIDE:
             ends = max(ends, out)
     return over, ends
 
@@ -180,15 +194,23 @@ def first_leaf(surface: Floats, patch: float, point: Vector3) -> int:
 
 
 @compiled
-def depth_inside(surface: Floats, point: Vector3) -> float:
-    """Return how far a point is inside of the body [m], 0 outside.
+def outward_of(surface: Floats, face: int, triangle: int, point: Vector3) -> tuple[float, float]:
+    """Return the squared distance of a point from a triangle [m^2], and a number that is negative inside of the body.
 
-    The sign comes from the normal at the nearest point; on edges and at vertices, from normals weighted by angles:
-    J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE Transactions
-    on Visualization and Computer Graphics 11 (2005) 243-253.
+    The sign is that of the body if the triangle is the nearest one.  It comes from the normal at the nearest point; on
+    edges and at vertices, from normals weighted by angles: J. A. Baerentzen, H. Aanaes, "Signed distance computation
+    using the angle weighted pseudonormal", IEEE Transactions on Visualization and Computer Graphics 11 (2005) 243-253.
+    The row of the triangle begins at the index ``triangle``.
     """
-    if box_square(surface, node_at(surface, 0), point) > 0.0:
-        return 0.0
+    qx, qy, qz, region = in_triangle(surface, triangle, point)
+    apart = minus(point, (qx, qy, qz))
+    n = triangle + 22 + 3 * region if region > 0 else face_at(surface, face)
+    return dot(apart, apart), dot(apart, vector_at(surface, n))
+
+
+@compiled
+def signed_distance(surface: Floats, point: Vector3) -> float:
+    """Return the distance of a point from the surface [m], negative inside of the body."""
     least, side = math.inf, 0.0
     first = first_leaf(surface, -1.0, point)
     node = -1
@@ -200,15 +222,19 @@ def depth_inside(surface: Floats, point: Vector3) -> float:
         for i in range(int(surface[at + 8])):
             what, face, t = feature_of(surface, member_of(surface, at, i))
             if what == ON_FACE:
-                qx, qy, qz, region = in_triangle(surface, t, point)
-                apart = minus(point, (qx, qy, qz))
-                square = dot(apart, apart)
+                square, outward = outward_of(surface, face, t, point)
                 if square < least:
-                    least = square
-                    n = t + 22 + 3 * region if region > 0 else face_at(surface, face)
-                    side = dot(apart, vector_at(surface, n))
+                    least, side = square, outward
         node += 1
-    return float(least**0.5) if side < 0.0 else 0.0
+    return float(-(least**0.5) if side < 0.0 else least**0.5)
+
+
+@compiled
+def depth_inside(surface: Floats, point: Vector3) -> float:
+    """Return how far a point is inside of the body [m], 0 outside."""
+    if box_square(surface, node_at(surface, 0), point) > 0.0:
+        return 0.0
+    return max(-signed_distance(surface, point), 0.0)
 
 
 @compiled
@@ -270,7 +296,7 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
                 height = face_height(surface, f, point)
                 if height * height > best + same:
                     continue
-                over, ends = over_ends(surface, row, point)
+                over, ends = over_ends(surface, row, height, point)
                 if over <= margin and height < 0.0 and -height < under:
                     under, under_past, under_face = -height, ends - margin, which
                 if over <= margin and height >= 0.0:

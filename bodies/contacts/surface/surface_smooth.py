@@ -90,7 +90,7 @@ def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -
     n = vector_at(surface, f)
     p = facing_point(core, turn, center, n)[0]
     height = dot(n, p) - surface[f + 3]
-    beyond, past = over_ends(surface, t, p)
+    beyond, past = over_ends(surface, t, 0.0, p)
     if beyond > REACH * surface[SIZE]:
         foot = minus(p, times(height, n))
         x, y, z, _ = in_triangle(surface, t, foot)

@@ -14,7 +14,7 @@ import numpy as np
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import SharedNumbers
 
-from ...meshes.features import Features
+from ...meshes.features import FLAT, Features
 from ...meshes.patches import Patches
 from ...meshes.topology import Integers, neighbours
 
@@ -28,7 +28,7 @@ SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CO
 ``SIZE`` is the index of the size [m].  Names that begin with ``N_`` are indices of a number of rows or of patches.  The
 others are indices of the offset at which the rows of that name begin.
 """
-NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 14, 6
+NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 16, 6
 """Number of floats in the row of each kind.  Numbers in brackets count floats, if there are several.
 
 =========  ============================================================================================
@@ -39,16 +39,20 @@ node       lowest corner of its box (3) [m]; highest corner (3) [m]; number of t
            patches of all features in its subtree, one bit for each patch
 face       outward normal (3); distance of its plane from the origin [m]; number of its patch
 triangle   vertices (9) [m]; number of its face; for each edge the outward normal in the plane (3) and
-           the edge's distance from the origin along it [m]; for each edge 1 if the face ends there,
-           else 0; outward normals, of any length, at the edges (9) and at the vertices (9): they give
-           the sign of the distance of a point
+           the edge's distance from the origin along it [m]; for each edge where the face ends there
+           (``INSIDE``, ``CONVEX``, ``CONCAVE``); outward normals, of any length, at the edges (9) and at
+           the vertices (9): they give the sign of the distance of a point
 edge       first end (3) [m]; unit vector along it (3); length [m]; unit vectors from the edge into its
-           two faces (6); number of its patch
+           two faces (6); number of its patch; lengths by which the body goes on past the first and the
+           second end (2) [m]: 0 at a corner, else the size of the surface
 corner     position (3) [m]; number of its patch; index of the unit vectors along its edges; number of
            its edges
 =========  ============================================================================================
 
 The members of a node are the features in its box, by number: triangles first, then convex edges, then corners.
+"""
+INSIDE, CONVEX, CONCAVE = 0.0, 1.0, 2.0
+"""Kinds of edges of a triangle: inside of its face, or on the border of the face, where the next face bends down or up.
 """
 BITS = 52
 """Largest number of patches whose bits a float stores exactly, one bit for each patch.
@@ -63,12 +67,14 @@ _LEAF = 4
 def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
     """Return the numbers of a surface whose features are divided into patches: head, rows, unit vectors at corners."""
     triangles = _triangles(features)
-    edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float)])
+    ends_of = np.array(features.edges, dtype=int).reshape(-1, 4)[:, :2]
+    beyond = np.where(np.isin(ends_of, features.corners), 0.0, features.size)
+    edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float), beyond])
     lengths = np.array([len(star) for star in features.stars], dtype=int)
     tips = features.vertices[list(features.corners)]
     stars = [np.array(star_of(features, i)) for i in range(len(features.corners))]
     corners = np.column_stack([tips, patches.of_corners, 3 * (np.cumsum(lengths) - lengths), lengths])
-    ends = features.vertices[np.array(features.edges, dtype=int).reshape(-1, 4)[:, :2]]
+    ends = features.vertices[ends_of]
     boxes = [features.vertices[features.triangles], ends, tips[:, None]]
     low = np.concatenate([box.min(axis=1) for box in boxes])
     high = np.concatenate([box.max(axis=1) for box in boxes])
@@ -96,7 +102,7 @@ def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
 
 
 def edge_rows(features: Features) -> Vector:
-    """Return a row for each convex edge, shape [n, 13]: the contents of an ``EDGE`` row, but without the patch."""
+    """Return a row for each convex edge, shape [n, 13]: the first numbers of an ``EDGE`` row."""
     edges = np.array(features.edges, dtype=int).reshape(-1, 4)
     start, way = features.vertices[edges[:, 0]], features.vertices[edges[:, 1]] - features.vertices[edges[:, 0]]
     length = np.linalg.norm(way, axis=1, keepdims=True)
@@ -106,7 +112,7 @@ def edge_rows(features: Features) -> Vector:
 
 
 def edge_row(features: Features, number: int) -> Numbers:
-    """Return the row of one convex edge, 13 numbers: the contents of an ``EDGE`` row, but without the patch."""
+    """Return the row of one convex edge, 13 numbers: the first numbers of an ``EDGE`` row."""
     one, two, left, right = features.edges[number]
     start, way = features.vertices[one], features.vertices[two] - features.vertices[one]
     length = math.hypot(*way)
@@ -145,6 +151,8 @@ def _triangles(features: Features) -> Vector:
     at_edges = np.repeat(normals, 3, axis=0)
     between = at_edges[pairs[:, 0]] + at_edges[pairs[:, 1]]
     at_edges[pairs[:, 0]] = at_edges[pairs[:, 1]] = between
+    # at a concave edge the normal of the next face leads back over the triangle
+    is_concave = np.einsum("nij,nij->ni", out, at_edges.reshape(-1, 3, 3)) < -FLAT
     angles = np.arccos(np.clip(-np.einsum("nij,nij->ni", along, np.roll(along, 1, axis=1)), -1.0, 1.0))
     at_vertices = np.zeros_like(features.vertices)
     np.add.at(at_vertices, features.triangles.reshape(-1), angles.reshape(-1, 1) * np.repeat(normals, 3, axis=0))
@@ -153,7 +161,7 @@ def _triangles(features: Features) -> Vector:
             corners.reshape(-1, 9),
             features.face_of[:, None],
             np.concatenate([out, heights[:, :, None]], axis=2).reshape(-1, 12),
-            np.logical_not(features.inner),
+            np.where(features.inner, INSIDE, np.where(is_concave, CONCAVE, CONVEX)),
             at_edges.reshape(-1, 9),
             at_vertices[features.triangles].reshape(-1, 9),
         ]

@@ -10,11 +10,11 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, dot, minus, vector_at
 from ..features.edge_crossing import ASTRAY
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
+from ..features.overlap_corners import FLUSH
 from ..features.vertex_face import CLOSED, REACH
 from .surface_search import (
     ON_FACE,
     box_square,
-    depth_inside,
     face_at,
     face_height,
     feature_of,
@@ -23,6 +23,7 @@ from .surface_search import (
     in_triangle,
     member_of,
     node_at,
+    outward_of,
     over_ends,
 )
 from .surface_tables import N_NODES, SIZE
@@ -63,7 +64,7 @@ def over_face(
     margin : float
         Distance past an edge up to which the vertex is still over the triangle [m].
     """
-    over, ends = over_ends(surface, triangle, point)
+    over, ends = over_ends(surface, triangle, height, point)
     over, ends = max(over - margin, lean), max(ends - margin, lean)
     past, square = ends, height * height
     if over > 0.0 or height < 0.0:
@@ -76,41 +77,66 @@ def over_face(
 
 
 @compiled
-def touched_face(
+def past_depth(
+    frame: Floats,
+    other: Floats,
     surface: Floats,
-    found: int,
-    key: float,
-    height: float,
-    apart: float,
-    past: float,
-    inner: int,
-    under: float,
-    inner_past: float,
+    n_star: float,
+    star: Floats,
+    ends: tuple[Vector3, Vector3],
+    depth: float,
     point: Vector3,
-) -> tuple[int, float, float]:
-    """Select one of two faces for a point; return its number, the gap and the distance past its end [m].
+) -> float:
+    """Return how far a feature of the other body is from an overlap of this depth with a surface [m].
 
-    The first face is the nearest one.  The second is the face with the least depth among those that are above the
-    point, if the point is inside of the body.
+    The result is positive if a face of the surface is less deep than the ``depth``, or if the point is outside of the
+    body by more than the margin ``CLOSED`` and the angle ``FLUSH`` of flush faces allow.  Only faces that the feature
+    may touch count, however near others are: bodies with flush faces on springs are pressed deeper into each other than
+    their sides are apart.  An edge of the feature that leads below a face, or an end below it, excludes this face.
 
     Parameters
     ----------
+    frame, other : Floats
+        Frame blocks of the body with the surface, and of the other body.
     surface : Floats
         The surface.
-    found, key, height, apart, past : int and float
-        The nearest face; the sum of the squares of its distance and of the distance past its end [m^2]; height over
-        it, distance from it, and distance past its end [m].
-    inner, under, inner_past : int and float
-        The face above a point inside, or -1; depth below it, and distance past its end [m].
+    n_star, star : float and Floats
+        Unit vectors from the feature into its body, in the axes of the other body: along the edges of a vertex, into
+        the faces of an edge.
+    ends : tuple of Vector3
+        The ends of the feature in the axes of the surface [m].
+    depth : float
+        Depth of the overlap [m].
     point : Vector3
-        The point [m].
+        The point of the feature, in the axes of the surface [m].
     """
-    is_above = inner >= 0 and under * under < key
+    margin = CLOSED * surface[SIZE]
     # depths within the margin are round-off: the point may be on a border
-    is_round_off = under <= CLOSED * surface[SIZE]
-    if is_above and (is_round_off or under <= (1.0 + REACH) * depth_inside(surface, point)):
-        return inner, -under, inner_past
-    return found, height if past <= 0.0 else math.hypot(apart, past), past
+    if depth <= margin:
+        return -margin
+    least, side, least_deep = math.inf, 0.0, depth * (1.0 + REACH)
+    first = first_leaf(surface, -1.0, point)
+    node = -1
+    while node < int(surface[N_NODES]):
+        at = node_at(surface, first if node < 0 else node)
+        if node >= 0 and box_square(surface, at, point) > max(least, least_deep * least_deep):
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            what, face, t = feature_of(surface, member_of(surface, at, i))
+            if what != ON_FACE:
+                continue
+            square, outward = outward_of(surface, face, t, point)
+            if square < least:
+                least, side = square, outward
+            f = face_at(surface, face)
+            deep = max(-face_height(surface, f, ends[0]), -face_height(surface, f, ends[1]))
+            deep = max(deep, math.sqrt(square))
+            if deep < least_deep and leaning(frame, other, surface, f, n_star, star) <= ASTRAY:
+                least_deep = deep
+        node += 1
+    outside = math.sqrt(least) if side >= 0.0 else 0.0
+    return max(depth - (1.0 + REACH) * least_deep, outside - margin - FLUSH * depth)
 
 
 @compiled
@@ -129,8 +155,8 @@ def face_under(
     ``place`` is the vertex in the frame of its body [m].
 
     The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
-    face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face.  If
-    the vertex may not touch the face, the gap is positive.
+    face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face that it
+    may touch.  If the vertex may not touch the face, the gap is positive.
 
     ``star`` holds unit vectors along the vertex's edges.  If no face is within ``reach`` [m],
     gap and distance past the end are ``reach``.
@@ -164,4 +190,8 @@ def face_under(
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
         node += 1
-    return touched_face(surface, found, best, height_best, apart, past, under_face, under, under_past, (x, y, z))
+    is_above = under_face >= 0 and under * under < best
+    point = x, y, z
+    if is_above and past_depth(frame, other, surface, n_star, star, (point, point), under, point) <= 0.0:
+        return under_face, -under, under_past
+    return found, height_best if past <= 0.0 else math.hypot(apart, past), past
