@@ -98,7 +98,9 @@ def _gets_away(ws: Workspace, active: ActiveContact) -> bool:
 def _stop_slips(ws: Workspace) -> None:
     """Bring the slip velocities of the contacts at rest to exactly zero, by the impulses of least norm.
 
-    What is left of such a slip is round-off, whose direction would act as that of a slip.
+    What is left of such a slip is round-off, whose direction would act as that of a slip. The slips are left as they
+    are if an impulse is larger than friction can give: contacts that are very close to each other slip slowly, too, if
+    the bodies turn about them.
     """
     for active in ws.actives:
         # the equations of forces, posed with rates: friction impulses of the contacts at rest are the only unknowns
@@ -109,10 +111,25 @@ def _stop_slips(ws: Workspace) -> None:
             active.free[r] = active.rate[r]
     resolve(ws)
     for active in ws.actives:
-        impulse = state_of(ws, active).impulse
+        if active.sticks and not _can_friction_give(ws, active):
+            return
+    for active in ws.actives:
+        state = state_of(ws, active)
         for r in range(1, 3):
-            impulse[r] += active.force[r]
+            state.impulse[r] += active.force[r]
+            # the mean of the rates before and after is half of that before
+            state.dissipated -= 0.5 * active.force[r] * active.rate[r]
     evaluate_impact_rates(ws, ws.impact.y.start)
+
+
+@kernel("b1(ws, ActiveContact)")
+def _can_friction_give(ws: Workspace, active: ActiveContact) -> bool:
+    """True if the friction impulse of an active contact is within Coulomb's bound.
+
+    The normal impulse is taken that changes the gap rate by the speed scale of the impact.
+    """
+    inverse_mass = diagonal_block(ws, active.index).nn
+    return length(active.friction) * inverse_mass <= active.static_coefficient * ws.impact.speed_scale
 
 
 @kernel("void(ws, ActiveContact, f8)")
