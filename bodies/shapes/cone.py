@@ -22,7 +22,7 @@ from .frustum import (
     feet_on,
     frustum_numbers,
     on_axis,
-    rims_over_faces,
+    standing_height,
 )
 from .placement import about_axis, across_axis, farthest_on_circle
 from .revolution import draw_swept_frustum, swept_frustum
@@ -95,18 +95,11 @@ class Cone(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """The upper radius is 0."""
-        return frustum_numbers(*self._profile, self.foot_height, self.rounding)
-
-    @property
-    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """The rim of the base, set back, and the apex."""
-        return rims_over_faces(*self._profile, self.foot_height)
+        return frustum_numbers(*self._profile, standing_height(self.foot_height, *self.core_sizes), self.rounding)
 
     @property
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet of the base in the body frame [m]; none without a height."""
-        if self.foot_height == 0.0:
-            return ()
+        """Tips of the feet of the base in the body frame [m]."""
         return feet_on(self._base, self._axis, self.core_sizes[0], 0.0)[:FEET_OF_FACE]
 
     @property

@@ -13,7 +13,16 @@ from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from .drawing import revolved
-from .frustum import Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers, rims_over_faces
+from .frustum import (
+    FEET,
+    Frustum,
+    Point,
+    check_feet,
+    check_rounding,
+    feet_on,
+    frustum_numbers,
+    standing_height,
+)
 from .placement import about_axis, across_axis, farthest_on_circle
 from .revolution import draw_swept_frustum, swept_frustum
 
@@ -58,12 +67,7 @@ class Cylinder(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both radii are the same."""
-        return frustum_numbers(*self._profile, self.foot_height, self.rounding)
-
-    @property
-    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """Both rims, set back."""
-        return rims_over_faces(*self._profile, self.foot_height)
+        return frustum_numbers(*self._profile, standing_height(self.foot_height, *self.core_sizes), self.rounding)
 
     @property
     def _profile(self) -> tuple[tuple[float, float], tuple[float, float], Point, Point]:
@@ -79,13 +83,11 @@ class Cylinder(Frustum):
     @property
     def rims(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Centres of the core's rims in the body frame, against and along the axis [m]."""
-        return self._on_axis(self.core_sizes[1] - self.foot_height)
+        return self._on_axis(self.core_sizes[1] - self.frustum[FEET])
 
     @property
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet in the body frame, first of the cap against the axis [m]; none without a height."""
-        if self.foot_height == 0.0:
-            return ()
+        """Tips of the feet in the body frame, first of the cap against the axis [m]."""
         center, axis = (self.x, self.y, self.z), (self.axis_x, self.axis_y, self.axis_z)
         return feet_on(center, axis, *self.core_sizes)
 

@@ -13,7 +13,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from .drawing import revolved
-from .frustum import Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers
+from .frustum import FEET, Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers, standing_height
 from .placement import across_axis, farthest_on_circle
 from .revolution import draw_swept_frustum, swept_frustum
 
@@ -62,20 +62,13 @@ class Disc(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both rims are the same."""
-        radii = self.core_radius, self.core_radius
-        return frustum_numbers(radii, (0.0, 0.0), self._center, self._axis, self.foot_height, self.rounding)
-
-    @property
-    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """The rim, which is not set back: it is the feet that stand out."""
-        return ((self.core_radius, self._center),)
+        radius, height = self.core_radius, standing_height(self.foot_height, self.core_radius)
+        return frustum_numbers((radius, radius), (0.0, 0.0), self._center, self._axis, height, self.rounding)
 
     @property
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet in the body frame, first of the face against the axis [m]; none without a height."""
-        if self.foot_height == 0.0:
-            return ()
-        return feet_on(self._center, self._axis, self.core_radius, self.foot_height)
+        """Tips of the feet in the body frame, first of the face against the axis [m]."""
+        return feet_on(self._center, self._axis, self.core_radius, self.frustum[FEET])
 
     @property
     def length(self) -> float:

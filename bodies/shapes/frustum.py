@@ -38,6 +38,7 @@ class Frustum(ConvexShape):
     within this radius of a smaller frustum, the core.  All properties here belong to the core.
     """
 
+    foot_height: float
     rounding: float
 
     @property
@@ -48,28 +49,41 @@ class Frustum(ConvexShape):
     @property
     @abstractmethod
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet on the core's flat faces in the body frame [m]; empty if the feet have no height."""
+        """Tips of the feet on the core's flat faces in the body frame [m]."""
 
     @property
-    @abstractmethod
+    @final
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
         """Radius and centre of each rim that touches planes, in the body frame [m].
 
         The rims are moved inwards by the height of the feet, so that a body on a face rests on its feet only.
         """
+        return self._rims(self.frustum[FEET])
+
+    @final
+    def _rims(self, height: float) -> tuple[tuple[float, Point], ...]:
+        """Return radius and centre of each rim, set back for feet of a height [m]; a disc has one, at its centre."""
+        low, high, below, above = self.frustum[:FEET]
+        (x, y, z), axis = self.frustum[CENTER : CENTER + 3], self.frustum[AXIS : AXIS + 7 : 3]
+        if above == below:
+            return ((low, (x, y, z)),)
+        return rims_over_faces((low, high), (below, above), (x, y, z), (axis[0], axis[1], axis[2]), height)
 
     @property
     @final
     def set_back(self) -> float:
-        """Distance by which rims are set back along the side because of feet [m]; for a disc, height of the feet."""
+        """Distance by which feet protrude from the parts, along the side [m]; of a disc, the height of the feet.
+
+        Feet of the least height protrude from a disc only: tips of other bodies lie in the planes of their faces.
+        """
         numbers = self.frustum
         height = numbers[HIGH] - numbers[LOW]
-        return numbers[FEET] * (numbers[SIDE] / height if height > 0.0 else 1.0)
+        return self.foot_height * numbers[SIDE] / height if height > 0.0 else numbers[FEET]
 
     @property
     @final
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The hull of the rims, set back by the feet.
+        """The hull of the rims, set back by ``foot_height``.
 
         Feet are no parts: they protrude from the faces by :attr:`set_back` at most, and may stand next to those of
         another body, or under its side.
@@ -77,7 +91,7 @@ class Frustum(ConvexShape):
         numbers = self.frustum
         place, sweep = np.array(numbers[CENTER : CENTER + 3]), numbers[SWEEP]
         axes = np.array(numbers[AXIS - 2 : AXIS + 7]).reshape(3, 3)
-        rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self.standing_rims])
+        rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self._rims(self.foot_height)])
         return (ConvexPart(rings, ball=sweep, place=place, axes=axes),)
 
     @final
@@ -184,6 +198,11 @@ and with uniform pressure has the same moment.
 """
 USUAL = 1e-4
 """Default height of the feet, relative to the radius of the face."""
+LEAST = 1e-8
+"""Least height of the feet, relative to the size of the body: ten times the default tolerance of its gaps.
+
+On a lower foot a rim that lies flat would touch, too, and its contact has no definite point.
+"""
 HIGHEST = 0.1
 """Largest height of the feet, relative to the radius of the face: feet must not change the shape."""
 
@@ -204,6 +223,16 @@ def check_feet(name: str, foot_height: float, radius: float, half_length: float 
             foot_height,
             "The rims are set back by it; a disc has no thickness.",
         )
+
+
+def standing_height(foot_height: float, radius: float, length: float = 0.0) -> float:
+    """Return the height of the feet on faces with a radius [m]: the given one, but at least :data:`LEAST`.
+
+    ``length`` is half the distance of the faces, or the height of a cone [m]; 0 for a disc.  The feet of a very thin
+    body stay lower than a tenth of it.
+    """
+    least = LEAST * max(radius, length)
+    return max(foot_height, min(least, 0.1 * length) if length > 0.0 else least)
 
 
 def feet_on(center: Point, axis: Point, radius: float, reach: float) -> tuple[Point, ...]:

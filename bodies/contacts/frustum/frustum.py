@@ -32,7 +32,6 @@ from ...shapes.frustum import (
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Polytope
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, vector_at
-from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
 from ..features.vertex_face import plane_height
@@ -42,6 +41,11 @@ from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """Part numbers of a frustum, in the direction of its axis: lower cap, lower rim, side, upper rim, upper cap."""
+_FLATTEST = 1e-9
+"""Least sine of the angle between a rim and a face for which a contact point of the rim has a finite speed.
+
+That speed is inversely proportional to the sine.  A flatter rim does not touch: its feet do.
+"""
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 """Names of the rims in the names of features."""
 
@@ -222,7 +226,7 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
         write_round(out, side, 0.0)
     else:
         # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
-        flank, turn = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
+        flank, turn = 1.0 if part == FLANK else 0.0, radial if abs(radial) > _FLATTEST else _FLATTEST
         write_principal(out, side, cross(axis, outward), turn, away, 1.0 - flank, flank)
 
 
@@ -265,8 +269,6 @@ def set_back(first: Frustum) -> Numbers:
     A rim that rolls over the edge of a face then keeps its height.
     """
     own = first.frustum
-    if not first.feet:
-        return own
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
     rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
     heights = [float((np.array(place) - center) @ axis) for _, place in rims]
