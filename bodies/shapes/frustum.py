@@ -72,27 +72,30 @@ class Frustum(ConvexShape):
     @property
     @final
     def set_back(self) -> float:
-        """Distance by which feet protrude from the parts, along the side [m]; of a disc, the height of the feet.
+        """Distance by which rims are set back along the side because of feet [m]; for a disc, height of the feet."""
+        return self._along_side(self.frustum[FEET])
 
-        Feet of the least height protrude from a disc only: tips of other bodies lie in the planes of their faces.
-        """
+    @final
+    def _along_side(self, height: float) -> float:
+        """Return the length along the side over a height along the axis [m]; for a disc, the height."""
         numbers = self.frustum
-        height = numbers[HIGH] - numbers[LOW]
-        return self.foot_height * numbers[SIDE] / height if height > 0.0 else numbers[FEET]
+        full = numbers[HIGH] - numbers[LOW]
+        return height * (numbers[SIDE] / full if full > 0.0 else 1.0)
 
     @property
     @final
     def parts(self) -> tuple[ConvexPart, ...]:
         """The hull of the rims, set back by ``foot_height``.
 
-        Feet are no parts: they protrude from the faces by :attr:`set_back` at most, and may stand next to those of
-        another body, or under its side.
+        Feet are no parts: they may stand next to those of another body, or under its side.  Without a ``foot_height``
+        the part is the whole body, and the tips of its feet lie in the faces; those of a disc protrude.
         """
         numbers = self.frustum
         place, sweep = np.array(numbers[CENTER : CENTER + 3]), numbers[SWEEP]
         axes = np.array(numbers[AXIS - 2 : AXIS + 7]).reshape(3, 3)
         rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self._rims(self.foot_height)])
-        return (ConvexPart(rings, ball=sweep, place=place, axes=axes),)
+        height = self.foot_height if numbers[SIDE] > 0.0 else numbers[FEET]
+        return (ConvexPart(rings, ball=sweep, place=place, axes=axes, protrusion=self._along_side(height)),)
 
     @final
     def _rounded(self, direction: Vector) -> Vector:
