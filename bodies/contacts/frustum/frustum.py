@@ -41,10 +41,10 @@ from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """Part numbers of a frustum, in the direction of its axis: lower cap, lower rim, side, upper rim, upper cap."""
-_FLATTEST = 1e-9
-"""Least sine of the angle between a rim and a face for which a contact point of the rim has a finite speed.
+FLATTEST = 1e-9
+"""Least sine of the angle between a rim and a face for which the rim has a lowest point.
 
-That speed is inversely proportional to the sine.  A flatter rim does not touch: its feet do.
+The speed of this point along the rim is inversely proportional to the sine.  Feet carry a flatter rim.
 """
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 """Names of the rims in the names of features."""
@@ -226,7 +226,7 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
         write_round(out, side, 0.0)
     else:
         # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
-        flank, turn = 1.0 if part == FLANK else 0.0, radial if abs(radial) > _FLATTEST else _FLATTEST
+        flank, turn = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
         write_principal(out, side, cross(axis, outward), turn, away, 1.0 - flank, flank)
 
 

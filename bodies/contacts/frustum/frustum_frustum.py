@@ -18,6 +18,7 @@ from ..features.vertex_face import CLOSED, REACH
 from .apex_frustum import evaluate_apex_over_frustum
 from .flank_flank import evaluate_sides
 from .frustum import (
+    FLATTEST,
     HIGH_CAP,
     HIGH_RIM,
     LOW_CAP,
@@ -75,7 +76,10 @@ def evaluate_rim_over_cap(
     axis, cap_axis, place = axis_in_world(own, first), axis_in_world(other, second), center_in_world(other, second)
     wide, height, up = cap_of(second, cap)
     n, middle = times(-up, cap_axis), point_in_world(own, vector_at(center, 0))
-    _, _, outward = across(n, axis)
+    _, sine, outward = across(n, axis)
+    if sine < FLATTEST:
+        # if no foot is over the cap, a flat rim touches it on the line of centres
+        _, _, outward = across(minus(place, middle), axis)
     p = ahead(middle, radius, outward)
     along, away, from_axis = across(minus(p, place), cap_axis)
     gap = up * (along - height)
