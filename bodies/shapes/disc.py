@@ -62,7 +62,7 @@ class Disc(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both rims are the same."""
-        radius, height = self.core_radius, standing_height(self.foot_height, self.core_radius)
+        radius, height = self.core_radius, standing_height(self.foot_height, self.core_radius, self.rounding)
         return frustum_numbers((radius, radius), (0.0, 0.0), self._center, self._axis, height, self.rounding)
 
     @property

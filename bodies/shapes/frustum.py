@@ -206,6 +206,11 @@ LEAST = 1e-8
 
 On a lower foot a rim that lies flat would touch, too, and its contact has no definite point.
 """
+LEAST_OF_DISC = 1e-6
+"""Least height of the feet of a sharp disc, relative to its radius.
+
+Sharp discs nearer than 1e-7 of their size count as in one plane, and touch edge to edge.
+"""
 HIGHEST = 0.1
 """Largest height of the feet, relative to the radius of the face: feet must not change the shape."""
 
@@ -228,14 +233,14 @@ def check_feet(name: str, foot_height: float, radius: float, half_length: float 
         )
 
 
-def standing_height(foot_height: float, radius: float, length: float = 0.0) -> float:
-    """Return the height of the feet on faces with a radius [m]: the given one, but at least :data:`LEAST`.
+def standing_height(foot_height: float, radius: float, length: float) -> float:
+    """Return the height of the feet on faces with a radius [m]: the given one, but not less than the least one.
 
-    ``length`` is half the distance of the faces, or the height of a cone [m]; 0 for a disc.  The feet of a very thin
-    body stay lower than a tenth of it.
+    ``length`` is half the distance of the faces, or the height of a cone [m].  The feet of a very thin body stay lower
+    than a tenth of it.
     """
-    least = LEAST * max(radius, length)
-    return max(foot_height, min(least, 0.1 * length) if length > 0.0 else least)
+    least = min(LEAST * max(radius, length), 0.1 * length) if length > 0.0 else LEAST_OF_DISC * radius
+    return max(foot_height, least)
 
 
 def feet_on(center: Point, axis: Point, radius: float, reach: float) -> tuple[Point, ...]:

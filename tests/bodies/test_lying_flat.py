@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Ball, ConeBody, CylinderBody, Disc, DiscBody, Plane, Plate, Rest
-from bodies.shapes.frustum import LEAST, USUAL
+from bodies.shapes.frustum import LEAST_OF_DISC, USUAL
 from laws import EnergeticImpact, Frictionless, LinearCompliant, NewtonImpact, Unilateral
 from nonsmooth.engine.memory.blocks import GAP
 from scenarios.rolling_disc import steady
@@ -28,7 +28,7 @@ R = 0.05
 DISC, CYLINDER, CONE = DiscBody(R, mass=0.2), CylinderBody(R, 0.02, mass=0.2), ConeBody(R, 0.06, mass=0.2)
 LOW_DISC, LOW_CYLINDER = DiscBody(R, mass=0.2, foot_height=0.0), CylinderBody(R, 0.02, mass=0.2, foot_height=0.0)
 """Bodies on feet of the least height."""
-STANDS = {DISC: USUAL * R, CYLINDER: 0.02, CONE: 0.015, LOW_DISC: LEAST * R, LOW_CYLINDER: 0.02}
+STANDS = {DISC: USUAL * R, CYLINDER: 0.02, CONE: 0.015, LOW_DISC: LEAST_OF_DISC * R, LOW_CYLINDER: 0.02}
 """Height of the mass centre over the plane on which they lie flat."""
 FLAT = pytest.mark.parametrize("body", [DISC, CYLINDER, CONE], ids=["disc", "cylinder", "cone"])
 ALL = pytest.mark.parametrize("body", STANDS, ids=["disc", "cylinder", "cone", "low disc", "low cylinder"])

@@ -9,6 +9,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import DiscBody, Plate
+from bodies.shapes.frustum import LEAST_OF_DISC
 from laws import Coulomb, EnergeticImpact, Unilateral
 
 LAWS: dict[str, Any] = {"normal": Unilateral(), "friction": Coulomb(0.0), "impact": EnergeticImpact(0.5)}
@@ -77,6 +78,7 @@ def test_a_disc_that_falls_on_a_disc_stays_above_it(seed: int) -> None:
     for one, two in ((plate, low), (plate, high), (low, high)):
         system.contact(one, two, **LAWS)
     height = rng.uniform(1e-4, 3e-3)
+    system.place(low, position=(0.0, 0.0, LEAST_OF_DISC * 0.012))
     system.place(high, position=(0.0, 0.0, height), orientation=ns.turned_about((0.0, 0.0, 1.0), rng.uniform(0.0, 3.0)))
     solution = ns.simulate(system, 1.3 * np.sqrt(2.0 * height / 9.81))
     assert solution.status == "done"

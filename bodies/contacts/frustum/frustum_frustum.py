@@ -77,14 +77,15 @@ def evaluate_rim_over_cap(
     wide, height, up = cap_of(second, cap)
     n, middle = times(-up, cap_axis), point_in_world(own, vector_at(center, 0))
     _, sine, outward = across(n, axis)
-    if sine < FLATTEST:
-        # if no foot is over the cap, a flat rim touches it on the line of centres
+    # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
+    margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
+    if radius > 0.0 and sine < FLATTEST:
+        # if no foot is over the cap, a flat rim touches it on the line of centres, in an area that is more than a point
         _, _, outward = across(minus(place, middle), axis)
+        margin = -4.0 * CLOSED
     p = ahead(middle, radius, outward)
     along, away, from_axis = across(minus(p, place), cap_axis)
     gap = up * (along - height)
-    # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
-    margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
     past = away - wide - margin * size
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))

@@ -30,11 +30,6 @@ The offset [m] is the distance of the rims' cores, times the sine of the angle b
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
 """
-_NARROW = 0.01
-"""Largest overlap of two discs that touch edge to edge, relative to the size of the bodies: springs allow less.
-
-Discs in one plane with a wider common area lie on each other.
-"""
 _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 """Intervals into which half of a rim is sampled, most rounds of sampling, most Newton steps."""
 
@@ -168,8 +163,7 @@ def evaluate_rims(
     are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
     # discs in one plane touch on the line of centres, where their rims are parallel; other discs cross or pass by
     is_parallel = axis[0] * axis[0] + axis[1] * axis[1] <= CLOSED
-    is_next_to = radius + wide - size_of(middle) <= _NARROW * size
-    is_edge_to_edge = are_discs and is_parallel and is_next_to and abs(middle[2] + radius * g[2]) <= CLOSED * size
+    is_edge_to_edge = are_discs and is_parallel and abs(middle[2] + radius * g[2]) <= CLOSED * size
     if is_edge_to_edge:
         angle = 0.0
     u, t = _round(g, h, angle)
