@@ -22,7 +22,7 @@ from .frustum import (
     feet_on,
     frustum_numbers,
     on_axis,
-    rims_over_faces,
+    standing_height,
 )
 from .placement import about_axis, across_axis, farthest_on_circle
 from .revolution import draw_swept_frustum, swept_frustum
@@ -38,9 +38,9 @@ def inner_radius(radius: float, height: float) -> float:
 class Cone(Frustum):
     """A solid circular cone with the centre of its base at (x, y, z) in the body frame; the axis points to the apex.
 
-    On a plane it touches with the lowest point of its rim and with its apex, and on its side with both.  What holds one
-    that stands on its base are three small feet, at two thirds of the radius, if they have a height.  Their tips lie in
-    the plane of the base; it is the rim that is set back by the height.  As a convex solid it is that without feet.
+    On a plane it touches with the lowest point of its rim and with its apex, and on its side with both.  A cone that
+    stands on its base rests on three small feet, at two thirds of the radius.  Their tips lie in the plane of the base.
+    The rim is set back by the height of the feet.  The convex solid has no feet.
 
     Its rim and its apex are sharp, or rounded by the radius ``rounding``.  Radius and height are those of the sharp
     cone with the same base and side, which is higher.  Feet of a rounded one are those of the core, and round: their
@@ -55,7 +55,7 @@ class Cone(Frustum):
     axis_x: float = parameter(0.0, doc="unit axis to the apex in the body frame, first component", **UNIT_PART)
     axis_y: float = parameter(0.0, doc="unit axis to the apex in the body frame, second component", **UNIT_PART)
     axis_z: float = parameter(1.0, doc="unit axis to the apex in the body frame, third component", **UNIT_PART)
-    foot_height: float = parameter(0.0, doc="height of the feet on the base; 0 for none", unit="m", minimum=0.0)
+    foot_height: float = parameter(0.0, doc="height of the feet on the base; 0 for the least", unit="m", minimum=0.0)
     rounding: float = parameter(0.0, doc="radius of its rim and its apex", unit="m", minimum=0.0)
 
     def _check(self) -> None:
@@ -95,18 +95,11 @@ class Cone(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """The upper radius is 0."""
-        return frustum_numbers(*self._profile, self.foot_height, self.rounding)
-
-    @property
-    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """The rim of the base, set back, and the apex."""
-        return rims_over_faces(*self._profile, self.foot_height)
+        return frustum_numbers(*self._profile, standing_height(self.foot_height, *self.core_sizes), self.rounding)
 
     @property
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet of the base in the body frame [m]; none without a height."""
-        if self.foot_height == 0.0:
-            return ()
+        """Tips of the feet of the base in the body frame [m]."""
         return feet_on(self._base, self._axis, self.core_sizes[0], 0.0)[:FEET_OF_FACE]
 
     @property

@@ -13,7 +13,16 @@ from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from .drawing import revolved
-from .frustum import Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers, rims_over_faces
+from .frustum import (
+    FEET,
+    Frustum,
+    Point,
+    check_feet,
+    check_rounding,
+    feet_on,
+    frustum_numbers,
+    standing_height,
+)
 from .placement import about_axis, across_axis, farthest_on_circle
 from .revolution import draw_swept_frustum, swept_frustum
 
@@ -23,10 +32,10 @@ from .revolution import draw_swept_frustum, swept_frustum
 class Cylinder(Frustum):
     """A solid circular cylinder with flat caps and its centre at (x, y, z) in the body frame.
 
-    On a plane it touches with the lowest points of its rims, and a cylinder that stands has none.  What holds it then
-    are three small feet on either cap, at two thirds of the radius, if they have a height.  Their tips lie in the
-    planes of the caps; it is the rims that are set back by the height, so that the cylinder is as long as without.
-    As a convex solid it is that without feet: they are too low to count.
+    On a plane it touches with the lowest points of its rims.  A cylinder that stands has no lowest point: three small
+    feet on either cap hold it, at two thirds of the radius.  Their tips lie in the planes of the caps.  The rims are
+    set back by the height of the feet, so the feet do not change the length.  The convex solid has no feet: they are
+    too low to count.
 
     Its rims are sharp, or rounded by the radius ``rounding``.  Radius and half-length are those of the whole: a rounded
     cylinder is as large as a sharp one.  Its feet are those of the core, and round: they stand on the core's caps at
@@ -41,7 +50,7 @@ class Cylinder(Frustum):
     axis_x: float = parameter(0.0, doc="unit axis in the body frame, first component", **UNIT_PART)
     axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component", **UNIT_PART)
     axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component", **UNIT_PART)
-    foot_height: float = parameter(0.0, doc="height of the feet on either cap; 0 for none", unit="m", minimum=0.0)
+    foot_height: float = parameter(0.0, doc="height of the feet on either cap; 0 for the least", unit="m", minimum=0.0)
     rounding: float = parameter(0.0, doc="radius of its rims", unit="m", minimum=0.0)
 
     def _check(self) -> None:
@@ -58,12 +67,7 @@ class Cylinder(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both radii are the same."""
-        return frustum_numbers(*self._profile, self.foot_height, self.rounding)
-
-    @property
-    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """Both rims, set back."""
-        return rims_over_faces(*self._profile, self.foot_height)
+        return frustum_numbers(*self._profile, standing_height(self.foot_height, *self.core_sizes), self.rounding)
 
     @property
     def _profile(self) -> tuple[tuple[float, float], tuple[float, float], Point, Point]:
@@ -79,13 +83,11 @@ class Cylinder(Frustum):
     @property
     def rims(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Centres of the core's rims in the body frame, against and along the axis [m]."""
-        return self._on_axis(self.core_sizes[1] - self.foot_height)
+        return self._on_axis(self.core_sizes[1] - self.frustum[FEET])
 
     @property
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet in the body frame, first of the cap against the axis [m]; none without a height."""
-        if self.foot_height == 0.0:
-            return ()
+        """Tips of the feet in the body frame, first of the cap against the axis [m]."""
         center, axis = (self.x, self.y, self.z), (self.axis_x, self.axis_y, self.axis_z)
         return feet_on(center, axis, *self.core_sizes)
 

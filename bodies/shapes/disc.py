@@ -13,7 +13,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 from .drawing import revolved
-from .frustum import Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers
+from .frustum import FEET, Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers, standing_height
 from .placement import across_axis, farthest_on_circle
 from .revolution import draw_swept_frustum, swept_frustum
 
@@ -23,9 +23,8 @@ from .revolution import draw_swept_frustum, swept_frustum
 class Disc(Frustum):
     """A rigid disc with its centre at (x, y, z) in the body frame, a rim and two faces; a sharp one has no thickness.
 
-    On a plane it touches with the lowest point of its rim, and a disc that lies flat has none.  What holds it then are
-    three small feet on either face, at two thirds of the radius, if they have a height.  As a convex shape it is that
-    without feet, flat and without volume.
+    On a plane it touches with the lowest point of its rim.  A disc that lies flat has no lowest point: three small feet
+    on either face hold it, at two thirds of the radius.  The convex shape has no feet: it is flat and has no volume.
 
     Rounded by the radius ``rounding`` it is twice that thick, with half a torus for a rim.  Its radius is that of the
     whole.  Its feet are those of the core, and round: they stand out of the faces.
@@ -38,7 +37,7 @@ class Disc(Frustum):
     axis_x: float = parameter(0.0, doc="unit axis in the body frame, first component", **UNIT_PART)
     axis_y: float = parameter(0.0, doc="unit axis in the body frame, second component", **UNIT_PART)
     axis_z: float = parameter(1.0, doc="unit axis in the body frame, third component", **UNIT_PART)
-    foot_height: float = parameter(0.0, doc="height of the feet on either face; 0 for none", unit="m", minimum=0.0)
+    foot_height: float = parameter(0.0, doc="height of the feet on either face; 0 for the least", unit="m", minimum=0.0)
     rounding: float = parameter(0.0, doc="radius of its rim, half of its thickness", unit="m", minimum=0.0)
 
     def _check(self) -> None:
@@ -62,20 +61,13 @@ class Disc(Frustum):
     @property
     def frustum(self) -> tuple[float, ...]:
         """Both rims are the same."""
-        radii = self.core_radius, self.core_radius
-        return frustum_numbers(radii, (0.0, 0.0), self._center, self._axis, self.foot_height, self.rounding)
-
-    @property
-    def standing_rims(self) -> tuple[tuple[float, Point], ...]:
-        """The rim, which is not set back: it is the feet that stand out."""
-        return ((self.core_radius, self._center),)
+        radius, height = self.core_radius, standing_height(self.foot_height, self.core_radius, self.rounding)
+        return frustum_numbers((radius, radius), (0.0, 0.0), self._center, self._axis, height, self.rounding)
 
     @property
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet in the body frame, first of the face against the axis [m]; none without a height."""
-        if self.foot_height == 0.0:
-            return ()
-        return feet_on(self._center, self._axis, self.core_radius, self.foot_height)
+        """Tips of the feet in the body frame, first of the face against the axis [m]."""
+        return feet_on(self._center, self._axis, self.core_radius, self.frustum[FEET])
 
     @property
     def length(self) -> float:

@@ -38,6 +38,7 @@ class Frustum(ConvexShape):
     within this radius of a smaller frustum, the core.  All properties here belong to the core.
     """
 
+    foot_height: float
     rounding: float
 
     @property
@@ -48,37 +49,53 @@ class Frustum(ConvexShape):
     @property
     @abstractmethod
     def feet(self) -> tuple[Point, ...]:
-        """Tips of the feet on the core's flat faces in the body frame [m]; empty if the feet have no height."""
+        """Tips of the feet on the core's flat faces in the body frame [m]."""
 
     @property
-    @abstractmethod
+    @final
     def standing_rims(self) -> tuple[tuple[float, Point], ...]:
         """Radius and centre of each rim that touches planes, in the body frame [m].
 
         The rims are moved inwards by the height of the feet, so that a body on a face rests on its feet only.
         """
+        return self._rims(self.frustum[FEET])
+
+    @final
+    def _rims(self, height: float) -> tuple[tuple[float, Point], ...]:
+        """Return radius and centre of each rim, set back for feet of a height [m]; a disc has one, at its centre."""
+        low, high, below, above = self.frustum[:FEET]
+        (x, y, z), axis = self.frustum[CENTER : CENTER + 3], self.frustum[AXIS : AXIS + 7 : 3]
+        if above == below:
+            return ((low, (x, y, z)),)
+        return rims_over_faces((low, high), (below, above), (x, y, z), (axis[0], axis[1], axis[2]), height)
 
     @property
     @final
     def set_back(self) -> float:
         """Distance by which rims are set back along the side because of feet [m]; for a disc, height of the feet."""
+        return self._along_side(self.frustum[FEET])
+
+    @final
+    def _along_side(self, height: float) -> float:
+        """Return the length along the side over a height along the axis [m]; for a disc, the height."""
         numbers = self.frustum
-        height = numbers[HIGH] - numbers[LOW]
-        return numbers[FEET] * (numbers[SIDE] / height if height > 0.0 else 1.0)
+        full = numbers[HIGH] - numbers[LOW]
+        return height * (numbers[SIDE] / full if full > 0.0 else 1.0)
 
     @property
     @final
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The hull of the rims, set back by the feet.
+        """The hull of the rims, set back by ``foot_height``.
 
-        Feet are no parts: they protrude from the faces by :attr:`set_back` at most, and may stand next to those of
-        another body, or under its side.
+        Feet are no parts: they may stand next to those of another body, or under its side.  Without a ``foot_height``
+        the part is the whole body, and the tips of its feet lie in the faces; those of a disc protrude.
         """
         numbers = self.frustum
         place, sweep = np.array(numbers[CENTER : CENTER + 3]), numbers[SWEEP]
         axes = np.array(numbers[AXIS - 2 : AXIS + 7]).reshape(3, 3)
-        rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self.standing_rims])
-        return (ConvexPart(rings, ball=sweep, place=place, axes=axes),)
+        rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self._rims(self.foot_height)])
+        height = self.foot_height if numbers[SIDE] > 0.0 else numbers[FEET]
+        return (ConvexPart(rings, ball=sweep, place=place, axes=axes, protrusion=self._along_side(height)),)
 
     @final
     def _rounded(self, direction: Vector) -> Vector:
@@ -184,6 +201,16 @@ and with uniform pressure has the same moment.
 """
 USUAL = 1e-4
 """Default height of the feet, relative to the radius of the face."""
+LEAST = 1e-8
+"""Least height of the feet, relative to the size of the body: ten times the default tolerance of its gaps.
+
+On a lower foot a rim that lies flat would touch, too, and its contact has no definite point.
+"""
+LEAST_OF_DISC = 1e-6
+"""Least height of the feet of a sharp disc, relative to its radius.
+
+Sharp discs nearer than 1e-7 of their size count as in one plane, and touch edge to edge.
+"""
 HIGHEST = 0.1
 """Largest height of the feet, relative to the radius of the face: feet must not change the shape."""
 
@@ -204,6 +231,16 @@ def check_feet(name: str, foot_height: float, radius: float, half_length: float 
             foot_height,
             "The rims are set back by it; a disc has no thickness.",
         )
+
+
+def standing_height(foot_height: float, radius: float, length: float) -> float:
+    """Return the height of the feet on faces with a radius [m]: the given one, but not less than the least one.
+
+    ``length`` is half the distance of the faces, or the height of a cone [m].  The feet of a very thin body stay lower
+    than a tenth of it.
+    """
+    least = min(LEAST * max(radius, length), 0.1 * length) if length > 0.0 else LEAST_OF_DISC * radius
+    return max(foot_height, least)
 
 
 def feet_on(center: Point, axis: Point, radius: float, reach: float) -> tuple[Point, ...]:

@@ -38,6 +38,8 @@ class ConvexPart:
         none if empty.
     reach : float
         Radius of a ball about the origin that holds what the function gives [m].
+    protrusion : float
+        Largest distance by which the contacts of the shape extend beyond the part [m]: feet are no part.
     """
 
     rings: Vector = field(default_factory=lambda: np.zeros((0, 4)))
@@ -48,6 +50,7 @@ class ConvexPart:
     axes: Vector = field(default_factory=lambda: np.eye(3))
     function: tuple[float, ...] = ()
     reach: float = 0.0
+    protrusion: float = 0.0
 
     @classmethod
     def of_points(cls, points: Vector, ball: float = 0.0) -> ConvexPart:

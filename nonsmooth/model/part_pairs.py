@@ -140,7 +140,7 @@ def find_part_pairs(contacts: Contacts, table: RowTable) -> list[PartPair]:
                 row.shapes, table.bodies[rows[0]], table.frames[rows[0]], (one_parts, two_parts), strict=True
             )
         ]
-        clearance = sum(shape.solid.set_back for shape in row.shapes if shape.solid) if one_parts and two_parts else 0.0
+        clearance = sum(max((part.protrusion for part in parts), default=0.0) for parts in (one_parts, two_parts))
         guarded = is_guarded(one_parts, two_parts, len(numbers))
         for first, second in itertools.product(*choices):
             one, two = first.part, second.part

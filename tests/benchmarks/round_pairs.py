@@ -53,17 +53,19 @@ def _known(gap: float, rng: Generator, one: Touching, part: str, two: Touching, 
     return shapes, posed.poses, gap, posed.normal, np.array(posed.witness), nearest
 
 
-def _touching(name: str, part: str) -> Touching:
+def _touching(name: str, part: str, is_on_feet: bool) -> Touching:
     if name == "plane":
         return on_plane
     if name in SOLIDS:
         return on(SOLIDS[name], part)
-    return on_round({**ROUND, **ROUNDED_ROUND}[name][0], part)
+    return on_round({**ROUND, **ROUNDED_ROUND}[name][0], part, is_on_feet)
 
 
 def _line(one: str, two: str, parts: str) -> Callable[[float, Generator], Known]:
     part, other = parts.split("-")
-    touches = _touching(one, part), _touching(two, other)
+    # a rounded apex touches a cap as without feet
+    is_on_feet = "apex" not in (part, other)
+    touches = _touching(one, part, is_on_feet), _touching(two, other, is_on_feet)
     return lambda gap, rng: _known(gap, rng, touches[0], part, touches[1], other)
 
 

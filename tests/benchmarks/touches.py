@@ -160,12 +160,20 @@ def disc(rng: Generator) -> Frustum:
     return Disc(_sizes(rng)[0], **_along(rng))
 
 
-def on_round(draw: Callable[[Generator], Frustum], part: str) -> Callable[[Generator], Touch]:
-    """Return a way to touch a cylinder, a cone or a disc on a cap, a rim, the side or the apex."""
+def on_round(draw: Callable[[Generator], Frustum], part: str, is_on_feet: bool = False) -> Callable[[Generator], Touch]:
+    """Return a way to touch a cylinder, a cone or a disc on a cap, a rim, the side or the apex.
+
+    Bodies with faces touch one ``is_on_feet`` at rims and caps that are set back by its feet.
+    """
 
     def touch(rng: Generator) -> Touch:
         shape = draw(rng)
-        low, high, below, above, _, _, *rest = shape.frustum
+        low, high, below, above, feet, _, *rest = shape.frustum
+        if is_on_feet and above > below:
+            back = feet / (above - below)
+            low, below = low + back * (high - low), below + feet
+            if high > 0.0:
+                above -= feet
         center, axes, (cos, sin) = np.array(rest[:3]), np.array(rest[3:12]).reshape(3, 3), rest[12:14]
         angle, upper = rng.uniform(0.0, 2.0 * np.pi), bool(rng.integers(2)) and high > 0.0
         if part == "apex":

@@ -18,9 +18,12 @@ _SHARPEST = 0.2
 """Sine of the angle at which tangents cross at least."""
 
 
-def touch_round(rng: Generator, name: str, part: str) -> Touch:
-    """Return a cylinder, cone or disc, sharp or rounded, a point of a part of it and a normal there."""
-    return on_round({**ROUND, **ROUNDED_ROUND}[name][0], part)(rng)
+def touch_round(rng: Generator, name: str, part: str, is_on_feet: bool = True) -> Touch:
+    """Return a cylinder, cone or disc, sharp or rounded, a point of a part of it and a normal there.
+
+    Bodies with faces touch one ``is_on_feet`` at rims and caps that are set back by its feet.
+    """
+    return on_round({**ROUND, **ROUNDED_ROUND}[name][0], part, is_on_feet)(rng)
 
 
 def tangent(shape: Any, part: str, normal: Array) -> Array | None:

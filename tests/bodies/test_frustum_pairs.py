@@ -132,7 +132,7 @@ CAPSULE_KINDS = [
 
 
 def _posed_capsule(rng: Generator, name: str, part: str, other: str, gap: float) -> tuple[Any, PosedRound]:
-    first, second = touch_round(rng, name, part), on_capsule(rng, other)
+    first, second = touch_round(rng, name, part, is_on_feet=False), on_capsule(rng, other)
     tangents = tangent(first[0], part, first[2]), np.array([0.0, 0.0, 1.0]) if other == "side" else None
     return (first[0], second[0]), PosedRound(rng, first, second, tangents, gap)
 

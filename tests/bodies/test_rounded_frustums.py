@@ -91,8 +91,10 @@ def test_round_bodies_at_constructed_poses(build: Any, one: str, part: str, two:
     """The first is rounded, and where both are of one kind the second, too; rims may be parallel where they touch."""
     rng = np.random.default_rng(15)
     for gap in GAPS:
-        first = touch_round(rng, f"rounded {one}", part)
-        second = touch_round(rng, two if one != two else f"rounded {two}", other)
+        # a rounded apex touches other bodies as without feet
+        is_on_feet = "apex" not in (part, other)
+        first = touch_round(rng, f"rounded {one}", part, is_on_feet)
+        second = touch_round(rng, two if one != two else f"rounded {two}", other, is_on_feet)
         ways = tangent(first[0], part, first[2]), tangent(second[0], other, second[2])
         pose = PosedRound(rng, first, second, ways if part == other == "side" else (None, None), gap)
         _check(Rig((first[0], second[0]), build.laws()), pose, rng)

@@ -50,11 +50,12 @@ PAIRS = [*itertools.combinations_with_replacement(POLYHEDRA, 2), *itertools.prod
 @pytest.mark.fast_cases(6)
 @pytest.mark.parametrize(("one", "other"), PAIRS)
 def test_the_nearest_contact_of_a_run_has_no_gap(one: str, other: str) -> None:
-    """And no contact has a gap below zero."""
+    """And no contact has a gap below zero.  Rims are set back by the least height of feet."""
     random = np.random.default_rng(PAIRS.index((one, other)))
     bodies = POLYHEDRA[one](), {**POLYHEDRA, **ROUND}[other]()
+    set_back = sum(shape.solid.set_back for body in bodies for frame in body.frames for shape in frame if shape.solid)
     for number in range(POSES):
         way, turns = random.normal(size=3), (any_turn(random), any_turn(random))
         contacts = brought(bodies, turns, way / np.linalg.norm(way), 0.0).contacts(of_all=False)
         least = np.min(contacts.gap[contacts.within], initial=math.inf)
-        assert abs(least) <= ACCURACY, f"pose {number}: {least:.3g} m"
+        assert -ACCURACY <= least <= ACCURACY + set_back, f"pose {number}: {least:.3g} m"

@@ -148,13 +148,13 @@ def _squeezed() -> None:
 
 
 def _passed() -> None:
-    """A sharp disc falls flat onto a part of another one that lies on a plate."""
+    """A sharp disc, slightly tilted, falls onto a part of another one that lies on a plate."""
     plate, low, high = Plate(), DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0)
     system = ns.System([plate, low, high])
     for one, two in ((plate, low), (plate, high), (low, high)):
         system.contact(one, two, **RIGID | {"friction": Coulomb(0.3)})
-    system.place(low, position=(0.0, 0.0, 0.0))
-    system.place(high, position=(0.02, 0.0, 0.01))
+    system.place(low, position=(0.0, 0.0, 5e-8))
+    system.place(high, position=(0.05, 0.0, 0.01), orientation=ns.turned_about((0.0, 1.0, 0.0), 1e-3))
     ns.simulate(system, 0.2)
 
 

@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import CylinderBody, Plate, Superellipsoid, SuperellipsoidBody
+from bodies.shapes.frustum import LEAST
 from laws import Coulomb, EnergeticImpact, Frictionless, PlasticImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.interfaces.impact_law import ImpactLaw
@@ -47,7 +48,7 @@ def test_a_boxy_body_rolls_over_the_middle_of_its_face(exponent: float, tilt: fl
 
 
 def test_a_face_that_starts_flat_lands_where_it_turns_down() -> None:
-    """All points of the rim touch; the first impact is at the one that goes down, at the speed of the rim."""
+    """Its three feet touch; the first impact is at the one that goes down fastest."""
     body = CylinderBody(0.01, 0.01, density=1000.0, foot_height=0.0)
     system = _on_a_plate(body, Frictionless(), EnergeticImpact(0.5))
     spin = (3.0, -4.0, 20.0)
@@ -55,81 +56,40 @@ def test_a_face_that_starts_flat_lands_where_it_turns_down() -> None:
     events = ns.simulate(system, 1e-3).events
     change = events.u_after[0] - events.u_before[0]
     assert events.time[0] == 0.0
-    # the arm of the impulse, which is vertical, points against n x omega: down as it turns
+    # the arm of the impulse, which is vertical
     arm = np.cross(change[3:] * body.inertia, [0.0, 0.0, 1.0]) / (body.total_mass * change[2])
-    np.testing.assert_allclose(-arm, 0.01 * np.array([-0.8, -0.6, 0.0]), atol=1e-12)
+    feet = np.array(body.centred_shape.feet[:3])
+    lowest = feet[np.argmin(np.cross(spin, feet)[:, 2])]
+    np.testing.assert_allclose(-arm, [*lowest[:2], 0.0], atol=1e-12)
 
 
 SIZES = (2e-4, 0.02, 0.2)
-"""Radii of cylinders without feet [m]."""
-
-
-def _leaning(radius: float, lean: float, turning: float = 0.0) -> tuple[CylinderBody, ns.System]:
-    """Return a cylinder without feet that touches a plate, tilted by ``lean`` [rad], and its system.
-
-    ``turning`` is its angular velocity about the axis of the tilt [rad/s].
-    """
-    body = CylinderBody(radius, 0.5 * radius, density=1000.0, foot_height=0.0)
-    system = _on_a_plate(body, Frictionless(), PlasticImpact())
-    turn = np.roll(Rotation.from_rotvec([0.0, lean, 0.0]).as_quat(), 1)
-    place = (0.0, 0.0, 2.0 * radius)
-    ns.touching(system, body, position=place, orientation=turn, angular_velocity=(0.0, turning, 0.0))
-    return body, system
+"""Radii of cylinders on feet of the least height [m]."""
 
 
 @pytest.mark.parametrize("radius", SIZES)
 @pytest.mark.parametrize("lean", [3e-10, 2e-9, 1e-8, 1e-6])
-def test_a_face_without_feet_next_to_flat_gains_no_energy(radius: float, lean: float) -> None:
-    """The cylinder rocks on its rim, then on the crown of its face, which is 5e-10 of the radius high."""
-    body, system = _leaning(radius, lean)
-    span = 20.0 * np.sqrt(max(lean, 1e-9) * radius / 9.81)
+def test_a_face_on_the_least_feet_next_to_flat_gains_no_energy(radius: float, lean: float) -> None:
+    """The cylinder rocks on rim and feet.  What it gains is less than its weight times the height of the feet."""
+    body = CylinderBody(radius, 0.5 * radius, density=1000.0, foot_height=0.0)
+    system = _on_a_plate(body, Frictionless(), PlasticImpact())
+    turn = np.roll(Rotation.from_rotvec([0.0, lean, 0.0]).as_quat(), 1)
+    ns.touching(system, body, position=(0.0, 0.0, 2.0 * radius), orientation=turn)
+    span = 20.0 * np.sqrt(max(lean, LEAST) * radius / 9.81)
     solution = ns.simulate(system, span, sample_interval=span / 300.0)
     kinetic = 0.5 * solution.u**2 @ [*[body.total_mass] * 3, *body.inertia]
     energies = kinetic + body.total_mass * 9.81 * (solution.q[:, 2] - 0.5 * radius)
-    crown = 5e-10 * body.total_mass * 9.81 * radius
-    assert np.max(np.diff(energies)) < 0.3 * crown
-    assert np.max(energies) < energies[0] + 1e-3 * crown
+    assert solution.status == "done"
+    assert np.max(energies) < energies[0] + LEAST * body.total_mass * 9.81 * radius
     leans = 2.0 * np.hypot(solution.q[:, 4], solution.q[:, 5])
-    assert np.max(leans) < lean * (1.0 + 1e-6)
+    assert np.max(leans) < max(lean, 3.0 * LEAST) * (1.0 + 1e-6)
 
 
-@pytest.mark.parametrize("radius", SIZES)
-@pytest.mark.parametrize(("part", "strikes"), [(0.99, False), (1.01, True)])
-def test_a_flat_face_strikes_with_its_rim_above_the_speed_of_a_fall(radius: float, part: float, strikes: bool) -> None:
-    """The limit is the speed of a thin disc that fell from a tilt of 1e-9 rad; a slower face rolls on its crown."""
-    speed = part * np.sqrt(8e-9 * 9.81 / radius)
-    _, system = _leaning(radius, 0.0, speed)
-    solution = ns.simulate(system, 1e-10 / speed, sample_interval=1e-11 / speed)
-    turning = solution.u[1:, 4] / speed
-    assert np.all(turning < 0.5) if strikes else np.all(turning > 0.9)
-
-
-def test_a_cylinder_without_feet_stands() -> None:
-    """On the crown of its face, a trillionth of its size high."""
+def test_a_cylinder_on_the_least_feet_stands() -> None:
+    """Nothing moves."""
     body = CylinderBody(0.01, 0.017, density=1200.0, foot_height=0.0)
     system = _on_a_plate(body, Coulomb(0.6), EnergeticImpact(0.5))
     ns.resting(system, body, position=(0.0, 0.0, 0.02), orientation=(1.0, 0.0, 0.0, 0.0))
     solution = ns.simulate(system, 0.1, sample_interval=0.01)
     assert np.max(np.abs(solution.q - solution.q[0])) < 1e-9
     assert np.max(np.abs(solution.u)) < 1e-6
-
-
-@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.6, -0.8, 0.0)])
-def test_a_face_without_feet_falls_flat_with_impacts(axis: tuple[float, float, float]) -> None:
-    """It lands on its rim, falls flat in a plane, and the other side of the rim strikes, then this one, and so on.
-
-    No error showed that a step led across flat: the rim was in the plate behind it, and what a projection took of the
-    velocities was lost in silence.  Without restitution a collision at the other side leaves k of the turning,
-    reversed, k = (1 - b) / (1 + b) with b = m r^2 / I.
-    """
-    body = CylinderBody(0.01, 0.004, density=1000.0, foot_height=0.0)
-    system = _on_a_plate(body, Frictionless(), PlasticImpact())
-    turn = np.roll(Rotation.from_rotvec(0.3 * np.array(axis)).as_quat(), 1)
-    ns.at_height(system, body, 0.001, position=(0.0, 0.0, 0.02), orientation=turn)
-    events = ns.simulate(system, 0.03145, sample_interval=1e-3).events
-    instant = events.time == events.time[2]
-    assert events.causes()[1:10] == ["impact"] * 9
-    assert np.sum(instant) > 9
-    turning = events.u_after[2:9, 3:] @ axis
-    b = body.total_mass * 0.01**2 / body.inertia[0]
-    np.testing.assert_allclose(turning[1:] / turning[:-1], (1.0 - b) / (1.0 + b), rtol=1e-6)

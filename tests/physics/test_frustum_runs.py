@@ -28,6 +28,7 @@ from bodies import (
     SuperellipsoidBody,
 )
 from bodies.inertia import tensor_of
+from bodies.shapes.frustum import LEAST
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Stand
@@ -41,6 +42,8 @@ NARROW = Box(0.05, 0.01, 0.05, z=-0.05)
 PILLAR = Cylinder(0.02, 0.02, z=-0.02, foot_height=2e-6)
 ON_RIM = -PILLAR.foot_height
 """Height of the rims of the pillar over the tips of its feet [m]: a body that touches no foot lies at this height."""
+LOW_PILLAR, LOW = Cylinder(0.02, 0.02, z=-0.02), 0.02 * LEAST
+"""A pillar on feet of the least height, and this height [m]."""
 LOG = Cylinder(0.02, 0.03, z=-0.02, axis_x=1.0, axis_z=0.0)
 STEEP = math.atan2(0.01, 0.02)
 """Half the angle of a cone."""
@@ -66,7 +69,7 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
     "a cone stands on a box": (TABLE, ConeBody(0.01, 0.02), 0.005, UPRIGHT, 3),
     "a cone lies on a box": (TABLE, ConeBody(0.01, 0.02), 0.015 * math.sin(STEEP), ON_ITS_SIDE, 2),
     "a disc lies on a box": (TABLE, DiscBody(0.01), 1e-6, UPRIGHT, 3),
-    "a box stands on a cap": (Cylinder(0.02, 0.02, z=-0.02), BoxBody(0.01, 0.012, 0.005), 0.005, UPRIGHT, 4),
+    "a box stands between the feet of a cap": (LOW_PILLAR, BoxBody(0.005, 0.006, 0.005), 0.005 - LOW, UPRIGHT, 4),
     "a box larger than the cap stands on its feet": (PILLAR, BoxBody(0.03, 0.032, 0.005), 0.005, UPRIGHT, 3),
     "a capsule lies on a cap": (PILLAR, CapsuleBody(0.005, 0.012), 0.005, LYING, 2),
     "a capsule lies across a cap": (PILLAR, CapsuleBody(0.005, 0.03), 0.005, LYING, 2),

@@ -32,7 +32,6 @@ from ...shapes.frustum import (
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Polytope
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, vector_at
-from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
 from ..features.vertex_face import plane_height
@@ -42,6 +41,11 @@ from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """Part numbers of a frustum, in the direction of its axis: lower cap, lower rim, side, upper rim, upper cap."""
+FLATTEST = 1e-9
+"""Least sine of the angle between a rim and a face for which the rim has a lowest point.
+
+The speed of this point along the rim is inversely proportional to the sine.  Feet carry a flatter rim.
+"""
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 """Names of the rims in the names of features."""
 
@@ -265,8 +269,6 @@ def set_back(first: Frustum) -> Numbers:
     A rim that rolls over the edge of a face then keeps its height.
     """
     own = first.frustum
-    if not first.feet:
-        return own
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
     rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
     heights = [float((np.array(place) - center) @ axis) for _, place in rims]

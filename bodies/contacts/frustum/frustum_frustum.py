@@ -6,7 +6,6 @@ import itertools
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, final
 
-from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -14,12 +13,12 @@ from nonsmooth.types import Floats
 from ...shapes.cylinder import Cylinder
 from ...shapes.frustum import SIDE, SWEEP, Frustum, without_feet
 from ...vectors import ahead, minus, opposite, times, vector_at
-from ..features.flat_rim import FLATTEST, common_length, touching_point, write_rim
 from ..features.frames import across, point_in_world
 from ..features.vertex_face import CLOSED, REACH
 from .apex_frustum import evaluate_apex_over_frustum
 from .flank_flank import evaluate_sides
 from .frustum import (
+    FLATTEST,
     HIGH_CAP,
     HIGH_RIM,
     LOW_CAP,
@@ -77,25 +76,19 @@ def evaluate_rim_over_cap(
     axis, cap_axis, place = axis_in_world(own, first), axis_in_world(other, second), center_in_world(other, second)
     wide, height, up = cap_of(second, cap)
     n, middle = times(-up, cap_axis), point_in_world(own, vector_at(center, 0))
-    _, sine, _ = across(n, axis)
-    is_flat, is_tip, outside = radius > 0.0 and sine < FLATTEST, radius == 0.0, -size
-    if is_flat:
-        _, offset, sideways = across(minus(place, middle), cap_axis)
-        along, half = common_length(radius, wide, offset)
-        # valid if a part of the rim is over the cap, and if the common area is more than a point
-        outside = max(radius - offset - wide, 2.0 * CLOSED * size - half)
-        if half > 0.0:
-            radius, middle = half, ahead(middle, along, sideways)
-    at = touching_point(own, other, opposite(n), axis, radius)
-    reach, outward, lift, _, _, _ = at
-    p = ahead(ahead(middle, reach, outward), lift, n)
-    along, away, from_axis = across(minus(p, place), cap_axis)
-    gap = up * (along - height)
+    _, sine, outward = across(n, axis)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
-    past = max(away - wide, outside) - margin * size
+    if radius > 0.0 and sine < FLATTEST:
+        # if no foot is over the cap, a flat rim touches it on the line of centres, in an area that is more than a point
+        _, _, outward = across(minus(place, middle), axis)
+        margin = -4.0 * CLOSED
+    p = ahead(middle, radius, outward)
+    along, away, from_axis = across(minus(p, place), cap_axis)
+    gap = up * (along - height)
+    past = away - wide - margin * size
     if second[SIDE] == 0.0:
-        past = max(past, past_disc(own, first, other, second, up, gap, p, is_tip, size))
+        past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))
     else:
         past = max(past, past_depth(own, first, other, second, gap, size))
         if gap < 0.0:
@@ -103,10 +96,7 @@ def evaluate_rim_over_cap(
             best = separation_by(own, first, other, second)
             past = max(past, best - separation_along(own, first, other, second, n) - REACH * size)
     write_two(a, out, swap, first, second, gap, past, n, p)
-    if is_flat:
-        write_rim(out, SIDE_B if swap == 1.0 else SIDE_A, axis, radius, at, first[SWEEP])
-    else:
-        write_side(out, swap, first, LOW_RIM, axis, outward, n, radius)
+    write_side(out, swap, first, LOW_RIM, axis, outward, n, radius)
     write_side(out, 1.0 - swap, second, int(cap), cap_axis, from_axis, opposite(n), away)
 
 

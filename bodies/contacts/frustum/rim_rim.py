@@ -15,7 +15,6 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import COS, SIDE, SIN, SWEEP
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, size_of, times
 from ..features.edge_crossing import PARALLEL
-from ..features.flat_rim import FLATTEST
 from ..features.frames import across
 from ..features.vertex_face import CLOSED, REACH
 from ..smooth.smooth_core import axes_in_world, back, forth
@@ -176,7 +175,7 @@ def evaluate_rims(
     n = (-t[2] * e[0], -t[2] * e[1], t[0] * e[0] + t[1] * e[1])
     crossing, apart = size_of(n), size_of(w)
     # rounded rims that lie on each other along the whole circle are left to the contacts of rims over caps
-    is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(w[0] * w[0] + w[1] * w[1]) < FLATTEST * apart
+    is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(w[0] * w[0] + w[1] * w[1]) < REACH * apart
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
         n, crossing = over(w, apart), 1.0

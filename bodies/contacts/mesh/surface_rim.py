@@ -10,13 +10,12 @@ from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, SIDE, SWEEP
-from ...vectors import Vector3, ahead, cross, opposite, vector_at
+from ...vectors import Vector3, ahead, opposite, vector_at
 from ..features.edge_crossing import ASTRAY
-from ..features.flat_rim import FLATTEST
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex_face import CLOSED, REACH
-from ..features.writing import gap_at_distance, write_flat, write_principal, write_sweep
-from ..frustum.frustum import axis_in_world
+from ..features.writing import gap_at_distance, write_flat, write_sweep
+from ..frustum.frustum import LOW_RIM, axis_in_world, write_part
 from ..frustum.frustum_writing import astray_of_rim, write_contact
 from ..surface.surface_search import box_square, depth_inside, face_height, has_patch
 from ..surface.surface_tables import (
@@ -200,6 +199,6 @@ def write_rim(
     _, sine, outward = lowest_on_rim(n, axis, otherwise)
     point = ahead(ahead(point_in_world(a, place), radius, outward), sweep, n)
     write_contact(a, out, gap_at_distance(gap, past, sweep), past, float(face), n, point, False)
-    write_principal(out, SIDE_A, cross(axis, outward), max(sine, FLATTEST), radius, 1.0, 0.0)
+    write_part(out, SIDE_A, LOW_RIM, axis, outward, sine, radius)
     write_sweep(out, SIDE_A, sweep)
     write_flat(out, SIDE_B)

@@ -12,9 +12,9 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, FEET, Frustum, Point
 from ...shapes.ground import Ground
-from ...vectors import ahead, opposite, vector_at
-from ..features.flat_rim import FLATTEST, touching_point, write_rim
+from ...vectors import ahead, cross, opposite, vector_at
 from ..features.frames import across, point_in_world, vector_in_world
+from ..features.writing import write_principal, write_sweep
 from .plane_ball import ball_over_plane
 from .plane_point import axis_of, place_over_plane
 
@@ -32,8 +32,8 @@ def evaluate_rim_over_plane(
 ) -> None:
     """Write the geometry block of a rim over a plane, at the lowest point of the rim or of the torus about it.
 
-    The contact point of a flat rim is explained in :mod:`bodies.contacts.features.flat_rim`.  A face with feet is a
-    cap of a sphere that protrudes from the rim, but less than the feet.
+    Near flat, where the feet touch, the face is a crown: a cap of a sphere that protrudes from the rim by half the
+    height of the feet.  So the contact point moves from one side of the rim to the other without a jump.
 
     Parameters
     ----------
@@ -46,39 +46,40 @@ def evaluate_rim_over_plane(
     rounding : float
         Radius of the torus about a rounded rim [m].
     crown : float
-        Sine of the cap's tilt at the rim; 0 for a face without feet.
+        Sine of the tilt of the crown at the rim.
     """
     n, along_axis = axis_of(a, 2), vector_in_world(b, vector_at(axis, 0))
-    at, out_of_rim = touching_point(b, a, n, along_axis, radius), 0.0
     along, sine, down = across(opposite(n), along_axis)
-    if FLATTEST < crown > sine:
-        at = radius * sine / crown, down, 0.0, crown, crown, radius
+    reach, out_of_rim, is_crown = radius, 0.0, sine < crown
+    if is_crown:
+        reach *= sine / crown
         sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)
         out_of_rim = math.copysign(radius / crown * (crown * crown - sine * sine) / sum_of_cosines, along)
-    point = ahead(point_in_world(b, vector_at(center, 0)), at[0], at[1])
-    point = ahead(ahead(point, out_of_rim, along_axis), -(rounding + at[2]), n)
-    place_over_plane(a, out, point, height)
-    write_rim(out, SIDE_B, along_axis, radius, at, rounding)
+    point = ahead(point_in_world(b, vector_at(center, 0)), reach, down)
+    place_over_plane(a, out, ahead(ahead(point, out_of_rim, along_axis), -rounding, n), height)
+    slide, turn = (crown, radius) if is_crown else (1.0, 0.0)
+    write_principal(out, SIDE_B, cross(along_axis, down), max(sine, crown), radius, slide, turn)
+    write_sweep(out, SIDE_B, rounding)
 
 
 @final
 class PlaneFrustum(ContactKinematics):
     """A cylinder, a cone or a disc over a plane: contacts of the lowest point of each rim, of the apex and of the feet.
 
-    Two rims, or a rim and the apex, hold a body that lies on its side.  A rim that lies flat has no lowest point: the
-    numbers stay finite, but a single contact cannot hold it.  Its feet can, each a contact of its own.  A rounded body
-    has a torus about every rim, and spheres about its apex and the tips of its feet.
+    Two rims, or a rim and the apex, hold a body that lies on its side.  A rim that lies flat has no lowest point: its
+    feet hold the body, each a contact of its own.  A rounded body has a torus about every rim, and spheres about its
+    apex and the tips of its feet.
 
-    Where springs press feet into the plane the face comes to touch it, and would lie now on one point of the rim, now
-    on the opposite one, without anything between.  So the face has a crown, half as high as the feet, which on a plane
-    is touched only where these are pressed in.
+    Springs press the feet into the plane, so that the face touches the plane, too.  The lowest point of its rim would
+    jump from one side to the other.  So the face has a crown, half as high as the feet; rigid feet keep it off the
+    plane.
     """
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Frustum)
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
-        """Return the contacts of the rims, first the one against the axis, of the apex, and of the feet, if any."""
+        """Return the contacts of the rims, first the one against the axis, of the apex, and of the feet."""
         assert isinstance(first, Ground)
         assert isinstance(second, Frustum)
         sweep, numbers = second.rounding, second.frustum

@@ -129,7 +129,7 @@ def _can_friction_give(ws: Workspace, active: ActiveContact) -> bool:
     The normal impulse is taken that changes the gap rate by the speed scale of the impact.
     """
     inverse_mass = diagonal_block(ws, active.index).nn
-    return length(active.friction) * inverse_mass <= active.static_coefficient * ws.impact.speed_scale
+    return bool(length(active.friction) * inverse_mass <= active.static_coefficient * ws.impact.speed_scale)
 
 
 @kernel("void(ws, ActiveContact, f8)")

@@ -99,7 +99,7 @@ def _axes(shape: Any) -> Vector:
 def _frustum(shape: Any, profile: tuple[float, float, float, float]) -> Piece:
     place = np.array([shape.x, shape.y, shape.z])
     numbers = np.array([*profile, 0.0])
-    return Piece(FRUSTUM, numbers, np.zeros((1, 3)), shape.rounding, place, _axes(shape), shape.foot_height)
+    return Piece(FRUSTUM, numbers, np.zeros((1, 3)), shape.rounding, place, _axes(shape), shape.set_back)
 
 
 def _solid(corners: Any, sweep: float = 0.0) -> Piece:

@@ -161,6 +161,6 @@ def _placed(case: Case, solution: ns.Solution) -> list[str]:
 
 def _feet(body: Body) -> float:
     return max(
-        (float(getattr(shape, "foot_height", 0.0)) for shapes in body.frames for shape in shapes),
+        (shape.solid.set_back for shapes in body.frames for shape in shapes if shape.solid),
         default=0.0,
     )
