@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.support import separation_along_held
 from nonsmooth.engine.flow.flight import evaluate_within
 from nonsmooth.engine.flow.self_check import fail_check
 from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR
@@ -140,6 +141,8 @@ def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
     """First tested fraction of the step at which two parts are apart that touch at its start; 1 if none is.
 
     They must be apart along the direction at the start: parts that passed through each other are apart along others.
+    That direction is held by either part. Of a disc that rocks on a face, the plane of the face separates them, or that
+    of the disc, and not both.
     """
     enough, speed = ADJACENT * ws.tolerance.gap, speed_of(ws, pair)
     _renewed_gap(ws, h, 0.0, pair)
@@ -148,7 +151,8 @@ def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
         return 1.0
     elapsed = ws.tolerance.time
     while elapsed < h:
-        if _gap_at(ws, h, elapsed / h, pair) > enough:
+        _evaluate(ws, h, elapsed / h, pair)
+        if separation_along_held(ws, pair) - pair.level > enough:
             return elapsed / h
         elapsed *= _FINER
     return 1.0
