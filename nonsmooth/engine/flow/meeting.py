@@ -41,8 +41,10 @@ _RENEWED = 0.5
 """The direction is searched again once the separation along it is below this part of its last largest value."""
 _LITTLE = 1e-4
 """Displacement of the parts over which the rate of a direction is measured, relative to the size of the pair."""
-_JUMP = 100.0 * _LITTLE
-"""Change of a direction over that displacement above which it jumps to other features, and has no rate."""
+_LESS = 1e-2
+"""The same relative to the first displacement, if the direction jumps over that one: parts in contact overlap by it."""
+_JUMP = 100.0
+"""Change of a direction, over such a displacement, above which it jumps to other features, and has no rate."""
 _NEWTON_STEPS = 3
 """Steps of Newton's method from a gap that is zero within the tolerance to its root. Each squares the error."""
 _FINER = 8.0
@@ -127,13 +129,18 @@ def _renewed_gap(ws: Workspace, h: float, theta: float, pair: Pair) -> float:
 def _measure_drift(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
     """Measure the rate of the direction of a pair, which was searched at the fraction ``theta`` of the step."""
     n, facing, speed = pair.direction, pair.facing, speed_of(ws, pair)
-    later = min(theta + _LITTLE * pair.size / (speed * h), 1.0) if speed > 0.0 else theta
-    if later > theta:
+    little = _LITTLE
+    for _ in range(2):
+        later = min(theta + little * pair.size / (speed * h), 1.0) if speed > 0.0 else theta
+        if later <= theta:
+            return
         _renewed_gap(ws, h, later, pair)
         span, change = (later - theta) * h, minus(pair.direction, n)
         pair.direction, pair.facing, pair.searched = n, facing, theta * h
-        if dot(change, change) <= _JUMP * _JUMP:
+        if dot(change, change) <= (_JUMP * little) ** 2:
             pair.drift = scaled(1.0 / span, change)
+            return
+        little *= _LESS
 
 
 @kernel("f8(ws, f8, Pair)")
