@@ -83,10 +83,12 @@ def _has_closed_contact(ws: Workspace, contact: ContactRecord) -> bool:
 def _allowed_overlap(ws: Workspace, number: int) -> float:
     """Overlap of pair ``number`` of convex parts that the tolerances of gaps and of steps allow [m].
 
-    The tolerance of steps is relative to the distance from the origin of space plus the size of the parts. It counts
-    for pairs without a closed contact, too: the projection of other contacts moves their bodies.
+    If no contact of a guarded pair is closed, each step is searched for its first meeting, so the tolerance of gaps
+    suffices. The tolerance of steps is relative to the distance from the origin of space plus the size of the parts.
     """
     pair = ws.pairs[number]
+    if ws.pairs[pair.group].is_guarded and not ws.pairs[pair.group].is_closed:
+        return float(ALLOWED * ws.tolerance.gap)
     farthest = 0.0
     for side in range(2):
         origin = frame_at(ws.floats, pair.frame_a if side == 0 else pair.frame_b).origin
