@@ -69,8 +69,8 @@ def _comes_beneath(ws: Workspace, contact: ContactRecord) -> bool:
         return False
     near, clearance = ADJACENT * ws.tolerance.gap, ws.pairs[contact.pair].clearance
     is_beneath = -near - clearance <= contact.gap < -near
-    # it came in within the last step
-    slipped = ws.step.h * math.hypot(contact.slip[0], contact.slip[1])
+    # at its border, up to what the time tolerance leaves
+    slipped = ws.tolerance.time * math.hypot(contact.slip[0], contact.slip[1])
     return clearance > 0.0 and is_beneath and -near - slipped <= contact.past_feature <= 0.0
 
 
