@@ -124,19 +124,3 @@ def test_discs_that_rock_on_each_other_part_again(part: int, feet: float) -> Non
         assert np.min(q_two[:, 2] - q_one[:, 2]) >= -1e-9
         # the momentum stays
         assert u_one[-1, 2] + u_two[-1, 2] == pytest.approx(-speed, rel=1e-9)
-
-
-@pytest.mark.parametrize("height", [0.1, 0.5, 0.9, 1.5, 2.5])
-@pytest.mark.parametrize("turn", [0.0, 0.4, 1.0])
-def test_a_foot_that_comes_in_from_beside_beneath_the_face_does_not_act(height: float, turn: float) -> None:
-    """The planes of both discs are nearer than their feet are high: they slide past each other, and do not collide."""
-    radius, speed = 0.003, 0.1
-    feet = 1e-4 * radius
-    one, two = DiscBody(radius, foot_height=feet), DiscBody(radius, foot_height=feet)
-    system = ns.System([one, two], gravity=0.0)
-    system.contact(one, two, **LAWS)
-    system.place(one, velocity=(speed, 0.0, 0.0))
-    system.place(two, position=(2.5 * radius, 0.0, height * feet), orientation=ns.turned_about((0.0, 0.0, 1.0), turn))
-    solution = ns.simulate(system, 5.0 * radius / speed)
-    assert solution.status == "done"
-    assert solution.of(one)[1][-1] == pytest.approx([speed, 0.0, 0.0, 0.0, 0.0, 0.0], abs=1e-12)

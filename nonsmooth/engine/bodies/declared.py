@@ -113,7 +113,6 @@ def write_history(ws: Workspace, contact: ContactRecord) -> None:
     contact.mean_forces_asked, contact.mean_forces_wait = -math.inf, 0.0
     contact.release = NO_RELEASE
     contact.facing = 1
-    contact.is_beneath = False
     contact.slack = 0.0
     for i in range(3):
         contact.null_space_force[i] = 0.0

@@ -132,8 +132,7 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     - Closed contact: the gap stays as the geometry function wrote it, until the event in which another contact replaces
       this one. If the function keeps negative gaps past the end, the force does not jump within a step.
 
-    An open rigid contact that is near but cannot close gets a positive substitute, too, and so does a foot that came
-    from beside, beneath the face.
+    An open rigid contact that is near but cannot close gets a positive substitute, too.
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -148,10 +147,6 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
         contact.overlap = contact.gap
         contact.gap = length((contact.gap, contact.past_feature))
     near = ADJACENT * ws.tolerance.gap
-    if contact.is_beneath and contact.gap < 0.0:
-        # continuous with the substitute outside of the border
-        contact.gap = contact.past_feature = max(-contact.gap, 0.5 * near)
-        return
     is_near = not contact.is_compliant and contact.gap <= near and contact.past_feature <= 0.0
     if is_near and contact.pair != NO_PAIR and not _can_close(ws, contact, near):
         # a gap as small as that of surfaces next to each other: if only round-off decides, the gap hardly changes

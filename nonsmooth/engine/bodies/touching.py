@@ -8,8 +8,6 @@ have Jacobians.
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import copy_inner_states, evaluate_compliant_force
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
@@ -45,9 +43,6 @@ def find_touching(ws: Workspace) -> bool:
         is_approaching, has_ended = False, False
         for contact in ws.contacts:
             evaluate_kinematics(ws, contact.index)
-            if _comes_beneath(ws, contact):
-                contact.is_beneath, contact.version_a = True, NOT_EVALUATED
-                evaluate_kinematics(ws, contact.index)
             contact.is_touching = _does_touch(ws, contact)
         leave_out_coincident(ws)
         _leave_out_blocked(ws)
@@ -56,22 +51,6 @@ def find_touching(ws: Workspace) -> bool:
                 is_approaching = _approaches(ws, contact) or is_approaching
                 has_ended = end_own_steps_of(ws, contact.index) > 0 or has_ended
     return is_approaching
-
-
-@kernel("b1(ws, ContactRecord)")
-def _comes_beneath(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if a foot comes in over the border of a face from beside, and its tip is beneath the face.
-
-    The parts of the bodies do not overlap by this, as feet stand out of them. The foot does not act until its tip is
-    above the face.
-    """
-    if contact.mode != Mode.OPEN or contact.is_compliant or contact.pair == NO_PAIR:
-        return False
-    near, clearance = ADJACENT * ws.tolerance.gap, ws.pairs[contact.pair].clearance
-    is_beneath = -near - clearance <= contact.gap < -near
-    # at its border, up to what the time tolerance leaves
-    slipped = ws.tolerance.time * math.hypot(contact.slip[0], contact.slip[1])
-    return clearance > 0.0 and is_beneath and -near - slipped <= contact.past_feature <= 0.0
 
 
 @kernel()

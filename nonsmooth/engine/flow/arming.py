@@ -54,8 +54,6 @@ def store_start(ws: Workspace) -> None:
     """
     for contact in ws.contacts:
         contact.gap_at_start, contact.gap_rate_at_start = contact.gap_at_end, contact.gap_rate_at_end
-        # over the face again, with its tip above it
-        contact.is_beneath = contact.is_beneath and contact.past_feature_at_end > 0.0
         contact.past_feature_at_start, contact.speed_at_start = contact.past_feature_at_end, contact.speed_at_end
         bound = contact.acceleration_bound_at_end if ws.island.follows_a_step else NO_BOUND
         contact.acceleration_bound_at_start = bound

@@ -111,7 +111,6 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     mean_forces_wait: float = real(_STATE, "s", "Time after which the next attempt is made.")
     null_space_force: Floats = row(_STATE, 3, "N", "Chosen part of a force that is not unique.")
     slack: float = real(_STATE, "N", "Excess over the bounds that a choice of forces is allowed.")
-    is_beneath: bool = question(_STATE, "A foot came from beside, beneath the face, and does not act.")
     burst_start: float = real(_STATE, "s", "Start of the present burst of events.")
     burst_events: int = whole(_STATE, "Number of events in the present burst.")
 
