@@ -97,3 +97,35 @@ def test_a_disc_leans_on_the_middle_of_another(radius: float) -> None:
     solution = ns.simulate(system, 0.25)
     assert solution.status == "done"
     assert solution.of(high)[0][-1, 2] > solution.of(low)[0][-1, 2]
+
+
+@pytest.mark.fast_cases(3)
+@pytest.mark.parametrize("feet", [0.0, 1e-8, 1e-6, 1e-4])
+@pytest.mark.parametrize("part", range(4))
+def test_discs_that_rock_on_each_other_part_again(part: int, feet: float) -> None:
+    """A turning disc strikes another one with one side of its rim, then with the other or with raised feet."""
+    for seed in range(15 * part, 15 * part + 15):
+        rng = np.random.default_rng(seed)
+        radius, speed, tilt = 0.006, 0.05, 10.0 ** rng.uniform(-8.0, -3.0)
+        one, two = DiscBody(radius, foot_height=feet * radius), DiscBody(radius, foot_height=feet * radius)
+        system = ns.System([two, one] if seed % 2 else [one, two], gravity=0.0)
+        law = EnergeticImpact(rng.uniform(0.2, 0.8))
+        system.contact(*system.bodies, normal=Unilateral(), friction=Coulomb(0.0), impact=law)
+        azimuth, aside = rng.uniform(0.0, 2.0 * np.pi, 2)
+        axis = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+        shift = radius * 10.0 ** rng.uniform(-12.0, -1.0)
+        height = radius * (tilt + 2.0 * feet) + 10.0 ** rng.uniform(-8.0, -5.0)
+        system.place(one)
+        system.place(
+            two,
+            position=(shift * np.cos(aside), shift * np.sin(aside), height),
+            orientation=ns.turned_about(tuple(axis), tilt),
+            velocity=(0.0, 0.0, -speed),
+            angular_velocity=rng.uniform(-2.0, 2.0) * speed / radius * axis,
+        )
+        solution = ns.simulate(system, 0.002)
+        assert solution.status == "done"
+        (q_one, u_one), (q_two, u_two) = (solution.of(body) for body in (one, two))
+        assert np.min(q_two[:, 2] - q_one[:, 2]) >= -1e-9
+        # the momentum stays
+        assert u_one[-1, 2] + u_two[-1, 2] == pytest.approx(-speed, rel=1e-9)

@@ -78,8 +78,8 @@ def past_disc(
     axis, own_axis = axis_in_world(other, second), axis_in_world(one, first)
     center, middle = center_in_world(other, second), on_axis_in_world(one, first, 0.5 * (first[LOW] + first[HIGH]))
     height, to_middle = up * dot(axis, minus(middle, center)), minus(middle, p)
-    # the middle of a frustum is above its lowest point; the end of a frustum with a tip must face the disc
-    if height < gap - REACH * size or (is_tip and up * dot(to_middle, own_axis) * dot(own_axis, axis) < 0.0):
+    # the end of a frustum with a tip must face the disc; a raised foot may be higher than the middle
+    if is_tip and up * dot(to_middle, own_axis) * dot(own_axis, axis) < 0.0:
         return size
     if gap >= -REACH * size:
         return -size

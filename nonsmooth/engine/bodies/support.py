@@ -215,6 +215,13 @@ def normal_of_either(ws: Workspace, pair: Pair, of_second: bool) -> Vector:
     return known_direction(ws, pair)
 
 
+@kernel("f8(ws, Pair)")
+def separation_along_held(ws: Workspace, pair: Pair) -> float:
+    """Separation of a pair along its stored direction, turned with the first or the second part: the larger one [m]."""
+    of_first = separation_along(ws, pair.index, normal_of_either(ws, pair, False))
+    return float(max(of_first, separation_along(ws, pair.index, normal_of_either(ws, pair, True))))
+
+
 @kernel("b1(ws, i8, v3, f8)")
 def separates(ws: Workspace, number: int, n: Vector, near: float) -> bool:
     """True if the normal ``n`` of a near contact separates two convex shapes as well as the direction of their pair.

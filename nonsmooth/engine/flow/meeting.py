@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.support import separation_along_held
 from nonsmooth.engine.flow.flight import evaluate_within
 from nonsmooth.engine.flow.self_check import fail_check
 from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR
@@ -40,8 +41,10 @@ _RENEWED = 0.5
 """The direction is searched again once the separation along it is below this part of its last largest value."""
 _LITTLE = 1e-4
 """Displacement of the parts over which the rate of a direction is measured, relative to the size of the pair."""
-_JUMP = 100.0 * _LITTLE
-"""Change of a direction over that displacement above which it jumps to other features, and has no rate."""
+_LESS = 1e-2
+"""The same relative to the first displacement, if the direction jumps over that one: parts in contact overlap by it."""
+_JUMP = 100.0
+"""Change of a direction, over such a displacement, above which it jumps to other features, and has no rate."""
 _NEWTON_STEPS = 3
 """Steps of Newton's method from a gap that is zero within the tolerance to its root. Each squares the error."""
 _FINER = 8.0
@@ -126,13 +129,18 @@ def _renewed_gap(ws: Workspace, h: float, theta: float, pair: Pair) -> float:
 def _measure_drift(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
     """Measure the rate of the direction of a pair, which was searched at the fraction ``theta`` of the step."""
     n, facing, speed = pair.direction, pair.facing, speed_of(ws, pair)
-    later = min(theta + _LITTLE * pair.size / (speed * h), 1.0) if speed > 0.0 else theta
-    if later > theta:
+    little = _LITTLE
+    for _ in range(2):
+        later = min(theta + little * pair.size / (speed * h), 1.0) if speed > 0.0 else theta
+        if later <= theta:
+            return
         _renewed_gap(ws, h, later, pair)
         span, change = (later - theta) * h, minus(pair.direction, n)
         pair.direction, pair.facing, pair.searched = n, facing, theta * h
-        if dot(change, change) <= _JUMP * _JUMP:
+        if dot(change, change) <= (_JUMP * little) ** 2:
             pair.drift = scaled(1.0 / span, change)
+            return
+        little *= _LESS
 
 
 @kernel("f8(ws, f8, Pair)")
@@ -140,6 +148,8 @@ def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
     """First tested fraction of the step at which two parts are apart that touch at its start; 1 if none is.
 
     They must be apart along the direction at the start: parts that passed through each other are apart along others.
+    That direction is held by either part. Of a disc that rocks on a face, the plane of the face separates them, or that
+    of the disc, and not both.
     """
     enough, speed = ADJACENT * ws.tolerance.gap, speed_of(ws, pair)
     _renewed_gap(ws, h, 0.0, pair)
@@ -148,7 +158,8 @@ def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
         return 1.0
     elapsed = ws.tolerance.time
     while elapsed < h:
-        if _gap_at(ws, h, elapsed / h, pair) > enough:
+        _evaluate(ws, h, elapsed / h, pair)
+        if separation_along_held(ws, pair) - pair.level > enough:
             return elapsed / h
         elapsed *= _FINER
     return 1.0

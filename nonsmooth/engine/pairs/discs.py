@@ -61,14 +61,14 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
     x, y, z = to_part(ws.floats, pair.frame_a, pair.part_a, between)
-    # heights up to the allowed overlap count as in the plane
-    current = (x, y, z if abs(z) > pair.allowed else 0.0)
     # axis of the second disc; along the axes of the first, its two components in the plane are the sine of the tilt
     normal = to_world(ws.floats, pair.frame_b, pair.part_b, (0.0, 0.0, 1.0))
     tilt = to_part(ws.floats, pair.frame_a, pair.part_a, normal)
     radius_a, radius_b = at(ws.floats, pair.part_a + PART_RINGS)[3], at(ws.floats, pair.part_b + PART_RINGS)[3]
     # the rim of the second disc rises over the plane by no more than the allowed overlap
     parallel = math.hypot(tilt[0], tilt[1]) * radius_b <= pair.allowed
+    # of parallel discs, heights up to the allowed overlap count as in the plane
+    current = (x, y, 0.0 if parallel and abs(z) <= pair.allowed else z)
     reach = radius_a + (radius_b if parallel else 0.0)
     is_known, previous = pair.margin > 0.0, pair.between
     lie_on_each_other = parallel and current[2] == 0.0 and math.hypot(x, y) < reach
