@@ -39,14 +39,6 @@ _FAILED_CHECKS = {
         "{allowed:.3g} m. Their features missed each other: turn or shift one of them by a thousandth of its size, "
         "give it feet or a rounding, or take shorter steps, EventDriven(largest_step=...)."
     ),
-    Status.GAP_UNDECIDED: (
-        "The {contact}: its gap is {found:.3g} m and hardly changes within a step of {h:.3g} s. Place the bodies "
-        "farther apart or in contact, or take a smaller tolerance: EventDriven(tolerance=...)."
-    ),
-    Status.PAIR_UNDECIDED: (
-        "The bodies {first!r} and {second!r} of the {contact}: their separation is {found:.3g} m and hardly changes "
-        "within a step of {h:.3g} s. Take shorter steps, EventDriven(largest_step=...), or place them farther apart."
-    ),
     Status.JOINTS_APART: (
         "They are apart by {found:.3g} m or rad; the tolerances allow {allowed:.3g}. Leave out a joint that repeats "
         "another one, and let no inertia be below 1e-8 of the largest one of joined bodies: round-off moves it."
@@ -115,14 +107,12 @@ def _failed_check(model: LaidOut, status: Status) -> str:
     found, allowed, number = (memory[one] for one in (run.found, run.allowed, run.failed_number))
     # depending on the status, ``number`` counts active contacts, declared contacts or bodies
     is_of_body = status in (Status.MOTION_UNEXPLAINED, Status.QUATERNION_UNEXPLAINED)
-    things = {"h": memory[owners.Step.h], "found": found, "allowed": allowed}
+    things = {"found": found, "allowed": allowed}
     if is_of_body:
         things |= {"body": model.system.names.bodies[number]}
         things |= {"evaluator": described(model.system.bodies[number].evaluator)}
     elif status != Status.JOINTS_APART:
-        contact = model.system.contacts[
-            number if status in (Status.PASSED, Status.PAIR_UNDECIDED) else model.active[number]
-        ]
+        contact = model.system.contacts[number if status == Status.PASSED else model.active[number]]
         first, second = map(model.system.name_of, (contact.first, contact.second))
         things |= {"contact": contact, "first": first, "second": second}
     text = _FAILED_CHECKS[status].format(**things)

@@ -25,13 +25,16 @@ from laws import (
     NewtonImpact,
     Unilateral,
 )
-from tests.engine.test_undecided_gap import message_of
 from tests.physics.test_compliant_laws import box_on_an_edge
 
 PAGE = Path(__file__).parents[2] / "docs" / "pages" / "stuck.md"
 RIGID: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(0.5)}
-TOO_LONG = ("RunFailed: At t = 0.507741939 s a gap differs from zero",)
-"""Beginnings of messages of which no short run is known: here boxes in a gripper."""
+TOO_LONG = (
+    "RunFailed: At t = 0.507741939 s a gap differs from zero",
+    "RunFailed: At t = ... s bodies passed into each other",
+    "bodies passed into each other",
+)
+"""Beginnings of messages of which no short run is known: boxes in a gripper, bodies in each other."""
 
 _QUOTE = re.compile(r"`([^`]+)`")
 _NUMBER = re.compile(r"-?\d[\d.]*(?:e[+-]?\d+)?")
@@ -147,17 +150,6 @@ def _squeezed() -> None:
     ns.simulate(system, 0.1)
 
 
-def _passed() -> None:
-    """A sharp disc, slightly tilted, falls onto a part of another one that lies on a plate."""
-    plate, low, high = Plate(), DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0)
-    system = ns.System([plate, low, high])
-    for one, two in ((plate, low), (plate, high), (low, high)):
-        system.contact(one, two, **RIGID | {"friction": Coulomb(0.3)})
-    system.place(low, position=(0.0, 0.0, 5e-8))
-    system.place(high, position=(0.05, 0.0, 0.01), orientation=ns.turned_about((0.0, 1.0, 0.0), 1e-3))
-    ns.simulate(system, 0.2)
-
-
 def _quaternion() -> None:
     box = BoxBody(1.0, 1.0, 1.0)
     ns.System([box]).place(box, orientation=(1.0, 2.0, 0.0, 0.0))
@@ -186,9 +178,6 @@ CASES: tuple[Callable[[], Any], ...] = (
     lambda: HuntCrossley(stiffness=300.0, dissipation=1.0),
     _contact_at_a_joint,
     _squeezed,
-    _passed,
-    lambda: message_of("meeting", 0),
-    lambda: message_of("gap_search", 0),
     _quaternion,
     lambda: Coulomb(mu=0.3),  # type: ignore[call-arg]
     lambda: EnergeticImpact(e=0.5),  # type: ignore[call-arg]

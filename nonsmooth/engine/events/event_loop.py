@@ -36,7 +36,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_of,
 )
 from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
-from nonsmooth.engine.flow.guards import is_of_redundant_force
+from nonsmooth.engine.flow.guards import has_finite_user_guards, is_of_redundant_force
 from nonsmooth.engine.flow.location import locate
 from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_drifted
 from nonsmooth.engine.flow.point_jump import contact_past_flat_place, evaluate_force_round_off, jump_contact_points
@@ -211,9 +211,10 @@ def _step(ws: Workspace) -> Status:
         return _without_step(ws, status)
     ws.totals.n_steps += 1
     high = first_crossing(ws, ws.step.h)
-    for i in range(first_user_guard(ws), first_end_guard(ws)):
-        if not abs(ws.guards[i].at_end) < math.inf:
-            return _up_to_end(ws, Status.NOT_FINITE)
+    if ws.step.is_undecided:
+        return _in_part(ws)
+    if not has_finite_user_guards(ws):
+        return _up_to_end(ws, Status.NOT_FINITE)
     if high > 0.0:
         return _step_to_event(ws, high)
     return _whole_step(ws)
@@ -355,7 +356,7 @@ def _step_to_event(ws: Workspace, high: float) -> Status:
     if can_choose_within(ws, high):
         return _in_part(ws)
     h = locate(ws, ws.step.h, high)
-    if h < 0.0:
+    if h < 0.0 or ws.step.is_undecided:
         return _in_part(ws)
     if h > ws.request.t_end - ws.island.time:
         ws.step.limit = Limit.END
@@ -367,7 +368,7 @@ def _step_to_event(ws: Workspace, high: float) -> Status:
 def _in_part(ws: Workspace) -> Status:
     """Reject the step, and propose a quarter of its length for the next attempt; return the status."""
     ws.island.follows_a_step, ws.step.limit = False, Limit.CROWDED_EVENTS
-    # causes: many guards fire in the step, its error grows, or a contact point has jumped
+    # causes: many guards fire in the step, its error grows, a contact point has jumped, or a gap is not decided
     if ws.step.h < NEGLIGIBLE * ws.tolerance.time:
         return _without_step(ws, Status.STEP_TOO_SMALL)
     if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:

@@ -152,7 +152,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     store_end(ws)
     bound_speeds(ws)
     bound_carriers(ws)
-    ws.step.meeting = NO_PAIR
+    ws.step.meeting, ws.step.is_undecided = NO_PAIR, False
     if ws.model.n_pairs > 0:
         watch_pairs(ws, h)
     find_doubtful(ws, h)

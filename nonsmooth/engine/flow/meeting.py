@@ -19,9 +19,7 @@ import math
 
 from nonsmooth.engine.bodies.support import separation_along_held
 from nonsmooth.engine.flow.flight import evaluate_within
-from nonsmooth.engine.flow.self_check import fail_check
 from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR
-from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.tolerances import ADJACENT, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import dot, minus, scaled
@@ -36,7 +34,7 @@ from nonsmooth.engine.pairs.motion import (
 )
 
 _MOST_EVALUATIONS = 10_000
-"""Most parts of one step for which one pair is evaluated. Halving down to the time tolerance needs far fewer."""
+"""Most parts of one step for which one pair is evaluated: then a shorter step is taken. Few steps need so many."""
 _RENEWED = 0.5
 """The direction is searched again once the separation along it is below this part of its last largest value."""
 _LITTLE = 1e-4
@@ -209,7 +207,7 @@ def _first_root(ws: Workspace, h: float, pair: Pair, high: float) -> float:
             gap_at_last = _gap_at(ws, h, last, pair)
             is_cut_by_secant = gap_at_last < 0.0 and not is_cut_by_secant
             last = theta + span * (gap / (gap - gap_at_last) if is_cut_by_secant else 0.5)
-    fail_check(ws, Status.PAIR_UNDECIDED, pair.contact, gap, ws.tolerance.gap)
+    ws.step.is_undecided = True
     return 0.0
 
 

@@ -228,12 +228,8 @@ class Status(IntEnum):
     """The length of a quaternion differs from 1 by more than the tolerances allow."""
     CONDITION_MET = 16
     """The condition that ends the run holds."""
-    GAP_UNDECIDED = 17
-    """It cannot be decided whether a gap closes within a step."""
     PASSED = 18
     """Bodies passed into each other."""
-    PAIR_UNDECIDED = 19
-    """It cannot be decided whether bodies meet within a step."""
     LIST_FULL = 20
     """More contacts are near than there are slots for active contacts. The memory grows, and the run continues."""
 
@@ -250,9 +246,7 @@ REASONS = {
     Status.UPDATE_ENDLESS: "impacts at one instant did not settle into a mode",
     Status.JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
     Status.GAP_UNEXPLAINED: "a gap differs from zero by more than the tolerances allow",
-    Status.GAP_UNDECIDED: "whether a gap closes within a step is not decided after ten thousand evaluations",
     Status.PASSED: "bodies passed into each other",
-    Status.PAIR_UNDECIDED: "whether bodies meet within a step is not decided after ten thousand evaluations",
     Status.MOTION_UNEXPLAINED: "closing contacts or joints would move a body farther than the tolerances allow",
     Status.QUATERNION_UNEXPLAINED: "the length of a quaternion differs from one by more than the tolerances allow",
     Status.PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",

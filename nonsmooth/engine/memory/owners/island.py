@@ -141,6 +141,7 @@ class Step(Singleton, key="step"):
     load_power: float = real(_STEP, "W", "Power of loads.")
     guard: int = whole(_STEP, "Guard that fired, or -1.")
     meeting: int = whole(_STEP, "Pair of parts that meet at the end of the step, or -1.")
+    is_undecided: bool = question(_STEP, "Too many evaluations are needed to see whether a gap closes in the step.")
     guard_slope: float = real(_STEP, "", "Slope of that guard at its root, in the unit of the guard per second.")
     has_doubtful_force: bool = question(_STEP, "A stage had a force of the wrong sign.")
     uses_last_slope: bool = question(_STEP, "The first slope is the last one of the step before.")
