@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, BoxBody, ConstantVelocity, DiscBody, DrivenBody, Hinge, Plate, Rest, Rod, Wall
+from bodies import Ball, BoxBody, ConstantVelocity, DrivenBody, Hinge, Plate, Rest, Rod, Wall
 from laws import (
     Bristle,
     Coulomb,
