@@ -12,7 +12,7 @@ from nonsmooth.engine.bodies.articulations import constrain
 from nonsmooth.engine.bodies.compliance import decouple_normals
 from nonsmooth.engine.bodies.kinematics import row, row_size
 from nonsmooth.engine.contact.search import find_modes
-from nonsmooth.engine.contact.trial import NO_FORCE, verify
+from nonsmooth.engine.contact.trial import verify
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATED_AT_LAST, MOST_PIVOTED, Solver
@@ -155,7 +155,8 @@ def write_contact_problem(ws: Workspace) -> None:
     Their kinematics must be evaluated, and ``du`` must hold the accelerations without contact forces.
     """
     assemble_delassus(ws)
-    ws.problem.acceleration_scale = 0.0
+    # at least one that changes a velocity by its tolerance in the largest step: far smaller ones count as zero
+    ws.problem.acceleration_scale = ws.tolerance.velocity / ws.tolerance.largest_step
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         for r in range(3):
@@ -165,9 +166,6 @@ def write_contact_problem(ws: Workspace) -> None:
             # of the parts and not of their sum, which may cancel and leave their round-off
             size = max(abs(bias), row_size(ws, active.contact, r, ws.island.du.start))
             ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, size)
-        # the bias of bodies that rotate within the velocity tolerance counts as zero
-        least = ws.tolerance.velocity * ws.tolerance.velocity / (NO_FORCE * contact.size)
-        ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, least)
         write_friction(ws, active)
     # the normal forces of compliant contacts are known
     decouple_normals(ws)
