@@ -98,17 +98,23 @@ def _size(body: Body) -> float:
     return max(piece.reach for piece in pieces_of(body))
 
 
+def _set_back(body: Body) -> float:
+    """Height of the feet by which rims are set back [m]."""
+    return max((shape.solid.set_back for frame in body.frames for shape in frame if shape.solid), default=0.0)
+
+
 def faults(pose: Pressed, angle: float = 0.0) -> list[str]:
     """Return what is wrong with the contacts of two convex bodies that overlap.
 
-    The deepest contact is as deep as the bodies are.  Along the normal of a contact below zero the bodies are no deeper
-    than along the best direction, but for the angle [rad] of faces that are nearly parallel.  Its points are on the
-    surfaces of the bodies, as far apart as its gap.
+    The deepest contact is as deep as the bodies are, but for rims that are set back by their feet.  Along the normal of
+    a contact below zero the bodies are no deeper than along the best direction, but for the angle [rad] of faces that
+    are nearly parallel.  Its points are on the surfaces of the bodies, as far apart as its gap.
     """
     (least, way), contacts = pose.measured(), pose.contacts()
     gaps = contacts.gap[contacts.within]
     found = []
-    if not np.any(np.abs(gaps - least) <= ACCURACY):
+    accuracy = ACCURACY + sum(map(_set_back, pose.bodies))
+    if not np.any((gaps >= least - ACCURACY) & (gaps <= least + accuracy)):
         found.append(f"none: the bodies are at {least:.3g} m, the contacts at {np.sort(gaps)[:3]} m")
     allowed = ACCURACY + (angle + DIRECTION) * max(map(_size, pose.bodies))
     for k in np.flatnonzero(contacts.within & (contacts.gap < -ACCURACY)):
@@ -121,7 +127,7 @@ def faults(pose: Pressed, angle: float = 0.0) -> list[str]:
             found.append(f"apart: points by {(points[1] - points[0]) @ normal:.3g} m, {said}")
         for body, axes, place, point in zip(pose.pieces, pose.axes, (np.zeros(3), pose.place), points, strict=True):
             off = gap(body, [_POINT], (place, axes), (point, np.eye(3)))
-            if abs(off) > ACCURACY:
+            if abs(off) > accuracy:
                 found.append(f"point: {off:.3g} m off the surface, {said}")
     return found
 

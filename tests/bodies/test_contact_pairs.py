@@ -20,6 +20,7 @@ from bodies import (
     Cylinder,
     Disc,
     Ellipsoid,
+    Frustum,
     Ground,
     HalfSpace,
     Plane,
@@ -159,6 +160,8 @@ def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
     directions = rng.normal(size=(200, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     flat = isinstance(shapes[0], Ground)
+    # rims of frustums are set back by their feet
+    back = 1e-12 + sum(shape.set_back for shape in shapes if isinstance(shape, Frustum))
     seen = set()
     for _ in range(400):
         poses = random_poses(rng, 1.2)
@@ -175,10 +178,10 @@ def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
                 height = outside(shape, axes.T @ (witness - pose[0]))
                 assert height <= 1e-12
                 # only of several contacts the farther ones may lie inside the whole shape
-                assert height >= -1e-12 or gap > np.min(blocks[:, 0])
+                assert height >= -back or gap > np.min(blocks[:, 0])
         nearest = blocks[np.argmin(blocks[:, 0])]
         widest = matrices[0][:, 2] if flat else nearest[1:4]
-        assert separation(shapes, poses, widest) == pytest.approx(nearest[0], abs=1e-12)
+        assert -back <= separation(shapes, poses, widest) - nearest[0] <= 1e-12
         if flat or SMOOTH not in name or nearest[0] > SHALLOW:
             assert np.max(separation(shapes, poses, directions)) <= nearest[0] + 1e-12
     # every feature was met
