@@ -227,6 +227,7 @@ def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int
         normal = np.append(1.0, 10.0 ** random.uniform(-decades, 0.0, n - 1))
         memory = lay_out(problem, Solver.AUTO)
         memory[owners.ActiveContact.has_given_force][:n] = 1
+        memory[owners.ActiveContact.given_force][:n] = normal
         memory[owners.ActiveContact.mode_tried][:n] = Mode.SLIDE
         forces = memory[owners.ActiveContact.force][:n]
         forces[:, 0] = normal
