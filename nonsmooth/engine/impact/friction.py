@@ -14,7 +14,7 @@ and :func:`count_slow_step` keep them well-defined.
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.forces import resolve
+from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.search import find_modes
@@ -125,7 +125,7 @@ def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
     """Write the data for the choice of friction of an active contact: coefficient, slip direction, normal force [N].
 
     The normal force of a held contact is unknown, that of a loaded one follows from its deformation. ``probe`` is a
-    short pseudo-time.
+    short pseudo-time. Friction is written as if the contact slid.
     """
     speed = length(active.slip)
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
@@ -145,6 +145,7 @@ def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
     active.direction = ws.contacts[active.contact].direction
     if not active.is_at_rest and speed > 0.0:
         active.direction = unit(active.slip)
+    friction_of_slip(ws, active.index)
 
 
 @kernel()
