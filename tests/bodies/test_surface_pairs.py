@@ -169,7 +169,7 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
             velocity=rng.normal(size=3),
             angular_velocity=rng.normal(size=3),
         )
-        runs.append(ns.simulate(system, 0.4))
+        runs.append(ns.simulate(system, 0.39))
     one, two = runs
     assert one.status == two.status == "done"
     assert np.sum(one.events.cause == Cause.IMPACT) >= 2
