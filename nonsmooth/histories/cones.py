@@ -19,7 +19,7 @@ _SPEEDS = np.concatenate([[0.0], np.logspace(-6.0, 3.0, 91)])
 _ROUND_OFF = 1e-6
 """Allowed excess of friction over its bound, because solvers leave round-off of this order.
 
-It is this part of the bound, plus this part of the largest normal force (or impulse) of the instant.
+It is this part of the largest normal force (or impulse) of the instant.
 """
 
 
@@ -61,7 +61,7 @@ def beyond_cones(
             bound[entries] = [most if np.isnan(v) else _value(coefficient, v) for v in speed[entries].tolist()]
     known = np.isfinite(bound)
     slack = _ROUND_OFF * _largest_of_instants(normal, first)
-    allowed = np.where(known, bound, 0.0) * np.maximum(normal, 0.0) * (1.0 + _ROUND_OFF) + slack
+    allowed = np.where(known, bound, 0.0) * np.maximum(normal, 0.0) + slack
     rubs = known & (np.linalg.norm(friction, axis=1) > allowed)
     return np.asarray(rubs | (normal < -slack) & ~may_pull)
 
