@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
@@ -16,6 +17,7 @@ import nonsmooth as ns
 from bodies import (
     Ball,
     BallJoint,
+    BoxBody,
     Distance,
     DrivenBody,
     Dumbbell,
@@ -331,3 +333,22 @@ def test_far_from_the_origin() -> None:
     # across the arm only
     np.testing.assert_allclose(np.sum(radius * u[:, :3], axis=1), 0.0, atol=1e-7)
     assert solution.energy.residual <= 1e-7
+
+
+def test_a_fast_linkage_runs_beside_a_free_body() -> None:
+    """The first attempted step overflows; the free body declared within the linkage does not carry this on."""
+    plate, arm, free, rod = Plate(), BoxBody(0.05, 0.01, 0.01), Ball(0.01), BoxBody(0.05, 0.01, 0.008)
+    system = ns.System((plate, arm, free, rod), gravity=(0.0, 0.0, 0.0))
+    rate = 1e4
+    system.place(arm, position=(0.0, 0.0, 1.0))
+    system.place(free, position=(0.0, 1.0, 1.0), velocity=(1.0, 0.0, 0.0))
+    spin, velocity = (rate, 2.0 * rate, 3.0 * rate), (0.0, 0.15 * rate, -0.1 * rate)
+    system.place(rod, position=(0.1, 0.0, 1.0), velocity=velocity, angular_velocity=spin)
+    system.joint(BallJoint((-0.05, 0.0, 1.0), (-0.05, 0.0, 0.0)), plate, arm)
+    system.joint(BallJoint((0.05, 0.0, 0.0), (-0.05, 0.0, 0.0)), arm, rod)
+    for pair in itertools.combinations((plate, arm, free, rod), 2):
+        system.exclude(*pair)
+    solution = ns.simulate(system, 1e-3)
+    assert solution.status == "done"
+    assert solution.energy.residual <= 1e-6
+    np.testing.assert_allclose(solution.of(free)[0][-1, :3], (1e-3, 1.0, 1.0), atol=1e-12)

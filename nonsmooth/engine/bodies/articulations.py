@@ -192,11 +192,13 @@ def subtract_response(ws: Workspace, articulation: Articulation, line: int, fact
     """Subtract ``factor`` times row ``line`` of Y from velocities or accelerations of an articulation at ``out``.
 
     Row ``line`` of Y = (A M^-1 A^T)^-1 A M^-1 is the change of the velocities that changes the rate of this joint row
-    by 1, and no other rate.
+    by 1, and no other rate. Bodies without a response keep their numbers even if ``factor`` is infinite, in a step that
+    is too long: the next step may not evaluate those in ballistic motion.
     """
     response = articulation.solved_response + line * articulation.n_u
     for i in range(articulation.n_u):
-        ws.floats[out + i] -= ws.floats[response + i] * factor
+        if ws.floats[response + i] != 0.0:
+            ws.floats[out + i] -= ws.floats[response + i] * factor
 
 
 @kernel("void(ws, Articulation)")
