@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import BoxBody, ConeBody, CylinderBody, DiscBody, FreeBody, HullBody
+from bodies import BoxBody, ConeBody, CylinderBody, DiscBody, FreeBody, HullBody, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
 from tests.benchmarks.head_on.meeting import Meeting
@@ -137,3 +137,15 @@ def test_they_collide_face_to_face_in_any_orientation(name: str, shift: tuple[fl
         for world in worlds
     ]
     assert wrong(rows) == []
+
+
+def test_rates_within_the_tolerance_are_in_the_account_of_an_impact() -> None:
+    """Rounded boxes come to rest flush: rates that an impact takes for zero are as large as some that it does not."""
+    plate, lower, upper = Plate(), *(BoxBody(0.006, 0.0048, 0.0036, rounding=0.0006) for _ in range(2))
+    system = ns.System((plate, lower, upper))
+    for pair in itertools.combinations((plate, lower, upper), 2):
+        system.contact(*pair, normal=Unilateral(), friction=Coulomb(0.1544), impact=EnergeticImpact(0.9))
+    system.place(lower, position=(0.0, 0.0, 0.0036))
+    system.place(upper, position=(5.7e-9, 2e-11, 0.01082), orientation=(1.0, 0.0, 0.0, -7.9e-10))
+    solution = ns.simulate(system, 0.03)
+    assert solution.status == "done", solution.message
