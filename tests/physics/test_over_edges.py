@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -104,3 +105,16 @@ def test_a_ball_slides_over_the_line_where_two_plates_meet() -> None:
         system.contact(plate, ball, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.5))
     system.place(ball, position=(0.0, 0.0, radius), velocity=(speed, 0.0, 0.0))
     assert ns.simulate(system, 1e-3).u_end[0] == pytest.approx(speed, rel=0.02)
+
+
+@pytest.mark.parametrize("shift", [(0.05, 0.0), (0.0499, 0.0), (0.0501, 0.0), (0.05, 1e-3)], ids=str)
+def test_a_box_tips_over_an_equal_one(shift: tuple[float, float]) -> None:
+    """Its lower face meets two corners at once: one opens as the other one still closes."""
+    plate, lower, upper = Plate(), *(BoxBody(0.05, 0.04, 0.02) for _ in range(2))
+    system = ns.System((plate, lower, upper))
+    for pair in itertools.combinations((plate, lower, upper), 2):
+        system.contact(*pair, normal=Unilateral(), friction=Coulomb(0.4), impact=EnergeticImpact(0.6))
+    system.place(lower, position=(0.0, 0.0, 0.022))
+    system.place(upper, position=(*shift, 0.064))
+    solution = ns.simulate(system, 0.2)
+    assert solution.status == "done", solution.message

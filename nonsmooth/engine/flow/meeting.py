@@ -145,20 +145,25 @@ def _measure_drift(ws: Workspace, h: float, theta: float, pair: Pair) -> None:
 def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
     """First tested fraction of the step at which two parts are apart that touch at its start; 1 if none is.
 
-    They must be apart along the direction at the start: parts that passed through each other are apart along others.
+    It is 1, too, if they come nearer first, as one corner may close just after another one has opened: the contacts
+    decide. They must be apart along the direction at the start: parts that passed through each other are apart along
+    others.
     That direction is held by either part. Of a disc that rocks on a face, the plane of the face separates them, or that
     of the disc, and not both.
     """
     enough, speed = ADJACENT * ws.tolerance.gap, speed_of(ws, pair)
-    _renewed_gap(ws, h, 0.0, pair)
+    least = min(_renewed_gap(ws, h, 0.0, pair), 0.0) - enough
     # neighbours at rest stay next to each other
     if h * (speed + speed_of(ws, pair)) <= enough:
         return 1.0
     elapsed = ws.tolerance.time
     while elapsed < h:
         _evaluate(ws, h, elapsed / h, pair)
-        if separation_along_held(ws, pair) - pair.level > enough:
+        gap = separation_along_held(ws, pair) - pair.level
+        if gap > enough:
             return elapsed / h
+        if gap < least:
+            return 1.0
         elapsed *= _FINER
     return 1.0
 
