@@ -110,7 +110,7 @@ def _collide_island(ws: Workspace, cause: Cause, seed: float) -> Status:
         if not abs(ws.impact.impulse[i]) < math.inf:
             return Status.NOT_FINITE
     add_response(ws, ws.impact.impulse.start, ws.island.y.start + ws.model.n_q)
-    _account_for_impulses(ws)
+    _account_for_impulses(ws, is_large)
     return Status.RUNNING
 
 
@@ -156,15 +156,16 @@ def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> 
     return Status.RUNNING
 
 
-@kernel()
-def _account_for_impulses(ws: Workspace) -> None:
+@kernel("void(ws, b1)")
+def _account_for_impulses(ws: Workspace, is_large: bool) -> None:
     """Store the impulses of the active contacts, and add their losses and the work of driven bodies to the event.
 
-    A gap rate that the impact took for zero adds its work, impulse times rate, by which the kinetic energy changes too.
+    A gap rate that the impact took for zero (:func:`_write_rates_before`) adds its work, impulse times rate, by which
+    the kinetic energy changes, too. Large impacts, in windows, take no rate for zero.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
-        neglected = contact.normal_rate - active.rate_before[0]
+        neglected = 0.0 if is_large else contact.normal_rate - active.rate_before[0]
         ws.event.head[RESTITUTION_LOSS] += active.energy_stored - active.energy_returned - active.impulse[0] * neglected
         ws.event.head[FRICTION_LOSS] += active.energy_dissipated
         for r in range(3):
