@@ -106,12 +106,12 @@ def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat:
 
 @compiled
 def gap_past_end(gap: float, past: float) -> float:
-    """Return the gap of a contact [m], or its substitute ``past`` [m] past the end of its features: a positive number.
+    """Return the gap of a contact of convex bodies, which ends at ``past`` = 0 [m].
 
-    A contact past its end is not valid, so that it must be open.  The substitute is continuous if the end is crossed at
-    a gap that is not negative.
+    A contact past its end is not valid, so that it must be open: a gap that is not negative becomes hypot(gap, past).
+    A negative gap is kept.  It is the depth of a spring at which another contact of the bodies takes over.
     """
-    return math.hypot(gap, past) if past > 0.0 else gap
+    return math.hypot(gap, past) if past > 0.0 and gap >= 0.0 else gap
 
 
 @compiled
@@ -238,6 +238,7 @@ def write_crossing(
     axes: Axes,
     edge: Floats,
     radius: float,
+    is_convex: bool,
     distance: float,
     past: float,
     sine: float,
@@ -249,9 +250,12 @@ def write_crossing(
     ``distance`` is the distance of the cores [m], ``past`` the distance past the boundary of edge and rim or side [m].
     p is the point on the core of the frustum in the world.  ``sine`` is the sine of the angle between both features.
     If it is small, the point of crossing moves 1 / sine times as fast as the bodies.  Past the boundary, the gap is
-    therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.
+    therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.  A negative gap is kept if
+    the body with the edge is convex (:func:`gap_past_end`).
     """
     sweep, outward = frustum[SWEEP], forth(axes, normal)
-    gap = gap_past_end(distance - radius - sweep, max(PARALLEL, sine) * past)
+    gap = distance - radius - sweep
+    if past > 0.0 and (gap >= 0.0 or not is_convex):
+        gap = math.hypot(gap, max(PARALLEL, sine) * past)
     write_contact(a, out, gap, past, 0.0, outward, ahead(p, sweep, outward), False)
     write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

@@ -163,7 +163,7 @@ def write_edge_across_rim(
         over_end = size
     past = past_end(a, b, frustum, core, is_convex, gap, over_end, crossing, astray, size)
     point = plus(center, forth(axes, p))
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, n, point)
+    write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, crossing, n, point)
     axis, radial = (axes[2], axes[5], axes[8]), e[0] * n[0] + e[1] * n[1]
     write_part(out, SIDE_A, int(rim), axis, forth(axes, e), radial, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])
