@@ -24,6 +24,7 @@ from ..smooth.smooth_core import Axes, back, forth
 from .frustum import (
     axis_in_world,
     center_in_world,
+    nearest_part,
     on_axis_in_world,
     separation_by,
     separation_over_caps,
@@ -71,9 +72,14 @@ def past_disc(
 
     The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
     the frustum ``one`` that is lowest over the face, or the tip of a foot or cone (``is_tip``); ``gap`` is its height
-    [m].  If p lies below the face, the line from p to the middle of the frustum must lead back through the disc, and
-    the rim of the disc must lie below that line.  Discs in one plane touch with the faces of both sides; the engine
-    takes the face on the side from which the other disc came.
+    [m].  If p lies below the face, one of two conditions must hold:
+
+    - the line from p to the middle of the frustum leads back through the disc, and the rim of the disc lies below it;
+    - the point of the face above p is inside of the frustum, and no other direction separates the bodies better.
+
+    The second one holds where p passes below the rim, so that the contact of both rims ends where this one begins.
+    Discs in one plane touch with the faces of both sides; the engine takes the face on the side from which the other
+    disc came.
     """
     axis, own_axis = axis_in_world(other, second), axis_in_world(one, first)
     center, middle = center_in_world(other, second), on_axis_in_world(one, first, 0.5 * (first[LOW] + first[HIGH]))
@@ -88,7 +94,10 @@ def past_disc(
         return size
     _, away, _ = across(minus(ahead(p, gap / (gap - height), to_middle), center), axis)
     # the rim of a disc that only touches the frustum lies below its surface by round-off
-    return float(REACH * size - (second[0] - away) * (height - gap) / size_of(to_middle))
+    behind = REACH * size - (second[0] - away) * (height - gap) / size_of(to_middle)
+    along, away, _ = across(minus(ahead(p, -up * gap, axis), center_in_world(one, first)), own_axis)
+    outside = nearest_part(first, along, away)[0] - REACH * size
+    return float(min(behind, max(outside, past_depth(one, first, other, second, gap, size))))
 
 
 @compiled
