@@ -68,7 +68,7 @@ def write_edge_across_side(
     steep, astray = abs(crossing), astray_of_edge(b, edge, axes, n)
     past = past_end(a, b, frustum, core, is_convex, gap, over, steep, astray, size)
     point = plus(center, forth(axes, ahead(p, -gap, n)))
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, n, point)
+    write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, steep, n, point)
     outward = forth(axes, (ex, ey, 0.0))
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), outward, cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])

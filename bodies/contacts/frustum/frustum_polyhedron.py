@@ -76,7 +76,7 @@ def write_vertex_over_part(
     """
     along, away, outward = around
     _, _, radial, axial = over_part(frustum, part, along, away)
-    gap, normal = gap_past_end(gap, past), normal_of_part(axis, outward, radial, axial)
+    normal = normal_of_part(axis, outward, radial, axial)
     write_contact(a, out, gap, past, part_number(frustum, part), normal, point, True)
     write_part(out, SIDE_A, part, axis, outward, radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)
@@ -138,4 +138,4 @@ def evaluate_vertex_over_frustum(
             beyond = max(beyond, inside)
         if beyond - margin < past:
             found, gap, past = part, height, beyond - margin
-    write_vertex_over_part(a, out, frustum, found, gap, past, axis, around, point)
+    write_vertex_over_part(a, out, frustum, found, gap_past_end(gap, past), past, axis, around, point)

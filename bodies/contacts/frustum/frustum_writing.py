@@ -24,6 +24,7 @@ from ..smooth.smooth_core import Axes, back, forth
 from .frustum import (
     axis_in_world,
     center_in_world,
+    nearest_part,
     on_axis_in_world,
     separation_by,
     separation_over_caps,
@@ -71,9 +72,14 @@ def past_disc(
 
     The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
     the frustum ``one`` that is lowest over the face, or the tip of a foot or cone (``is_tip``); ``gap`` is its height
-    [m].  If p lies below the face, the line from p to the middle of the frustum must lead back through the disc, and
-    the rim of the disc must lie below that line.  Discs in one plane touch with the faces of both sides; the engine
-    takes the face on the side from which the other disc came.
+    [m].  If p lies below the face, one of two conditions must hold:
+
+    - the line from p to the middle of the frustum leads back through the disc, and the rim of the disc lies below it;
+    - the point of the face above p is inside of the frustum, and no other direction separates the bodies better.
+
+    The second one holds where p passes below the rim, so that the contact of both rims ends where this one begins.
+    Discs in one plane touch with the faces of both sides; the engine takes the face on the side from which the other
+    disc came.
     """
     axis, own_axis = axis_in_world(other, second), axis_in_world(one, first)
     center, middle = center_in_world(other, second), on_axis_in_world(one, first, 0.5 * (first[LOW] + first[HIGH]))
@@ -88,7 +94,10 @@ def past_disc(
         return size
     _, away, _ = across(minus(ahead(p, gap / (gap - height), to_middle), center), axis)
     # the rim of a disc that only touches the frustum lies below its surface by round-off
-    return float(REACH * size - (second[0] - away) * (height - gap) / size_of(to_middle))
+    behind = REACH * size - (second[0] - away) * (height - gap) / size_of(to_middle)
+    along, away, _ = across(minus(ahead(p, -up * gap, axis), center_in_world(one, first)), own_axis)
+    outside = nearest_part(first, along, away)[0] - REACH * size
+    return float(min(behind, max(outside, past_depth(one, first, other, second, gap, size))))
 
 
 @compiled
@@ -106,12 +115,12 @@ def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat:
 
 @compiled
 def gap_past_end(gap: float, past: float) -> float:
-    """Return the gap of a contact [m], or its substitute ``past`` [m] past the end of its features: a positive number.
+    """Return the gap of a contact of convex bodies, which ends at ``past`` = 0 [m].
 
-    A contact past its end is not valid, so that it must be open.  The substitute is continuous if the end is crossed at
-    a gap that is not negative.
+    A contact past its end is not valid, so that it must be open: a gap that is not negative becomes hypot(gap, past).
+    A negative gap is kept.  It is the depth of a spring at which another contact of the bodies takes over.
     """
-    return math.hypot(gap, past) if past > 0.0 else gap
+    return math.hypot(gap, past) if past > 0.0 and gap >= 0.0 else gap
 
 
 @compiled
@@ -238,6 +247,7 @@ def write_crossing(
     axes: Axes,
     edge: Floats,
     radius: float,
+    is_convex: bool,
     distance: float,
     past: float,
     sine: float,
@@ -249,9 +259,12 @@ def write_crossing(
     ``distance`` is the distance of the cores [m], ``past`` the distance past the boundary of edge and rim or side [m].
     p is the point on the core of the frustum in the world.  ``sine`` is the sine of the angle between both features.
     If it is small, the point of crossing moves 1 / sine times as fast as the bodies.  Past the boundary, the gap is
-    therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.
+    therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.  A negative gap is kept if
+    the body with the edge is convex (:func:`gap_past_end`).
     """
     sweep, outward = frustum[SWEEP], forth(axes, normal)
-    gap = gap_past_end(distance - radius - sweep, max(PARALLEL, sine) * past)
+    gap = distance - radius - sweep
+    if past > 0.0 and (gap >= 0.0 or not is_convex):
+        gap = math.hypot(gap, max(PARALLEL, sine) * past)
     write_contact(a, out, gap, past, 0.0, outward, ahead(p, sweep, outward), False)
     write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

@@ -21,9 +21,10 @@ from .frustum import center_in_world, rim_of, write_part
 from .frustum_writing import astray_of_edge, astray_of_rim, edge_in_frustum, past_end, write_crossing
 
 _STEEP = 0.5
-"""Cosine of the angle between edge and axis, above which contacts are sought on the rim's half nearer to the edge.
+"""Cosine of the angle between edge and axis, above which both contacts are sought on the half nearer to the edge.
 
-The edge is then too steep to cross both halves of the rim.
+The edge is then too steep to cross both halves of the rim.  The contacts divide the directions of the edge among
+themselves (:func:`_past_division`).
 """
 _STEPS = 100
 
@@ -73,6 +74,18 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 
 @compiled
+def _past_division(half: float, lean: float, short: float) -> float:
+    """Return the sine past the directions of a steep edge that belong to the contact of one ``half``.
+
+    ``lean`` is the component of the edge's unit vector along the outward radius at the crossing, ``short`` the cosine
+    of the angle between edge and axis, above ``_STEEP``.  At ``_STEEP`` the limit is at a lean of zero, where the
+    crossing is between the two halves, so that a contact keeps its crossing when the edge becomes steep.  An edge along
+    the axis is far from the limit: its direction in the plane of the rim, and so its half, would be round-off.
+    """
+    return -half * (lean + short - _STEEP)
+
+
+@compiled
 def write_edge_across_rim(
     a: Floats,
     b: Floats,
@@ -100,7 +113,8 @@ def write_edge_across_rim(
         1 for the lower rim, 3 for the upper one.
     half : float
         1 for the half circle towards which the edge points, seen along the axis; -1 for the opposite half circle.  For
-        an edge at less than 60 degrees to the axis, 1 is the half circle nearer to the edge, and -1 has no contact.
+        an edge at less than 60 degrees to the axis, both are the half circle nearer to the edge, and one of them has
+        the contact.
     edge : Floats
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
@@ -126,7 +140,7 @@ def write_edge_across_rim(
     # an edge nearly in the plane of the rim can cross both half circles: this contact takes the one given by ``half``
     side = half
     if short > _STEEP:
-        side = half * (1.0 if over_rim >= 0.0 else -1.0)
+        side = 1.0 if over_rim >= 0.0 else -1.0
     cosine, sine, none = foot_on_ellipse(wide, wide * short, along, side * over_rim)
     sine *= side
     e = (cosine * gx + sine * fx, cosine * gy + sine * fy, 0.0)
@@ -159,11 +173,13 @@ def write_edge_across_rim(
             astray, flip = off, sign
     n, gap = times(flip, n), flip * height_over
     over_end = max(-s, s - edge[LENGTH])
-    if none > 0.0 or crossing <= 1e-6 or (short > _STEEP and half < 0.0):
+    if short > _STEEP:
+        over_end = max(over_end, size * _past_division(half, d[0] * e[0] + d[1] * e[1], short))
+    if none > 0.0 or crossing <= 1e-6:
         over_end = size
     past = past_end(a, b, frustum, core, is_convex, gap, over_end, crossing, astray, size)
     point = plus(center, forth(axes, p))
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, n, point)
+    write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, crossing, n, point)
     axis, radial = (axes[2], axes[5], axes[8]), e[0] * n[0] + e[1] * n[1]
     write_part(out, SIDE_A, int(rim), axis, forth(axes, e), radial, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])

@@ -90,6 +90,8 @@ def evaluate_corner_over_frustum(
         key = height * height + max(beyond, 0.0) * max(beyond, 0.0)
         if key < best:
             best, found, gap, past = key, part, height, beyond
+    if past > 0.0:
+        gap = math.hypot(gap, past)
     write_vertex_over_part(a, out, frustum, found, gap, past, axis, around, point)
 
 

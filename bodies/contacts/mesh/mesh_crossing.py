@@ -6,6 +6,7 @@ the overlap is real and whether a face is nearer.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from nonsmooth.compiled import compiled
@@ -23,7 +24,6 @@ from ..features.frames import across, point_in_body
 from ..features.vertex_face import CLOSED
 from ..frustum.flank_edge import write_edge_across_side
 from ..frustum.frustum import RIM_NAMES, center_in_world, nearest_part, rims_of
-from ..frustum.frustum_writing import gap_past_end
 from ..frustum.rim_edge import write_edge_across_rim
 from ..smooth.smooth_core import Axes, axes_in_world
 from ..surface.surface_search import depth_inside
@@ -64,7 +64,7 @@ def _judge(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, sur
     elif _is_aside(b, out, frustum, axes_in_world(a, frustum), center_in_world(a, frustum), surface):
         beyond = -gap
     if beyond > 0.0:
-        out[GAP], out[PAST_END] = gap_past_end(gap, beyond), beyond
+        out[GAP], out[PAST_END] = math.hypot(gap, beyond), beyond
         put(out, POINT_B, ahead(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
 
 
