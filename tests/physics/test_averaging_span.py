@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import DiscBody, Plate, SuperellipsoidBody
+from bodies import DiscBody, MeshBody, Plate, SuperellipsoidBody
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.histories.distances import distances
+from tests.benchmarks.random_systems.solids import prism, upright
 
 T_END, CONTACT_TIME = 0.1333, 2e-5
 DISC = DiscBody(radius=4.529e-3, surface_density=1.0)
@@ -73,3 +74,20 @@ def test_averagings_that_lead_gaps_astray_are_short(rolled_over: ns.Solution) ->
         ended = ns.simulate(_build(), float(time))
         found = rolled_over.at(time)["u"]
         np.testing.assert_allclose(found, ended.u_end, rtol=1e-9, atol=1e-7)
+
+
+def test_energy_is_accounted_where_features_change() -> None:
+    """One flat profile rattles on another: contacts change features within a span, and their gaps jump by micrometres.
+
+    The work of a mean force is its power over time.  Force times change of the gap would count such a jump as work.
+    """
+    surface, law = prism("U", 0.009 * upright("U", 0.7)), EnergeticImpact(1.0, duration=CONTACT_TIME)
+    plate, low, high = Plate(), MeshBody(surface), MeshBody(surface)
+    system = ns.System([plate, low, high])
+    for one, other in ((plate, low), (plate, high), (low, high)):
+        system.contact(one, other, normal=Unilateral(), friction=Coulomb(0.7609), impact=law)
+    system.place(low, position=(0.0, 0.0, 0.00315))
+    system.place(high, position=(0.0, 1.226415428631242e-06, 0.009450605431985436))
+    solution = ns.simulate(system, 0.0019)
+    assert Cause.AVERAGING in solution.events.cause
+    assert solution.energy.residual < 1e-6
