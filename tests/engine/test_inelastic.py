@@ -94,7 +94,7 @@ def test_impulses_that_are_unique_do_not_depend_on_the_guess() -> None:
 
 @pytest.mark.parametrize("seed", [22, 65, 201, 284, 441])
 def test_impulses_that_have_not_settled_bring_in_no_energy(seed: int) -> None:
-    """Many wedged balls: if no exact impulses are found, those of compliant contacts lie in their cones and dissipate."""
+    """If no exact impulses are found, those of compliant contacts lie in their cones and dissipate."""
     random = np.random.default_rng(seed)
     delassus, rates = wedged_balls(int(random.integers(6, 14)), random)
     found, impulses = impact(delassus, rates)
