@@ -81,7 +81,10 @@ def test_energy_is_accounted_where_features_change() -> None:
     The work of a mean force is its power over time.  Force times change of the gap would count such a jump as work.
     """
     law = EnergeticImpact(0.8, exponent=1.5, duration=CONTACT_TIME)
-    plate, low, middle, high = Plate(), *(CylinderBody(0.006, 0.006, rounding=0.1 * 0.006) for _ in range(3))
+    plate, low, middle, high = (
+        Plate(),
+        *(CylinderBody(0.006, 0.006, foot_height=0.0, rounding=0.1 * 0.006) for _ in range(3)),
+    )
     system = ns.System([plate, low, middle, high])
     for one, other in ((plate, low), (plate, middle), (low, middle), (plate, high), (low, high), (middle, high)):
         system.contact(one, other, normal=Unilateral(), friction=Coulomb(0.5964), impact=law)
