@@ -183,12 +183,12 @@ class Energies:
         )
 
         def keep(i: int) -> None:
-            driven, dissipated, _, loads = y[first : first + N_ACCOUNTS]
+            driven, dissipated, _, loads, closed = y[first : first + N_ACCOUNTS]
             call_entry("evaluate_free_bodies", memory, memory[owners.Island.time], memory.start(owners.Island.y), 1)
             table[:2, i] = energies(bodies, tails, memory.floats)
             table[2:4, i] = memory[totals.driven_work] + driven, loads
             losses = memory[totals.restitution_loss], memory[totals.friction_loss] + dissipated
-            table[4:, i] = *losses, memory[totals.closing_loss]
+            table[4:, i] = *losses, memory[totals.closing_loss] + closed
             rates[i] = memory.floats[places]
 
         request.replay.visit(request.times, keep, forces=False)

@@ -231,10 +231,11 @@ class FinalState(NamedTuple):
     def _account(self, integrated: Floats) -> EnergyAccount:
         """Energy account. ``integrated`` begins with the energies that the engine integrates with the state [J].
 
-        The engine adds the others at instants. Work of driven bodies and friction loss have a part of each kind.
+        The engine adds the others at instants. Work of driven bodies and losses by friction and closing have a part of
+        each kind.
         """
         now, totals = self.now, owners.Totals
-        driven, dissipated, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
+        driven, dissipated, exchanged, loads, closed = integrated[:N_ACCOUNTS].tolist()
         # kinetic and potential energy at the start, then the same at the end
         return EnergyAccount(
             *self.start_energy,
@@ -242,7 +243,7 @@ class FinalState(NamedTuple):
             driven_work=now[totals.driven_work] + driven,
             restitution_loss=now[totals.restitution_loss],
             friction_loss=now[totals.friction_loss] + dissipated,
-            closing_loss=now[totals.closing_loss],
+            closing_loss=now[totals.closing_loss] + closed,
             exchanged_in_flow=exchanged,
             load_work=loads,
         )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.layout import FRICTION_LOSS
+from nonsmooth.engine.memory.layout import CLOSING_LOSS, FRICTION_LOSS
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.model.part_pairs import unchecked_contacts
@@ -78,12 +78,15 @@ def closing_gain(solution: Solution) -> float:
     """
     track, gain, last, n_samples = solution.track, 0.0, np.zeros(0), 0
     for block in solution.events.blocks():
+        place = track.y.shape[1] - block.integrated.shape[1] + CLOSING_LOSS
         # number of samples before the last event of this block
         stop = int(np.searchsorted(track.time[:-1], block.time[-1])) if len(block) else 0
         order = np.argsort(np.concatenate([block.time, track.time[n_samples:stop]]), kind="stable")
-        loss = np.concatenate([block.booked[:, _CLOSING], track.booked[n_samples:stop, _CLOSING]])[order]
+        of_events = block.integrated[:, CLOSING_LOSS] + block.booked[:, _CLOSING]
+        of_samples = track.y[n_samples:stop, place] + track.booked[n_samples:stop, _CLOSING]
+        loss = np.concatenate([of_events, of_samples])[order]
         gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
-    return gain + _decrease(last, track.booked[n_samples:, _CLOSING])
+    return gain + _decrease(last, track.y[n_samples:, place] + track.booked[n_samples:, _CLOSING])
 
 
 def _decrease(last: Floats, loss: Floats) -> float:

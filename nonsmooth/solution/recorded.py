@@ -98,11 +98,11 @@ class Track:
 def row_of(state: State) -> Floats:
     """Row of a state in the form of a sample, shape [1 + n_y + 4].
 
-    A sample has the work of driven bodies and the friction loss as two numbers: the integrated part, and the part
-    accounted at events.  A state has only the sum of both.  In the row, the integrated part is zero, and the part at
-    events is the sum.
+    A sample has the work of driven bodies, the friction loss and the closing loss as two numbers: the integrated part,
+    and the part accounted at events.  A state has only the sum of both.  In the row, the integrated part is zero, and
+    the part at events is the sum.
     """
     account = state.energy
-    integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work
+    integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work, 0.0
     booked = account.driven_work, account.restitution_loss, account.friction_loss, account.closing_loss
     return np.concatenate([[state.time], state.q, state.u, integrated, state.law_states, booked])

@@ -31,7 +31,7 @@ GROWING = ("time", "event", "listing")
 _ACCOUNT = {
     "units": "J",
     "long_name": "energies since the start",
-    "account_names": "work of driven bodies, loss to friction, gross exchange, work of loads",
+    "account_names": "work of driven bodies, loss to friction, gross exchange, work of loads, loss in closing",
 }
 _INNER = {"long_name": "inner states of friction and traction laws, contact by contact, in SI units of each law"}
 _BOOKED = {

@@ -90,3 +90,17 @@ def test_impulses_that_are_unique_do_not_depend_on_the_guess() -> None:
         assert found
         assert again
         np.testing.assert_allclose(later, impulses, rtol=0, atol=1e-9 * np.max(impulses))
+
+
+@pytest.mark.parametrize("seed", [22, 65, 201, 284, 441])
+def test_impulses_that_have_not_settled_bring_in_no_energy(seed: int) -> None:
+    """If no exact impulses are found, those of compliant contacts lie in their cones and dissipate."""
+    random = np.random.default_rng(seed)
+    delassus, rates = wedged_balls(int(random.integers(6, 14)), random)
+    found, impulses = impact(delassus, rates)
+    after = rates + delassus @ impulses.ravel()
+    normal, friction = impulses[:, 0], np.hypot(*impulses[:, 1:].T)
+    assert not found
+    assert np.all(normal >= -1e-9 * np.max(normal))
+    assert np.all(friction <= FRICTION * normal + 1e-9 * np.max(normal))
+    assert impulses.ravel() @ (rates + after) <= 0.0

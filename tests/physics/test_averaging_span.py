@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import DiscBody, Plate, SuperellipsoidBody
+from bodies import CylinderBody, DiscBody, Plate, SuperellipsoidBody
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.histories.distances import distances
@@ -73,3 +73,26 @@ def test_averagings_that_lead_gaps_astray_are_short(rolled_over: ns.Solution) ->
         ended = ns.simulate(_build(), float(time))
         found = rolled_over.at(time)["u"]
         np.testing.assert_allclose(found, ended.u_end, rtol=1e-9, atol=1e-7)
+
+
+def test_energy_is_accounted_where_features_change() -> None:
+    """Three rough cylinders rattle on each other: contacts pass ends of features within a span, and their gaps jump.
+
+    The work of a mean force is its power over time.  Force times change of the gap would count such a jump as work.
+    """
+    law = EnergeticImpact(0.8, exponent=1.5, duration=CONTACT_TIME)
+    plate, low, middle, high = (
+        Plate(),
+        *(CylinderBody(0.006, 0.006, foot_height=0.0, rounding=0.1 * 0.006) for _ in range(3)),
+    )
+    system = ns.System([plate, low, middle, high])
+    for one, other in ((plate, low), (plate, middle), (low, middle), (plate, high), (low, high), (middle, high)):
+        system.contact(one, other, normal=Unilateral(), friction=Coulomb(0.5964), impact=law)
+    system.place(low, position=(0.0, 0.0, 0.006002950053890234))
+    turned = (0.9999999998657876, 0.0, 0.0, 1.6383675789859797e-05)
+    system.place(middle, position=(0.0, 0.0, 0.018006049997963795), orientation=turned)
+    turned = (0.9999999999999999, 0.0, 0.0, 1.3987437950668378e-08)
+    system.place(high, position=(0.0, 5.389359657474002e-08, 0.030007005789228047), orientation=turned)
+    solution = ns.simulate(system, 0.003)
+    assert Cause.AVERAGING in solution.events.cause
+    assert solution.energy.residual < 1e-6

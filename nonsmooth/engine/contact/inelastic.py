@@ -44,7 +44,8 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
     They leave no approach, and their friction opposes the slip after the impact. Before: ``rate`` holds velocities,
     ``free`` accelerations without contact forces, and ``force`` the impulses to start from. The impact comes after the
     accelerations have acted for a ``time`` [s]. After: ``force`` holds the impulses, and ``free`` the velocities
-    without them. If False, the impulses have not settled. Coefficients of friction are overwritten.
+    without them. If False, they are those of compliant contacts: they leave an approach, but none pulls, no friction
+    exceeds its bound or acts along the slip, and they bring in no energy. Coefficients of friction are overwritten.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -151,8 +152,8 @@ def _reduce_compliance(ws: Workspace) -> bool:
     compliance, ratio = 1.0, _REDUCTION
     _set_compliance(ws, compliance)
     sweep(ws, SWEEPS)
-    if not step_by_newton(ws, STEPS):
-        # not even the first solution is found: skip the loop
+    if not _step_or_restore(ws, STEPS):
+        # not even the first solution is found: skip the loop. The impulses are those of the sweeps, within their cones
         ratio = 1.0
     while ratio <= _LARGEST_RATIO and not _is_negligible(ws, compliance):
         _set_compliance(ws, ratio * compliance)

@@ -132,12 +132,12 @@ def _store_span(ws: Workspace, span: float) -> None:
 def find_mean_impulses(ws: Workspace, time: float) -> float:
     """Find the impulses of the active contacts over a ``time`` [N s]. Returns the time over which they were found [s].
 
-    It is ``time``, or a contact time if none are found over a longer one. Before: the rates of the contacts, and in
-    ``du`` the accelerations without contact forces.
+    It is ``time``, or a contact time if none are found over a longer one. Impulses that have not settled then are taken
+    as they are: those of compliant contacts, which bring in no energy. The check of gaps judges the approach that they
+    leave. Before: the rates of the contacts, and in ``du`` the accelerations without contact forces.
     """
     if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
-        # impulses that have not converged are taken as they are, and the caller gets no sign of it
         _solve(ws, time)
     return time
 

@@ -11,12 +11,10 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.mean_forces import averaging_time, has_no_stopping_slip, is_averaged
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
-from nonsmooth.engine.flow.self_check import account_for_mean_forces
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -94,11 +92,8 @@ def stays_averaged(ws: Workspace, ends: bool) -> bool:
 def end_averaging(ws: Workspace) -> None:
     """End the span of averaged forces before its time, as gaps deviate from its plan: project its closed contacts.
 
-    The projection removes what the forces pushed too much. Their work so far is accounted for. What comes after the
-    span is found in the event that follows.
+    The projection removes what the forces pushed too much. The event that follows finds what comes after the span.
     """
-    find_touching(ws)
-    account_for_mean_forces(ws)
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     # no span has an end
     ws.island.averaged_until = math.inf

@@ -17,7 +17,6 @@ from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
-from nonsmooth.engine.flow.self_check import account_for_mean_forces
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
@@ -44,7 +43,7 @@ def start_averaging_span(ws: Workspace, follows: bool) -> None:
     """Find the forces of the islands that are averaged over time, constant over a span from the present time on.
 
     A span that ``follows`` another one may be longer than a first one. ``averaged_until`` becomes the first end of a
-    span [s], infinite if no island is averaged. Before, the work of the last forces is accounted for.
+    span [s], infinite if no island is averaged.
     """
     # find_mean_forces lowers it to the end of each span
     ws.island.averaged_until = math.inf
@@ -56,7 +55,6 @@ def start_averaging_span(ws: Workspace, follows: bool) -> None:
         evaluate_contact(ws, c, rows=3)
         # closed contacts touch, and the accelerations by compliance are those of touching contacts
         ws.contacts[c].is_touching = True
-    account_for_mean_forces(ws)
     free_acceleration(ws, of_all_bodies=True)
     accelerate_by_compliance(ws)
     for group in range(ws.island.n_groups):

@@ -35,7 +35,7 @@ from nonsmooth.engine.contact.lone_slip import add_lone_slip_force, lone_sliding
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient, slip_coefficient
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flight import accelerate_in_flight
-from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
+from nonsmooth.engine.memory.layout import CLOSING_LOSS, DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.linear import product
@@ -256,14 +256,14 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
             if ws.bodies[ws.island.ballistic[i]].has_own_step:
                 accelerate_in_flight(ws, t, ws.island.ballistic[i])
     of_bodies = _write_slope_of_bodies(ws, y, out, of_all_bodies)
-    lost = _power_of_friction(ws)
+    lost, closing = _power_of_friction(ws), _power_of_closing(ws)
     _update_least_guards(ws)
     # the rates of the energy accounts follow those of coordinates and velocities
     powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + LOADS] = ws.step.driven_power, ws.step.load_power
-    ws.floats[powers + FRICTION_LOSS] = lost
+    ws.floats[powers + FRICTION_LOSS], ws.floats[powers + CLOSING_LOSS] = lost, closing
     # round-off of the energy is relative to all that was exchanged; the forces of bodies include the loads
-    ws.floats[powers + EXCHANGED] = abs(of_bodies) + abs(ws.step.driven_power) + abs(lost)
+    ws.floats[powers + EXCHANGED] = abs(of_bodies) + abs(ws.step.driven_power) + abs(lost) + abs(closing)
     write_inner_rates(ws, y, out)
 
 
@@ -303,6 +303,21 @@ def _power_of_friction(ws: Workspace) -> float:
                 lost -= contact.force[r] * contact.rate[r]
         # power of the friction moment on the relative spin, negative if it dissipates
         lost -= contact.dissipated_by_spin
+    return lost
+
+
+@kernel("f8(ws)")
+def _power_of_closing(ws: Workspace) -> float:
+    """Power that the normal forces of the time-stepping fallback take from the bodies [W].
+
+    It is negative if a force pushes while its gap opens. It is force times rate, not force times change of the gap: the
+    gap jumps where features change. The work of compliant contacts is no loss.
+    """
+    lost = 0.0
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
+        if contact.is_averaged and not contact.is_compliant:
+            lost -= contact.normal_force * contact.normal_rate
     return lost
 
 

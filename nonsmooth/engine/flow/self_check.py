@@ -265,29 +265,12 @@ def scale_energy(ws: Workspace) -> float:
 def check_end(ws: Workspace) -> None:
     """Check the state in which the run ends: gaps as at the start of a step, and the energy of the last event.
 
-    Also accounts for the work of averaged forces, and stores the energy with which unexplained changes are compared.
+    Also stores the energy with which unexplained changes are compared.
     """
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for contact in ws.contacts:
         evaluate_geometry(ws, contact.index)
         contact.gap_at_end, contact.overlap_at_end = contact.gap, contact.overlap
-    account_for_mean_forces(ws)
     ws.run.energy_scale = scale_energy(ws)
     close_energy_account(ws)
     check_gaps(ws)
-
-
-@kernel()
-def account_for_mean_forces(ws: Workspace) -> None:
-    """Account for the work of the normal forces of the time-stepping fallback since the last call [J].
-
-    The fallback applies constant, averaged forces while events accumulate. The work that they take from the bodies is
-    added to the closing loss, the energy lost as contacts close. ``mean_gap`` becomes the present gap [m], up to which
-    the work is accounted for. The geometry must be evaluated. Compliant contacts are left out, because their work is no
-    loss.
-    """
-    for contact in ws.contacts:
-        if contact.is_averaged and not contact.is_compliant:
-            # a force that pushes while the gap opens gives energy, which is a negative loss
-            ws.totals.closing_loss -= contact.mean_force[0] * (contact.gap - contact.mean_gap)
-            contact.mean_gap = contact.gap

@@ -15,13 +15,13 @@ PART_END = 7
 They are the fraction of the step [1], the gap [m], its rate [m/s], the distance past the ends of the features [m], and
 the offset of the witness point from the frame's origin [m], shape [3].
 """
-DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
+DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS, CLOSING_LOSS = 0, 1, 2, 3, 4
 """Positions of the energies integrated with the state [J].
 
 They are the work of driven bodies, the loss by friction, the energy exchanged (integral of the absolute values of all
-powers, to which round-off is relative), and the work of loads.
+powers, to which round-off is relative), the work of loads, and the loss by normal forces of the time-stepping fallback.
 """
-N_ACCOUNTS = 4
+N_ACCOUNTS = 5
 """Number of energies that are integrated with the state."""
 BOOKED = 4
 """Number of energies accounted at instants: work of driven bodies, losses by restitution, friction and closing."""

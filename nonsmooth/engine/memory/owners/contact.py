@@ -105,7 +105,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     is_averaged: bool = question(_STATE, "Forces are averaged over a contact time.", inside=("mode_after_averaging", 0))
     mean_force: Floats = row(_STATE, 3, "N", "Averaged force, n, t1, t2.")
     mean_span: float = real(_STATE, "s", "Time over which forces are averaged.")
-    mean_gap: float = real(_STATE, "m", "Gap up to which the work of averaged forces is accounted.")
+    mean_gap: float = real(_STATE, "m", "Gap at the start of the averaging span.")
     mean_gap_change: float = real(_STATE, "m", "Change of the gap until it comes to rest.")
     mean_forces_asked: float = real(_STATE, "s", "Time when forces were last tried at an instant.")
     mean_forces_wait: float = real(_STATE, "s", "Time after which the next attempt is made.")
