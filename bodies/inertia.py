@@ -135,9 +135,14 @@ def tensor_in(shape: HasVolume, mass: float) -> Vector:
 
 
 def without_round_off(tensor: Vector, part: float = 1e-14) -> Vector:
-    """Inertia tensor in which elements below ``part`` times the largest one are 0.
+    """Inertia tensor without round-off, which is ``part`` times the largest element.
 
-    Such elements are round-off of products that cancel. Without them principal axes remain principal, and a symmetric
-    body is recognised.
+    Smaller elements are 0, and moments that differ by less are equal. So principal axes remain principal, and a
+    symmetric body is recognised.
     """
-    return np.where(np.abs(tensor) > part * np.max(tensor), tensor, 0.0)
+    least = part * np.max(tensor)
+    found = np.where(np.abs(tensor) > least, tensor, 0.0)
+    for i, j in ((0, 1), (1, 2), (0, 2)):
+        if abs(found[i, i] - found[j, j]) <= least:
+            found[j, j] = found[i, i]
+    return found

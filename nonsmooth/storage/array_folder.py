@@ -38,7 +38,7 @@ from nonsmooth.storage.chunks import TEXT, ArrayLayout
 from nonsmooth.storage.files import FileError, content_of, part_of, sync, writing
 from nonsmooth.storage.lock import WRITER
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 """Version of the format of a folder.  Folders of nonsmooth 0.1 have none."""
 _GROUP = "zarr.json"
 _ENTRIES = 2**14
@@ -344,7 +344,8 @@ def _check_version(path: Path, version: int) -> None:
     if version > FORMAT_VERSION:
         written, remedy = f"version {version}, of a newer nonsmooth", "Install that one to open it."
     else:
-        written, remedy = "none, as nonsmooth 0.1 wrote it", "Open it with that version, or run again."
+        written = f"version {version}, of an older nonsmooth" if version > 0 else "none, as nonsmooth 0.1 wrote it"
+        remedy = "Open it with that version, or run again."
     raise InvalidInput(str(path), f"must have format version {FORMAT_VERSION}", written, remedy)
 
 

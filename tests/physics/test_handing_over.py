@@ -28,7 +28,7 @@ def _spin(bodies: tuple[Any, ...], q: Any, u: Any) -> Any:
 
 @pytest.mark.slow
 def test_a_rod_that_slides_over_the_middle_of_a_flank_keeps_the_spin() -> None:
-    """The halves of the flank are contacts of their own; the velocities were put on the wrong one's constraint."""
+    """A contact of half a flank keeps the crossing of a steep edge, also beyond the middle of the flank."""
     cone = ConeBody(radius=0.004643, height=0.007806, density=2700.0, rounding=0.0006163)
     rod = Rod(centre_distance=0.01279, radius=0.001738, density=2700.0)
     system = ns.System([cone, rod], gravity=0.0)
@@ -43,8 +43,8 @@ def test_a_rod_that_slides_over_the_middle_of_a_flank_keeps_the_spin() -> None:
     solution = ns.simulate(system, 0.029, sample_interval=5e-4, engine=ns.EventDriven(tolerance=1e-10))
     spins = np.array([_spin((cone, rod), q, u) for q, u in zip(solution.q, solution.u, strict=True)])
     size = cone.total_mass * 0.36 * 0.02
-    # it was closed on one half, then on the other
-    assert np.count_nonzero(np.any(np.array(solution.events.after) != 0, axis=0)) == 2
+    # it was closed on one half all the time
+    assert np.count_nonzero(np.any(np.array(solution.events.after) != 0, axis=0)) == 1
     assert float(np.max(np.abs(spins - spins[0]))) < 1e-9 * size
 
 

@@ -126,7 +126,7 @@ def test_other_versions_are_refused_by_name(tmp_path: Path) -> None:
     folder = ArrayFolder(tmp_path / "a.zarr", {"title": "a"})
     folder.commit(safely=False)
     forge(folder.path, lambda content: content["attributes"].update(format_version=FORMAT_VERSION + 1))
-    with pytest.raises(InvalidInput, match=r"must have format version 1, .*of a newer nonsmooth'\. Install that one"):
+    with pytest.raises(InvalidInput, match=r"must have format version 2, .*of a newer nonsmooth'\. Install that one"):
         opened(folder.path)
     content = {"zarr_format": 3, "node_type": "group", "attributes": {"spec": "{}"}}
     (folder.path / "zarr.json").write_text(json.dumps(content))
