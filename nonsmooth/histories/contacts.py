@@ -131,12 +131,14 @@ class ClosedContacts:
 
     @property
     def beyond_cone(self) -> NDArray[np.bool_]:
-        """True for entries outside of their friction cone, at the present slip speed of sliding contacts; shape [m].
+        """True for entries outside of their friction cone, shape [m].
+
+        The coefficient is that at the present slip speed [m/s], or at rest if the contact sticks.
 
         Forces of the time-stepping fallback are means over a span.  At an instant within the span, they need not lie in
         the cone.
         """
-        speed = np.where(self.mode == Mode.SLIDE, np.linalg.norm(self.slip_velocity, axis=1), np.nan)
+        speed = np.where(self.mode == Mode.SLIDE, np.linalg.norm(self.slip_velocity, axis=1), 0.0)
         contacts = self.request.solution.system.contacts
         return beyond_cones(contacts, self.contact, self.first, self.normal_force, self.friction_force, speed)
 

@@ -147,9 +147,8 @@ def _begin_of(ws: Workspace, h: float, pair: Pair) -> float:
 
     It is 1, too, if they come nearer first, as one corner may close just after another one has opened: the contacts
     decide. They must be apart along the direction at the start: parts that passed through each other are apart along
-    others.
-    That direction is held by either part. Of a disc that rocks on a face, the plane of the face separates them, or that
-    of the disc, and not both.
+    others. That direction is held by either part. Of a disc that rocks on a face, the plane of the face separates them,
+    or that of the disc, and not both.
     """
     enough, speed = ADJACENT * ws.tolerance.gap, speed_of(ws, pair)
     least = min(_renewed_gap(ws, h, 0.0, pair), 0.0) - enough
