@@ -120,13 +120,6 @@ def verify(ws: Workspace, is_lenient: bool) -> bool:
     return check_laws(ws, is_lenient)
 
 
-@kernel("b1(ws)")
-def verify_least_norm(ws: Workspace) -> bool:
-    """Find the forces of the modes under trial. True if those of least norm fulfil the laws; no others are tried."""
-    find_tried_forces(ws)
-    return _check(ws, is_lenient=False) == Verdict.FULFILLED
-
-
 @kernel("b1(ws, b1)")
 def check_laws(ws: Workspace, is_lenient: bool) -> bool:
     """True if the forces fulfil the contact laws in the modes under trial, False if they violate one.

@@ -269,29 +269,15 @@ def explicit_step(ws: Workspace, h: float) -> float:
     return max(_relative_error(ws), _error_of_second_stage(ws, h))
 
 
-@kernel("i8(ws, i8)")
-def _length_without_accounts(ws: Workspace, span: int) -> int:
-    """Number of entries of a span up to the energy accounts, on which no slope and no error depends.
-
-    The inner states of laws follow the accounts. If there are any, it is the whole span.
-    """
-    length = ws.island.span_length[span]
-    if ws.model.n_states > 0:
-        return int(length)
-    return int(min(length, ws.model.n_q + ws.model.n_u - ws.island.span_first[span]))
-
-
 @kernel("void(ws, f8, i8, i8)")
 def _write_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
     """Write the integrated parts of the state of an explicit stage to ``out``, from the slopes of the stages before.
 
-    These parts are spans: entries of the state that follow one another. The step is one of ``h`` [s]. The energy
-    accounts are written at its end, the last stage.
+    These parts are spans: entries of the state that follow one another. The step is one of ``h`` [s].
     """
     y, slopes = ws.island.y.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
-        i = ws.island.span_first[span]
-        n = ws.island.span_length[span] if stage == LAST_STAGE else _length_without_accounts(ws, span)
+        i, n = ws.island.span_first[span], ws.island.span_length[span]
         stage_part(ws, ws.coefficients.stages.start, y + i, slopes + i, n, ws.model.n_y, stage, h, out + i)
     write_spins_of_stage(ws, stage, h, out)
 
@@ -300,12 +286,11 @@ def _write_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
 def _write_errors(ws: Workspace, h: float) -> None:
     """Write the error estimates of the integrated parts of the state, in a step of ``h`` [s], to ``y_stage``.
 
-    These parts are spans: entries of the state that follow one another. The energy accounts, which shorten no step,
-    are left out.
+    These parts are spans: entries of the state that follow one another.
     """
     errors, slopes = ws.step.y_stage.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
-        i, n = ws.island.span_first[span], _length_without_accounts(ws, span)
+        i, n = ws.island.span_first[span], ws.island.span_length[span]
         weigh_part(ws, ws.coefficients.error_weights.start, slopes + i, n, ws.model.n_y, h, errors + i)
     write_spin_errors(ws, h, errors)
 
