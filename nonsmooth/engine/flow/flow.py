@@ -39,7 +39,7 @@ from nonsmooth.engine.memory.layout import CLOSING_LOSS, DRIVEN, EXCHANGED, FRIC
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.linear import product
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import Pair, length
 
 WRONG_FORCE = -2.0
 """Force that violates its mode, relative to the force that its contact problem counts as zero."""
@@ -256,7 +256,7 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
             if ws.bodies[ws.island.ballistic[i]].has_own_step:
                 accelerate_in_flight(ws, t, ws.island.ballistic[i])
     of_bodies = _write_slope_of_bodies(ws, y, out, of_all_bodies)
-    lost, closing = _power_of_friction(ws), _power_of_closing(ws)
+    lost, closing = _powers_lost(ws)
     _update_least_guards(ws)
     # the rates of the energy accounts follow those of coordinates and velocities
     powers = out + ws.model.n_q + ws.model.n_u
@@ -288,37 +288,26 @@ def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool)
     return power
 
 
-@kernel("f8(ws)")
-def _power_of_friction(ws: Workspace) -> float:
-    """Power that the closed contacts dissipate by friction [W].
+@kernel("v2(ws)")
+def _powers_lost(ws: Workspace) -> Pair:
+    """Powers that the closed contacts take from the bodies: by friction, and by forces of the fallback [W].
 
-    A contact that sticks dissipates nothing, unless its averaged forces act while it slips within their span.
+    A contact that sticks dissipates nothing, unless its averaged forces act while it slips within their span. Averaged
+    normal forces take force times rate, not force times change of the gap: the gap jumps where features change. It is
+    negative if a force pushes while its gap opens. The work of compliant contacts is no loss.
     """
-    lost = 0.0
+    friction, closing = 0.0, 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         if contact.mode != Mode.STICK or contact.is_averaged:
             # the two tangential rows
             for r in range(1, 3):
-                lost -= contact.force[r] * contact.rate[r]
+                friction -= contact.force[r] * contact.rate[r]
         # power of the friction moment on the relative spin, negative if it dissipates
-        lost -= contact.dissipated_by_spin
-    return lost
-
-
-@kernel("f8(ws)")
-def _power_of_closing(ws: Workspace) -> float:
-    """Power that the normal forces of the time-stepping fallback take from the bodies [W].
-
-    It is negative if a force pushes while its gap opens. It is force times rate, not force times change of the gap: the
-    gap jumps where features change. The work of compliant contacts is no loss.
-    """
-    lost = 0.0
-    for i in range(ws.island.n_grouped):
-        contact = ws.contacts[ws.island.grouped[i]]
+        friction -= contact.dissipated_by_spin
         if contact.is_averaged and not contact.is_compliant:
-            lost -= contact.normal_force * contact.normal_rate
-    return lost
+            closing -= contact.normal_force * contact.normal_rate
+    return friction, closing
 
 
 @kernel()
