@@ -67,7 +67,7 @@ def _commit(ws: Workspace, h: float) -> int:
 
 @kernel("i8(ws, f8)")
 def _take_over(ws: Workspace, h: float) -> int:
-    """Accept the step of ``h`` [s]: set state and time to those at its end, and project on the constraints.
+    """Accept the step of ``h`` [s]: set state and time to those at its end, and project on the joints.
 
     Returns the number of bodies whose own step (multirate) ends with it.
     """
@@ -80,9 +80,17 @@ def _take_over(ws: Workspace, h: float) -> int:
     ended = end_own_steps(ws)
     if ended > 0:
         group_closed(ws)
+    return ended
+
+
+@kernel()
+def _remove_drift(ws: Workspace) -> None:
+    """Put closed contacts that have drifted in the step back on their constraints.
+
+    An event does that at the end of its instant. Before, this could move bodies apart again that have just met.
+    """
     if has_drifted(ws):
         ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
-    return ended
 
 
 @kernel("Status(ws, Status)")
@@ -120,6 +128,7 @@ def _end_within(ws: Workspace) -> Status:
     if not try_step(ws, h) < math.inf:
         return Status.NOT_FINITE
     _take_over(ws, h)
+    _remove_drift(ws)
     return _arrived(ws)
 
 
@@ -315,6 +324,7 @@ def _after_leap(ws: Workspace) -> Status:
         contact.release = NO_RELEASE
     if which >= 0:
         return _carry_out(ws, cause, which)
+    _remove_drift(ws)
     evaluate_force_round_off(ws)
     return Status.RUNNING
 
@@ -332,6 +342,7 @@ def _whole_step(ws: Workspace) -> Status:
     if which >= 0 and ws.step.h > ws.tolerance.time:
         return _in_part(ws)
     ended = _commit(ws, ws.step.h)
+    _remove_drift(ws)
     if ws.step.is_blended:
         ws.island.last_choice = ws.island.time
     if which >= 0:
