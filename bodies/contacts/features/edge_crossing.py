@@ -6,7 +6,7 @@ import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.numerics.tolerances import GAP, RELATIVE_GAP
+from nonsmooth.engine.numerics.tolerances import ADJACENT, GAP, RELATIVE_GAP
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of, times, vector_at
@@ -61,11 +61,11 @@ def least_round_sine(radius: float, size: float) -> float:
     """Return the least sine of the angle at which round features of bodies of a ``size`` [m] cross.
 
     Round features are the sides of cylinders, or edges with a rounding; ``radius`` is the sum of both radii [m].  At a
-    distance x from the crossing, the gap is larger by (sine x)^2 / (2 radius).  At the least sine this is the default
-    gap tolerance at the distance ``size``: then the ends of the features touch as well as the crossing, and they
-    hold the bodies at fixed points.  The crossing would run along them with the least tilt.
+    distance x from the crossing, the gap is larger by (sine x)^2 / (2 radius).  At the least sine this is the gap of
+    surfaces next to each other (``ADJACENT``) at the distance ``size``: then the ends of the features touch as well as
+    the crossing, and they hold the bodies at fixed points.  The crossing would run along them with the least tilt.
     """
-    return math.sqrt(2.0 * radius * min(GAP, RELATIVE_GAP * size)) / size
+    return math.sqrt(2.0 * radius * ADJACENT * min(GAP, RELATIVE_GAP * size)) / size
 
 
 @compiled

@@ -213,6 +213,9 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         # refuse this implicit step: a shorter, explicit step locates an event of a closed contact
         return -1.0
     theta = high
+    if first < 0 and ws.step.meeting != NO_PAIR:
+        # parts meet at that fraction, and no guard has fired before
+        first = find_new_overlap(ws, h, theta)
     fired = max(0, first)
     roots = 0
     while first >= 0 and roots < number_of_guards(ws):
