@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from bodies import CylinderBody, Plate
 from laws import EnergeticImpact, Frictionless, Unilateral
 
 
-def _laws(restitution: float) -> dict[str, object]:
+def _laws(restitution: float) -> dict[str, Any]:
     return {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(restitution)}
 
 

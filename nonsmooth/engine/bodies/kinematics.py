@@ -174,8 +174,8 @@ def evaluate_kinematics(ws: Workspace, c: int) -> None:
     """Write geometry and rates of contact ``c``. Nothing is written if its bodies were not evaluated in the meantime.
 
     Each evaluation of a body has a version number. Past the end of features the gap depends on whether the contact is
-    open, so a contact that has opened or closed since is evaluated again. The stretched tangents of an anisotropic contact depend on its mode
-    too, so such a contact is always evaluated: ``NOT_EVALUATED`` differs from every version.
+    open, so a contact that has opened or closed since is evaluated again. The stretched tangents of an anisotropic
+    contact depend on its mode too, so such a contact is always evaluated: ``NOT_EVALUATED`` differs from every version.
     """
     contact = ws.contacts[c]
     version_a, version_b = ws.bodies[contact.body_a].version, ws.bodies[contact.body_b].version

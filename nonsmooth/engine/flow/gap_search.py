@@ -311,21 +311,29 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     return found
 
 
+@kernel("b1(ws, ContactRecord)")
+def _may_face_between(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if the features of an open rigid contact face each other at neither end of the step, but may in between.
+
+    They are features of neighbours whose gap is not among those that may close in the step.
+    """
+    if contact.mode != Mode.OPEN or contact.is_compliant or contact.pair == NO_PAIR:
+        return False
+    group, is_listed = ws.pairs[contact.pair], contact.acceleration_bound_at_end[0] >= 0.0
+    are_neighbours = group.is_guarded and not group.is_watched
+    return are_neighbours and not is_listed and min(contact.past_feature_at_start, contact.past_feature_at_end) > 0.0
+
+
 @kernel("i8(ws, f8, f8)")
 def find_new_overlap(ws: Workspace, h: float, theta: float) -> int:
     """Normal guard of an open gap that overlaps at the fraction ``theta`` of the step of ``h`` [s], or ``NO_GUARD``.
 
-    Features of neighbours are evaluated that face each other at neither end of the step. The crossing of two nearly
-    parallel edges runs along them, faster than the bodies move, when these tilt. So the bounds of the speed do not prove
-    that such edges do not face each other in between. A gap that overlaps beyond the tolerances is added to those that
-    may close in the step.
+    The crossing of two nearly parallel edges runs along them, faster than the bodies move, when these tilt. So the
+    bounds of the speed do not prove that edges that face each other at neither end of the step do not in between. A gap
+    that overlaps beyond the tolerances is added to those that may close in the step.
     """
     for contact in ws.contacts:
-        if contact.mode != Mode.OPEN or contact.is_compliant or contact.pair == NO_PAIR:
-            continue
-        group, faces_at_start = ws.pairs[contact.pair], contact.past_feature_at_start <= 0.0
-        is_listed = contact.acceleration_bound_at_end[0] >= 0.0
-        if not group.is_guarded or group.is_watched or is_listed or faces_at_start or contact.past_feature_at_end <= 0.0:
+        if not _may_face_between(ws, contact):
             continue
         _evaluate_geometry_at(ws, h, theta, contact)
         if contact.past_feature <= 0.0 and contact.gap < -ALLOWED * ws.tolerance.gap:
