@@ -88,3 +88,37 @@ def test_a_capsule_rests_on_springs_in_a_groove_of_two(shift: float, angle: floa
     assert abs(solution.energy.residual) < 1e-6
     depth = log.total_mass * 9.81 / (4.0 * 1e5 * (HEIGHT / (2.0 * RADIUS)) ** 2)
     assert HEIGHT - solution.q_end[2] == pytest.approx(depth, rel=0.01)
+
+
+@pytest.mark.parametrize("angle", [1e-3, 2e-3])
+@pytest.mark.parametrize("tilt", [4.65e-6, 1e-5, 1e-4])
+def test_a_capsule_tips_from_one_end_onto_its_crossing(tilt: float, angle: float) -> None:
+    """It turns about the lower end of its axis. The axes cross between their ends before the other end comes down.
+
+    The crossing runs along the axes within microseconds, and its gap is lower than those of the ends by up to
+    (angle HALF)^2 / (4 RADIUS): some nanometres. Past the ends the crossing is metres away.
+    """
+    base = DrivenBody(Rest(), (Capsule(RADIUS, HALF, axis_x=1.0, axis_z=0.0),))
+    log = CapsuleBody(RADIUS, HALF)
+    system = ns.System([base, log], gravity=0.0)
+    system.contact(base, log, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.0))
+    c, s, down = math.cos(angle), math.sin(angle), math.sin(tilt)
+    lower = -HALF * np.array([math.cos(tilt) * c, math.cos(tilt) * s, down])
+    spin = 0.1 * np.array([-s, c, 0.0])
+    w, x, y, z = ns.turned_about((0.0, 1.0, 0.0), 0.5 * math.pi - tilt)
+    # turned about the vertical after the tilt
+    v, u = math.cos(0.5 * angle), math.sin(0.5 * angle)
+    orientation = v * w - u * z, v * x - u * y, v * y + u * x, v * z + u * w
+    height = math.sqrt(4.0 * RADIUS**2 - lower[1] ** 2) - lower[2]
+    # the angular velocity of `place` is in the axes of the body
+    system.place(
+        log,
+        position=(1e-12, 0.0, height),
+        orientation=orientation,
+        velocity=tuple(np.cross(spin, -lower)),
+        angular_velocity=(0.0, 0.1, 0.0),
+    )
+    solution = ns.simulate(system, 2.0 * tilt / 0.1)
+    assert solution.status == "done"
+    touched = [solution.system.contacts[int(k)].name for k in solution.events.contact if k >= 0]
+    assert "(1)" in touched[0]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.numerics.tolerances import GAP, RELATIVE_GAP
+from nonsmooth.engine.numerics.tolerances import ADJACENT, GAP, RELATIVE_GAP
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of, times, vector_at
@@ -19,7 +20,7 @@ An edge, a rim or a corner has a range of outward normals, between the normals o
 lets a contact be followed before it can close, and a spring before it lets go.
 """
 PARALLEL = 1e-6
-"""Least sine of the angle between two features that cross and are round or rounded.
+"""Least sine of the angle between a rim or a side and a feature that it crosses.
 
 At a smaller angle the ends of the features touch instead. Their gaps exceed that of the crossing by at most the square
 of the angle times the size: far less than the gap tolerance.
@@ -53,6 +54,18 @@ def least_sine(size: float) -> float:
     At this sine the ends of the edges are aside by the default gap tolerance.
     """
     return min(GAP / size, RELATIVE_GAP)
+
+
+@compiled
+def least_round_sine(radius: float, size: float) -> float:
+    """Return the least sine of the angle at which round features of bodies of a ``size`` [m] cross.
+
+    Round features are the sides of cylinders, or edges with a rounding; ``radius`` is the sum of both radii [m].  At a
+    distance x from the crossing, the gap is larger by (sine x)^2 / (2 radius).  At the least sine this is the gap of
+    surfaces next to each other (``ADJACENT``) at the distance ``size``: then the ends of the features touch as well as
+    the crossing, and they hold the bodies at fixed points.  The crossing would run along them with the least tilt.
+    """
+    return math.sqrt(2.0 * radius * ADJACENT * min(GAP, RELATIVE_GAP * size)) / size
 
 
 @compiled

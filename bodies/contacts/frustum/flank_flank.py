@@ -7,9 +7,9 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, LOW, SIDE, SIN
+from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, size_of, times
-from ..features.edge_crossing import PARALLEL
+from ..features.edge_crossing import least_round_sine
 from ..features.frames import tangent_of
 from .frustum import FLANK, axis_in_world, center_in_world
 from .frustum_writing import past_border, past_depth, write_side, write_two
@@ -61,7 +61,8 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
     q, v = _line(second, center_b, axis_b, opposite(n))
     w, crossing = minus(q, p), dot(n, cross(u, v))
     s, t_b, over_end = 0.5 * first[SIDE], 0.5 * second[SIDE], size
-    if rest >= 0.0 and abs(crossing) > PARALLEL:
+    round_radius = first[0] + second[0] + first[SWEEP] + second[SWEEP]
+    if rest >= 0.0 and abs(crossing) > least_round_sine(round_radius, size):
         s, t_b = dot(n, cross(w, v)) / crossing, dot(n, cross(w, u)) / crossing
         over_end = max(max(-s, s - first[SIDE]), max(-t_b, t_b - second[SIDE]))
         # the distance along n of the points that cross: an error of n hardly changes it

@@ -15,7 +15,7 @@ from nonsmooth.types import Floats
 from ...shapes.polyhedron import SweptPolytope
 from ...vectors import ahead, dot, put
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import ASTRAY, PARALLEL, cross_edges
+from ..features.edge_crossing import ASTRAY, cross_edges, least_round_sine
 from ..features.frames import write_tangent
 from ..features.overlap_corners import common_direction, crossing_past_corner, part_of_overlap
 from ..features.polytope_tables import SWEEP, core_numbers, edge_at, faces_of
@@ -40,12 +40,13 @@ def evaluate_swept_edges(
     bodies [m].
     """
     one, two, radius_a, radius_b = edge_at(core_a, edge_a), edge_at(core_b, edge_b), core_a[SWEEP], core_b[SWEEP]
+    parallel = least_round_sine(radius_a + radius_b, size)
     # the margin ``size`` skips the test of the ends of the edges, which follows below
-    crossing = cross_edges(a, b, core_a, one, core_b, two, PARALLEL, size, size)
+    crossing = cross_edges(a, b, core_a, one, core_b, two, parallel, size, size)
     p, e, f, n, gap, over, past = crossing
     if gap < 0.0:
         past = max(past, over + END * size)
-        past = past_if_convex(a, b, core_a, one, core_b, two, crossing, past, PARALLEL, END * size)
+        past = past_if_convex(a, b, core_a, one, core_b, two, crossing, past, parallel, END * size)
     elif past <= 0.0:
         past, u = over + END * size, common_direction(a, b, *faces_of(core_a), *faces_of(core_b), n)
         # bodies on springs overlap: then the corners of the overlap touch, else the nearest features

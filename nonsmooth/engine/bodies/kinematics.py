@@ -173,17 +173,20 @@ def evaluate_rates(ws: Workspace, c: int) -> None:
 def evaluate_kinematics(ws: Workspace, c: int) -> None:
     """Write geometry and rates of contact ``c``. Nothing is written if its bodies were not evaluated in the meantime.
 
-    Each evaluation of a body has a version number. The stretched tangents of an anisotropic contact depend on its mode
-    too, so such a contact is always evaluated: ``NOT_EVALUATED`` differs from every version.
+    Each evaluation of a body has a version number. Past the end of features the gap depends on whether the contact is
+    open, so a contact that has opened or closed since is evaluated again. The stretched tangents of an anisotropic
+    contact depend on its mode too, so such a contact is always evaluated: ``NOT_EVALUATED`` differs from every version.
     """
     contact = ws.contacts[c]
     version_a, version_b = ws.bodies[contact.body_a].version, ws.bodies[contact.body_b].version
-    if contact.version_a == version_a and contact.version_b == version_b:
+    is_open = contact.mode == Mode.OPEN
+    if contact.version_a == version_a and contact.version_b == version_b and contact.was_evaluated_open == is_open:
         return
     evaluate_geometry(ws, c)
     evaluate_rates(ws, c)
     contact.version_a = version_a if not contact.is_anisotropic else NOT_EVALUATED
     contact.version_b = version_b
+    contact.was_evaluated_open = is_open
 
 
 @kernel("f8(F, i8, i8, v3, v3)")

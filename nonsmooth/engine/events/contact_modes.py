@@ -12,7 +12,6 @@ from enum import IntEnum
 from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, has_known_friction, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
-from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
 from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, solve_contact, write_contact_problem
 from nonsmooth.engine.contact.trial import NO_FORCE, small_force, tangential_inverse_mass
 from nonsmooth.engine.delassus.islands import activate_group, group_members
@@ -194,9 +193,6 @@ def adopt_modes(ws: Workspace) -> None:
     for contact in ws.contacts:
         if contact.mode == Mode.OPEN and contact.mode_agreed != Mode.OPEN:
             start_inner_states(ws, contact.index)
-        if contact.mode != contact.mode_agreed:
-            # evaluate the contact again: past the end of its features, the gap depends on the mode
-            contact.version_a = NOT_EVALUATED
         contact.mode = contact.mode_agreed
         # OPEN also marks that forces are not averaged over time
         if contact.mode == Mode.OPEN:

@@ -25,10 +25,11 @@ from nonsmooth.engine.flow.deflation import deflated
 from nonsmooth.engine.flow.flight import evaluate_within
 from nonsmooth.engine.flow.flow import value_of_slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard, normal_of
-from nonsmooth.engine.flow.guards import has_fired
-from nonsmooth.engine.memory.layout import PARTS
+from nonsmooth.engine.flow.guards import NO_GUARD, has_fired
+from nonsmooth.engine.memory.layout import LAST_STAGE, NO_PAIR, PARTS
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, entry_point, kernel, part_end, result
-from nonsmooth.engine.numerics.tolerances import ADJACENT, NEGLIGIBLE
+from nonsmooth.engine.numerics.tolerances import ADJACENT, ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import distance
 
 _LARGEST_DISPLACEMENT = 0.02
@@ -308,3 +309,39 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
         elif has_moved and (high == 1.0 or contact.index == needed):
             _evaluate_end(ws, h, high, contact, n=0)
     return found
+
+
+@kernel("b1(ws, ContactRecord)")
+def _may_face_between(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if the features of an open rigid contact face each other at neither end of the step, but may in between.
+
+    They are features of neighbours whose gap is not among those that may close in the step.
+    """
+    if contact.mode != Mode.OPEN or contact.is_compliant or contact.pair == NO_PAIR:
+        return False
+    group, is_listed = ws.pairs[contact.pair], contact.acceleration_bound_at_end[0] >= 0.0
+    are_neighbours = group.is_guarded and not group.is_watched
+    return are_neighbours and not is_listed and min(contact.past_feature_at_start, contact.past_feature_at_end) > 0.0
+
+
+@kernel("i8(ws, f8, f8)")
+def find_new_overlap(ws: Workspace, h: float, theta: float) -> int:
+    """Normal guard of an open gap that overlaps at the fraction ``theta`` of the step of ``h`` [s], or ``NO_GUARD``.
+
+    The crossing of two nearly parallel edges runs along them, faster than the bodies move, when these tilt. So the
+    bounds of the speed do not prove that edges that face each other at neither end of the step do not in between. A gap
+    that overlaps beyond the tolerances is added to those that may close in the step.
+    """
+    for contact in ws.contacts:
+        if not _may_face_between(ws, contact):
+            continue
+        _evaluate_geometry_at(ws, h, theta, contact)
+        if contact.past_feature <= 0.0 and contact.gap < -ALLOWED * ws.tolerance.gap:
+            _evaluate_geometry_at(ws, h, 1.0, contact)
+            accelerations = ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q
+            contact.acceleration_bound_at_end = fall_of(ws, contact.index, accelerations)
+            ws.step.may_close[ws.step.n_may_close] = contact.index
+            ws.step.n_may_close += 1
+            evaluate_gap_guard(ws, h, theta, contact.index)
+            return normal_guard(contact.index)
+    return NO_GUARD

@@ -11,6 +11,7 @@ import math
 from nonsmooth.engine.bodies.support import known_direction, separation_along
 from nonsmooth.engine.flow.crossing import asks_forces, closed_before, guard_at, guards_within
 from nonsmooth.engine.flow.flight import state_within
+from nonsmooth.engine.flow.gap_search import find_new_overlap
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_end_guard,
@@ -212,6 +213,9 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         # refuse this implicit step: a shorter, explicit step locates an event of a closed contact
         return -1.0
     theta = high
+    if first < 0 and ws.step.meeting != NO_PAIR:
+        # parts meet at that fraction, and no guard has fired before
+        first = find_new_overlap(ws, h, theta)
     fired = max(0, first)
     roots = 0
     while first >= 0 and roots < number_of_guards(ws):
@@ -234,6 +238,8 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             earlier = closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(ws, closed, NO_GUARD)
+        if first < 0 and ws.model.n_pairs > 0:
+            first = find_new_overlap(ws, h, theta)
     if first >= 0:
         # guards still fire before the last root: an earlier event may be hidden
         return -1.0

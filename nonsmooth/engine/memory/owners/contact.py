@@ -150,6 +150,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     stretch_2: Vector2 = vector(_REUSED, 2, "1", "Row t2 along the unit tangents.")
     version_a: int = whole(_REUSED, "Evaluation of the first body that the contact was evaluated with.")
     version_b: int = whole(_REUSED, "Evaluation of the second body that the contact was evaluated with.")
+    was_evaluated_open: bool = question(_REUSED, "The contact was open when it was evaluated: its gap depends on that.")
     feature_now: float = real(_REUSED, "1", "Number of the features in contact.", inside=("geometry", blocks.FEATURE))
     past_feature: float = real(
         _REUSED, "m", "Distance past the ends of features.", inside=("geometry", blocks.PAST_END)
