@@ -1,0 +1,49 @@
+"""Contacts that begin at a depth: a foot of one body that comes over the rim of the other from beside.
+
+Feet of a flat face stand out of it, and its rim is set back by their height. Two bodies that touch at such a rim are
+deeper in each other, by up to the height of the feet of both, than bodies that touch at a foot. So a foot that slides
+or rolls over the rim is below the face when its contact begins. No displacement lifts it, as that would change the
+energy: the gap of this contact counts from the depth at which it began. The foot thus keeps its depth until it is
+lifted out, or leaves the face.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
+from nonsmooth.engine.flow.guard_numbers import normal_of
+from nonsmooth.engine.flow.self_check import allowed_gap
+from nonsmooth.engine.memory.layout import NO_PAIR
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import Workspace, kernel
+
+
+@kernel()
+def begin_at_depth(ws: Workspace) -> None:
+    """Let the gaps of open contacts count from their present depth, if it is more than the tolerances allow.
+
+    It is at most the height of the feet of both bodies. Contacts that are deeper end the run.
+    """
+    for contact in ws.contacts:
+        may_begin = contact.is_touching and contact.mode == Mode.OPEN and not contact.is_compliant
+        if not may_begin or contact.pair == NO_PAIR or contact.gap >= 0.0:
+            continue
+        depth = contact.initial_depth - contact.gap
+        if depth <= ws.pairs[contact.pair].clearance and -contact.gap > allowed_gap(ws, contact.index):
+            contact.initial_depth, contact.gap = depth, 0.0
+
+
+@kernel()
+def end_depths(ws: Workspace) -> None:
+    """Let the gaps of open contacts count from the face again, once a foot is lifted out of it or is past its rim.
+
+    Gaps at the end of the last step, from which the step that begins starts, change with it.
+    """
+    for contact in ws.contacts:
+        depth, is_past = contact.initial_depth, contact.past_feature_at_end > 0.0
+        if depth == 0.0 or contact.mode != Mode.OPEN or (contact.gap_at_end < depth and not is_past):
+            continue
+        contact.initial_depth, contact.version_a = 0.0, NOT_EVALUATED
+        # past the rim, the gap is a distance to it
+        if not is_past:
+            contact.gap_at_end -= depth
+            normal_of(ws, contact).at_end = contact.gap_at_end
