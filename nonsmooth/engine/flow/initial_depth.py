@@ -17,19 +17,24 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel()
-def begin_at_depth(ws: Workspace) -> None:
-    """Let the gaps of open contacts count from their present depth, if it is more than the tolerances allow.
+@kernel("b1(ws)")
+def begin_at_depth(ws: Workspace) -> bool:
+    """Let the gaps of feet that come over a rim count from their present depth. True if there are such feet.
 
-    It is at most the height of the feet of both bodies. Contacts that are deeper end the run.
+    Their depth is more than the tolerances allow, and at most the height of the feet of both bodies. Contacts that are
+    deeper end the run. Contacts must be evaluated; those that change must be evaluated again.
     """
+    has_begun = False
     for contact in ws.contacts:
-        may_begin = contact.is_touching and contact.mode == Mode.OPEN and not contact.is_compliant
-        if not may_begin or contact.pair == NO_PAIR or contact.gap >= 0.0:
+        may_begin = contact.mode == Mode.OPEN and not contact.is_compliant and contact.pair != NO_PAIR
+        if not may_begin or contact.past_feature > ws.tolerance.gap:
             continue
-        depth = contact.initial_depth - contact.gap
-        if depth <= ws.pairs[contact.pair].clearance and -contact.gap > allowed_gap(ws, contact.index):
-            contact.initial_depth, contact.gap = depth, 0.0
+        # up to the tolerance past the rim, the depth is stored apart
+        depth = -min(contact.gap, contact.overlap)
+        total = contact.initial_depth + depth
+        if depth > allowed_gap(ws, contact.index) and total <= ws.pairs[contact.pair].clearance:
+            contact.initial_depth, contact.version_a, has_begun = total, NOT_EVALUATED, True
+    return has_begun
 
 
 @kernel()
@@ -39,7 +44,7 @@ def end_depths(ws: Workspace) -> None:
     Gaps at the end of the last step, from which the step that begins starts, change with it.
     """
     for contact in ws.contacts:
-        depth, is_past = contact.initial_depth, contact.past_feature_at_end > 0.0
+        depth, is_past = contact.initial_depth, contact.past_feature_at_end > ws.tolerance.gap
         if depth == 0.0 or contact.mode != Mode.OPEN or (contact.gap_at_end < depth and not is_past):
             continue
         contact.initial_depth, contact.version_a = 0.0, NOT_EVALUATED
