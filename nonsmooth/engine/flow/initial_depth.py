@@ -15,14 +15,16 @@ from nonsmooth.engine.flow.self_check import allowed_gap
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.pairs.apart import renewed_separation
 
 
 @kernel("b1(ws)")
 def begin_at_depth(ws: Workspace) -> bool:
     """Let the gaps of feet that come over a rim count from their present depth. True if there are such feet.
 
-    Their depth is more than the tolerances allow, and at most the height of the feet of both bodies. Contacts that are
-    deeper end the run. Contacts must be evaluated; those that change must be evaluated again.
+    Their depth is more than the tolerances allow, and at most the height of the feet of both bodies, and the bodies
+    without feet do not overlap. Any other contact that is as deep ends the run. Contacts must be evaluated; those that
+    change must be evaluated again.
     """
     has_begun = False
     for contact in ws.contacts:
@@ -30,11 +32,20 @@ def begin_at_depth(ws: Workspace) -> bool:
         if not may_begin or contact.past_feature > ws.tolerance.gap:
             continue
         # up to the tolerance past the rim, the depth is stored apart
-        depth = -min(contact.gap, contact.overlap)
+        depth, allowed = -min(contact.gap, contact.overlap), allowed_gap(ws, contact.index)
         total = contact.initial_depth + depth
-        if depth > allowed_gap(ws, contact.index) and total <= ws.pairs[contact.pair].clearance:
+        if depth > allowed and total <= ws.pairs[contact.pair].clearance and _are_apart(ws, contact.pair, allowed):
             contact.initial_depth, contact.version_a, has_begun = total, NOT_EVALUATED, True
     return has_begun
+
+
+@kernel("b1(ws, i8, f8)")
+def _are_apart(ws: Workspace, group: int, allowed: float) -> bool:
+    """True if the convex parts of two shapes overlap by at most ``allowed`` [m]: parts have no feet."""
+    for pair in ws.pairs:
+        if pair.group == group and renewed_separation(ws, pair) < -allowed:
+            return False
+    return True
 
 
 @kernel()
