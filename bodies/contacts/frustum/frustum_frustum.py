@@ -28,6 +28,7 @@ from .frustum import (
     cap_of,
     center_in_world,
     part_names,
+    past_of_rim,
     rims_and_tips,
     rims_of,
     separation_along,
@@ -82,11 +83,11 @@ def evaluate_rim_over_cap(
     if radius > 0.0 and sine < FLATTEST:
         # if no foot is over the cap, a flat rim touches it on the line of centres, in an area that is more than a point
         _, _, outward = across(minus(place, middle), axis)
-        margin = -4.0 * CLOSED
+        margin, sine = -4.0 * CLOSED, 1.0
     p = ahead(middle, radius, outward)
     along, away, from_axis = across(minus(p, place), cap_axis)
     gap = up * (along - height)
-    past = away - wide - margin * size
+    past = past_of_rim(away - wide - margin * size, radius, sine)
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))
     else:
