@@ -11,7 +11,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import SIDE, SWEEP, Frustum, without_feet
+from ...shapes.frustum import FEET, SIDE, SWEEP, Frustum, without_feet
 from ...vectors import ahead, minus, opposite, times, vector_at
 from ..features.frames import across, point_in_world
 from ..features.vertex_face import CLOSED, REACH
@@ -91,7 +91,9 @@ def evaluate_rim_over_cap(
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))
     else:
-        past = max(past, past_depth(own, first, other, second, gap, size))
+        # the feet of a disc stand out of its core
+        foot = first[FEET] if first[SIDE] == 0.0 and radius == 0.0 else 0.0
+        past = max(past, past_depth(own, first, other, second, gap + foot, size))
         if gap < 0.0:
             # of the body with the cap another part may separate the bodies better
             best = separation_by(own, first, other, second)
