@@ -60,7 +60,7 @@ def test_no_rim_comes_over_a_border_before_the_bodies_have_moved_by_its_gap(buil
         before, after = blocks
         moved = np.linalg.norm(shift) + np.hypot(RADIUS, RADIUS) * np.linalg.norm(turning)
         begun = (before[:, 30] > 0.0) & (after[:, 30] <= 0.0)
-        n_begun += np.count_nonzero(begun)
+        n_begun += int(np.count_nonzero(begun))
         # a gap that is not negative holds the distance past the border
         gap = np.where(before[:, 0] >= 0.0, before[:, 0], np.hypot(before[:, 0], before[:, 30]))
         assert np.all(gap[begun] - np.maximum(after[begun, 0], 0.0) <= MOST * moved)
