@@ -11,6 +11,7 @@ import nonsmooth as ns
 from bodies import Box, ConeBody, Cylinder, CylinderBody, DiscBody, DrivenBody, Rest
 from laws import Coulomb, NewtonImpact, Unilateral
 from nonsmooth.interfaces import Shape
+from tests.runs.continued import lost_by_stopping
 
 R, FOOT = 0.05, 5e-6
 """Radius of the body, and height of the feet of each body [m]."""
@@ -57,6 +58,18 @@ def test_a_foot_keeps_the_depth_at_which_it_came_over_the_rim(name: str, pillar:
     assert np.max(np.abs(place - moved)) < 1e-10
     assert np.max(np.abs(solution.u - [SPEED, 0.0, 0.0, 0.0, 0.0, 0.0])) < 1e-9
     assert abs(solution.energy.residual) < 1e-9
+
+
+def test_a_run_goes_on_with_feet_at_their_depth() -> None:
+    """A run that was stopped while feet are below the pillar's face is the run that was not stopped."""
+    body, height = BODIES["cylinder"]
+    model = ns.assemble(_system(body, height, EDGE, PILLARS["cylinder"](1.4 * FOOT)))
+    whole, before = model.run(0.5), model.run(0.4)
+    assert lost_by_stopping(whole, before, model.run(0.5, start=before.state)) == []
+    times = [0.4, 0.41237]
+    assert np.nanmin(whole.history("gap", times=times)["gap"]) == pytest.approx(-1.4 * FOOT, rel=1e-6)
+    forces = np.nansum(whole.history("normal_force", times=times)["normal_force"], axis=-1)
+    assert forces == pytest.approx(body.total_mass * 9.81, rel=1e-9)
 
 
 def test_a_foot_that_is_lifted_out_comes_down_on_the_feet() -> None:
