@@ -29,13 +29,12 @@ def begin_at_depth(ws: Workspace) -> bool:
     has_begun = False
     for contact in ws.contacts:
         may_begin = contact.mode == Mode.OPEN and not contact.is_compliant and contact.pair != NO_PAIR
-        if not may_begin or contact.past_feature > ws.tolerance.gap:
+        if not may_begin or contact.initial_depth > 0.0 or contact.past_feature > ws.tolerance.gap:
             continue
         # up to the tolerance past the rim, the depth is stored apart
         depth, allowed = -min(contact.gap, contact.overlap), allowed_gap(ws, contact.index)
-        total = contact.initial_depth + depth
-        if depth > allowed and total <= ws.pairs[contact.pair].clearance and _are_apart(ws, contact.pair, allowed):
-            contact.initial_depth, contact.version_a, has_begun = total, NOT_EVALUATED, True
+        if allowed < depth <= ws.pairs[contact.pair].clearance and _are_apart(ws, contact.pair, allowed):
+            contact.initial_depth, contact.version_a, has_begun = depth, NOT_EVALUATED, True
     return has_begun
 
 
