@@ -32,6 +32,7 @@ from ...shapes.frustum import (
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Polytope
 from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, vector_at
+from ..features.edge_crossing import PARALLEL
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
 from ..features.vertex_face import plane_height
@@ -132,6 +133,19 @@ def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float,
         dr, dz = away - frustum[1], over
     distance = math.sqrt(dr * dr + dz * dz)
     return distance, dr / distance, dz / distance, part
+
+
+@compiled
+def past_of_rim(past: float, radius: float, sine: float) -> float:
+    """Return a length [m] by which bodies must move before the lowest point of a rim is no longer past a border.
+
+    ``past`` is the distance of the point past the border [m], and the result if it is negative.  ``sine`` is that of
+    the angle between the rim and the face.  If the bodies turn by an angle, the point moves round the rim by up to this
+    angle over the sine.  So it may come from afar while the bodies hardly move: the distance counts times the sine.  It
+    counts up to the radius, because the sine changes by up to that angle, too.  The sine is at least ``PARALLEL``, so
+    that a contact does not reach far past the border within the tolerances.
+    """
+    return past if past <= 0.0 or radius == 0.0 else max(sine, PARALLEL) * min(past, radius)
 
 
 @compiled

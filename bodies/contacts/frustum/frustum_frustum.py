@@ -11,7 +11,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import SIDE, SWEEP, Frustum, without_feet
+from ...shapes.frustum import FEET, SIDE, SWEEP, Frustum, without_feet
 from ...vectors import ahead, minus, opposite, times, vector_at
 from ..features.frames import across, point_in_world
 from ..features.vertex_face import CLOSED, REACH
@@ -28,6 +28,7 @@ from .frustum import (
     cap_of,
     center_in_world,
     part_names,
+    past_of_rim,
     rims_and_tips,
     rims_of,
     separation_along,
@@ -82,15 +83,17 @@ def evaluate_rim_over_cap(
     if radius > 0.0 and sine < FLATTEST:
         # if no foot is over the cap, a flat rim touches it on the line of centres, in an area that is more than a point
         _, _, outward = across(minus(place, middle), axis)
-        margin = -4.0 * CLOSED
+        margin, sine = -4.0 * CLOSED, 1.0
     p = ahead(middle, radius, outward)
     along, away, from_axis = across(minus(p, place), cap_axis)
     gap = up * (along - height)
-    past = away - wide - margin * size
+    past = past_of_rim(away - wide - margin * size, radius, sine)
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))
     else:
-        past = max(past, past_depth(own, first, other, second, gap, size))
+        # the feet of a disc stand out of its core
+        foot = first[FEET] if first[SIDE] == 0.0 and radius == 0.0 else 0.0
+        past = max(past, past_depth(own, first, other, second, gap + foot, size))
         if gap < 0.0:
             # of the body with the cap another part may separate the bodies better
             best = separation_by(own, first, other, second)

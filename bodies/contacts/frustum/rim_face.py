@@ -13,7 +13,7 @@ from ..features.frames import across, point_in_body, point_in_world, vector_in_b
 from ..features.polytope_tables import FACE, faces_of
 from ..features.vertex_face import REACH, past_face, plane_height
 from ..features.writing import write_flat
-from .frustum import LOW_RIM, axis_in_world, center_in_world, least_height, separation_over_faces
+from .frustum import LOW_RIM, axis_in_world, center_in_world, least_height, past_of_rim, separation_over_faces
 from .frustum_writing import gap_past_end, write_contact, write_side
 
 
@@ -61,7 +61,7 @@ def evaluate_rim_over_faces(
         f = FACE * i
         if least_height(frustum, plane_height(faces, f, middle), own_axis, vector_at(faces, f)) < best - margin:
             continue
-        _, _, outward = across(opposite(vector_at(faces, f)), own_axis)
+        _, sine, outward = across(opposite(vector_at(faces, f)), own_axis)
         p = ahead(own_place, radius, outward)
         height = plane_height(faces, f, p)
         beyond = past_face(faces, n_faces, f, height, p)
@@ -69,8 +69,9 @@ def evaluate_rim_over_faces(
             # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
             for j in range(int(n_faces)):
                 beyond = max(beyond, plane_height(faces, FACE * j, p))
-        if beyond - margin < past:
-            found, gap, past = i, height, beyond - margin
+        beyond = past_of_rim(beyond - margin, radius, sine)
+        if beyond < past:
+            found, gap, past = i, height, beyond
     own = frustum[SWEEP]
     gap = gap_past_end(gap - (own + sweep), past)
     n = vector_in_world(b, vector_at(faces, FACE * found))

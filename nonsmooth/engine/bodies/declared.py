@@ -106,6 +106,7 @@ def write_history(ws: Workspace, contact: ContactRecord) -> None:
     contact.mode = contact.mode_after_averaging = Mode.OPEN
     # any unit vector, until a slip has a direction
     contact.direction = 1.0, 0.0
+    contact.initial_depth = 0.0
     contact.closing_rate = contact.force_round_off = contact.slip_per_force = 0.0
     for i in range(3):
         contact.mean_force[i] = 0.0

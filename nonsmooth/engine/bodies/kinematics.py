@@ -133,6 +133,9 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
       this one. If the function keeps negative gaps past the end, the force does not jump within a step.
 
     An open rigid contact that is near but cannot close gets a positive substitute, too.
+
+    The gap of a foot that came over the rim of a face counts from its depth there
+    (:mod:`nonsmooth.engine.flow.initial_depth`).
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -141,6 +144,8 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
     contact.overlap = 0.0
+    if contact.mode != Mode.OPEN or contact.past_feature <= ws.tolerance.gap:
+        contact.gap += contact.initial_depth
     if contact.mode != Mode.OPEN:
         return
     if contact.gap < 0.0 < contact.past_feature:

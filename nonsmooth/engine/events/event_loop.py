@@ -37,6 +37,7 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
 from nonsmooth.engine.flow.guards import has_finite_user_guards, is_of_redundant_force
+from nonsmooth.engine.flow.initial_depth import end_depths
 from nonsmooth.engine.flow.location import locate
 from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_drifted
 from nonsmooth.engine.flow.point_jump import contact_past_flat_place, evaluate_force_round_off, jump_contact_points
@@ -196,6 +197,7 @@ def _step(ws: Workspace) -> Status:
         end_averaging(ws)
         ws.island.follows_a_step = False
         return update_at_event(ws, Cause.AVERAGING, ws.island.stray_contact)
+    end_depths(ws)
     store_start(ws)
     which = _due_at_start(ws)
     if which >= 0:

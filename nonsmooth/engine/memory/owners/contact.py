@@ -98,6 +98,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     mode: Mode = one_of(Mode, _STATE, "Open, stick or slide.")
     direction: Vector2 = vector(_STATE, 2, "1", "Unit direction of the slip, or of the slip that begins.")
     facing: int = whole(_STATE, "Side, 1 or -1, from which anisotropic friction is opposed.")
+    initial_depth: float = real(_STATE, "m", "Depth at which a foot came over the rim of a face; gaps count from it.")
     closing_rate: float = real(_STATE, "m/s", "Gap rate with which a compliant contact closed.")
     force_round_off: float = real(_STATE, "N", "Normal force that counts as zero.")
     slip_per_force: float = real(_STATE, "1/kg", "Slip acceleration per unit of friction.")

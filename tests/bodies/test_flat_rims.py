@@ -1,0 +1,67 @@
+"""The lowest point of a rim that lies nearly flat moves round the rim while the bodies hardly move."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from bodies import Box, Cylinder
+from bodies.contacts.frustum.frustum_frustum import FrustumFrustum, evaluate_rim_over_cap
+from bodies.contacts.frustum.frustum_swept import FrustumSwept
+from bodies.contacts.frustum.rim_face import evaluate_rim_over_faces
+from nonsmooth.interfaces import FeaturePair
+from tests.bodies.carriers import Rig
+
+RADIUS = 0.02
+"""Radius of the rim [m]."""
+FOOT = 2e-6
+"""Height of feet [m]."""
+UNDER: dict[str, Any] = {
+    "cylinder": (FrustumFrustum, Cylinder(0.03, 0.01, foot_height=FOOT), 0.01 - FOOT),
+    "box": (FrustumSwept, Box(0.03, 0.03, 0.01), 0.01),
+}
+"""What the rim lies on: kinematics, shape, and height of its face where rims touch it [m]."""
+MOST = 2.0
+"""Largest rate of a gap past the border of the face, relative to the largest speed of a point of the bodies."""
+
+
+def _is_of_rim(pair: FeaturePair) -> bool:
+    """True if a contact is that of a rim of the first body and a flat face."""
+    is_over_face = pair.evaluator is evaluate_rim_over_cap or pair.evaluator is evaluate_rim_over_faces
+    return is_over_face and pair.values["radius"] == RADIUS and pair.values.get("swap", 0.0) == 0.0
+
+
+@pytest.mark.parametrize("name", UNDER)
+@pytest.mark.parametrize("seed", range(3))
+def test_no_rim_comes_over_a_border_before_the_bodies_have_moved_by_its_gap(build: Any, name: str, seed: int) -> None:
+    """The engine relies on it: a contact past its border, whose gap is larger than any motion, is not evaluated."""
+    rng = np.random.default_rng(seed)
+    kinematics, under, height = UNDER[name]
+    shape = Cylinder(RADIUS, RADIUS, foot_height=FOOT)
+    rig = Rig((shape, under), build.laws())
+    rims = [i for i, pair in enumerate(kinematics.between(shape, under)) if _is_of_rim(pair)]
+    n_begun = 0
+    for _ in range(300):
+        sine, around = 10.0 ** rng.uniform(-5.5, -3.0), rng.uniform(0.0, 6.3)
+        axis = np.array([np.cos(around), np.sin(around), 0.0])
+        place = np.array(
+            [*rng.uniform(-0.04, 0.04, 2), height + RADIUS - FOOT + RADIUS * sine * rng.uniform(-0.5, 1.0)]
+        )
+        turning, shift = sine * rng.uniform(-1.0, 1.0, 2), RADIUS * sine * rng.uniform(-1.0, 1.0, 3)
+        blocks = []
+        for part in (0.0, 1.0):
+            turned = Rotation.from_rotvec([*(sine * axis[:2] + part * turning), 0.0])
+            pose = place + part * shift, np.roll(turned.as_quat(), 1)
+            rig.put([pose, (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))], np.zeros(12))
+            blocks.append(rig.geometry[rims])
+        before, after = blocks
+        moved = np.linalg.norm(shift) + np.hypot(RADIUS, RADIUS) * np.linalg.norm(turning)
+        begun = (before[:, 30] > 0.0) & (after[:, 30] <= 0.0)
+        n_begun += int(np.count_nonzero(begun))
+        # a gap that is not negative holds the distance past the border
+        gap = np.where(before[:, 0] >= 0.0, before[:, 0], np.hypot(before[:, 0], before[:, 30]))
+        assert np.all(gap[begun] - np.maximum(after[begun, 0], 0.0) <= MOST * moved)
+    assert n_begun > 20
