@@ -144,7 +144,7 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
     contact.overlap = 0.0
-    if contact.mode != Mode.OPEN or contact.past_feature <= ws.tolerance.gap:
+    if contact.initial_depth > 0.0 and (contact.mode != Mode.OPEN or contact.past_feature <= ws.tolerance.gap):
         contact.gap += contact.initial_depth
     if contact.mode != Mode.OPEN:
         return

@@ -197,7 +197,8 @@ def _step(ws: Workspace) -> Status:
         end_averaging(ws)
         ws.island.follows_a_step = False
         return update_at_event(ws, Cause.AVERAGING, ws.island.stray_contact)
-    end_depths(ws)
+    if ws.model.n_pairs > 0:
+        end_depths(ws)
     store_start(ws)
     which = _due_at_start(ws)
     if which >= 0:
