@@ -258,21 +258,21 @@ def _due_at_start(ws: Workspace) -> int:
     """Return the number of a contact that has an event at the start of the step, or -1."""
     for contact in ws.contacts:
         c = contact.index
-        # a gap that closes exactly where the last step ended is an event of that step
-        gap = normal_of(ws, contact).at_end
-        arrived = gap <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
-        # features of bodies on springs may begin to face each other at depth
-        begins_deep = contact.is_compliant and gap < -ALLOWED * ws.tolerance.gap
-        if contact.mode == Mode.OPEN and (arrived or begins_deep):
-            return c
-        # the projection on the constraints may have moved a contact point past the end of its feature
-        if contact.mode != Mode.OPEN and end_of(ws, contact).at_end < 0.0:
-            return c
-        if has_own_step(ws, c):
+        if contact.mode == Mode.OPEN:
+            # a gap that closes exactly where the last step ended is an event of that step
+            gap = normal_of(ws, contact).at_end
+            arrived = gap <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
+            # features of bodies on springs may begin to face each other at depth
+            begins_deep = contact.is_compliant and gap < -ALLOWED * ws.tolerance.gap
+            if arrived or begins_deep:
+                return c
             continue
+        # the projection on the constraints may have moved a contact point past the end of its feature
+        if end_of(ws, contact).at_end < 0.0:
+            return c
         # the projection may have turned a slip direction, so that the contact force violates a bound
-        unique = contact.mode != Mode.OPEN and not contact.is_compliant and not contact.has_redundant_force
-        if not ws.island.follows_a_step and unique and is_violated(ws, c):
+        is_unique = not (contact.is_compliant or contact.has_redundant_force or has_own_step(ws, c))
+        if not ws.island.follows_a_step and is_unique and is_violated(ws, c):
             return c
     return -1
 

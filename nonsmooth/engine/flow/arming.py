@@ -76,6 +76,9 @@ def arm_guards(ws: Workspace) -> None:
         _deflate_normal(ws, contact)
         _deflate_friction(ws, contact)
         _arm(ws, contact)
+        end = end_of(ws, contact)
+        _start(end)
+        end.is_armed = end.initial > 0.0
     for user in ws.own_guards:
         guard = ws.guards[first_user_guard(ws) + user.index]
         _start(guard)
@@ -85,10 +88,6 @@ def arm_guards(ws: Workspace) -> None:
             guard.initial = 0.0
         user.has_just_fired = False
         guard.is_armed = guard.initial > 0.0
-    for contact in ws.contacts:
-        end = end_of(ws, contact)
-        _start(end)
-        end.is_armed = end.initial > 0.0
 
 
 @kernel("void(GuardRecord)")

@@ -20,6 +20,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     friction_guard,
     normal_guard,
+    normal_of,
     number_of_guards,
 )
 from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
@@ -160,11 +161,10 @@ def first_crossing(ws: Workspace, h: float) -> float:
     fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
     # sample the middle only if at a stage a force or slip violated its mode, or a force was smaller than at both ends
     suspect = ws.step.has_doubtful_force
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        i = normal_guard(c)
-        if contact.mode != Mode.OPEN and contact.least_force < min(ws.guards[i].initial, ws.guards[i].at_end):
-            suspect = True
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
+        normal = normal_of(ws, contact)
+        suspect = suspect or contact.least_force < min(normal.initial, normal.at_end)
     needs_forces = closed and suspect
     looks = needs_forces + ws.model.n_own_guards
     if looks > 0:

@@ -39,7 +39,8 @@ def deflate(ws: Workspace, elapsed: float) -> None:
     """
     for i in range(first_end_guard(ws)):
         guard = ws.guards[i]
-        guard.value = deflated(ws, i, guard.value, elapsed)
+        if guard.is_deflated:
+            guard.value = deflated(ws, i, guard.value, elapsed)
 
 
 @kernel("void(GuardRecord, f8, f8)")

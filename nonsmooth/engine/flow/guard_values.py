@@ -62,10 +62,11 @@ def write_guards(ws: Workspace, t: float, y: int, forces_are_known: bool) -> Non
 
     Without known forces the normal and friction guards of closed contacts keep their values. Gaps are evaluated here.
     """
-    _write_guards_without_gaps(ws, t, y, forces_are_known)
+    _write_guards_of_forces_and_user(ws, t, y, forces_are_known)
     for contact in ws.contacts:
         # the closed contact of a body with an own step (multirate) is not in the right-hand side
         steps_alone = has_own_step(ws, contact.index)
+        _write_end_guard(ws, contact, forces_are_known and not steps_alone)
         if contact.mode == Mode.OPEN or steps_alone:
             _write_gap(ws, contact)
         if steps_alone:
@@ -85,12 +86,8 @@ def _write_gap(ws: Workspace, contact: ContactRecord) -> None:
 
 
 @kernel("void(ws, f8, i8, b1)")
-def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
-    """Write the force guards of closed contacts, the guards of the user, and all end guards.
-
-    End guards are 1 for open contacts, without known forces, and for bodies with an own step: none of these may fire.
-    Guards of the user are functions of time and state alone.
-    """
+def _write_guards_of_forces_and_user(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
+    """Write the force guards of closed contacts, and the guards of the user: functions of time and state alone."""
     # gaps need the driven bodies, which the right-hand side evaluates only with closed contacts
     if ws.island.n_grouped == 0:
         evaluate_driven_bodies(ws, t, y)
@@ -102,9 +99,15 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
             user.function, t, at(ws.floats, y), at(ws.floats, y + ws.model.n_q), at(ws.floats, user.parameters)
         )
         ws.guards[first_user_guard(ws) + user.index].value = value
-    for contact in ws.contacts:
-        may_end = contact.mode != Mode.OPEN and forces_are_known and not has_own_step(ws, contact.index)
-        end_of(ws, contact).value = feature_guard(ws, contact) if may_end else 1.0
+
+
+@kernel("void(ws, ContactRecord, b1)")
+def _write_end_guard(ws: Workspace, contact: ContactRecord, may_end: bool) -> None:
+    """Write the end guard of a contact. It is 1, so that it cannot fire, for an open contact, or unless it ``may_end``.
+
+    No contact may end without known forces, nor that of a body with an own step.
+    """
+    end_of(ws, contact).value = feature_guard(ws, contact) if may_end and contact.mode != Mode.OPEN else 1.0
 
 
 @kernel("void(ws, ContactRecord)")
@@ -164,7 +167,9 @@ def evaluate_guards(ws: Workspace, t: float, y: int, elapsed: float, needs_force
         _evaluate_ballistic_bodies(ws, t, y)
     else:
         evaluate_motion(ws, t, y)
-    _write_guards_without_gaps(ws, t, y, needs_forces)
+    _write_guards_of_forces_and_user(ws, t, y, needs_forces)
+    for contact in ws.contacts:
+        _write_end_guard(ws, contact, needs_forces and not has_own_step(ws, contact.index))
     for i in range(ws.step.n_may_close):
         _write_gap(ws, ws.contacts[ws.step.may_close[i]])
     deflate(ws, elapsed)
