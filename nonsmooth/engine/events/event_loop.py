@@ -165,7 +165,8 @@ def _listed_anew(ws: Workspace, which: int) -> int:
 def _meet(ws: Workspace, h: float) -> Status:
     """Accept the step of ``h`` [s], at whose end two parts meet, and carry out the event; return the status."""
     group = ws.pairs[ws.step.meeting].group
-    _commit(ws, h, closes_gaps=False)
+    # with gaps that have drifted, a face of the other body that is flush with the one below would take part
+    _commit(ws, h, closes_gaps=True)
     ws.island.follows_a_step = False
     status = list_with(ws, group)
     if status != Status.RUNNING:
