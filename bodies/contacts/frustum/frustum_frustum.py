@@ -87,7 +87,9 @@ def evaluate_rim_over_cap(
     p = ahead(middle, radius, outward)
     along, away, from_axis = across(minus(p, place), cap_axis)
     gap = up * (along - height)
-    past = past_of_rim(away - wide - margin * size, radius, sine)
+    past = away - wide - margin * size
+    if gap > first[SWEEP] + second[SWEEP]:
+        past = past_of_rim(past, radius, sine)
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))
     else:

@@ -54,7 +54,7 @@ def evaluate_rim_over_faces(
     axis, place = axis_in_world(a, frustum), point_in_world(a, vector_at(center, 0))
     own_place = point_in_body(b, place)
     own_axis, middle = vector_in_body(b, axis), point_in_body(b, center_in_world(a, frustum))
-    margin, best = REACH * size, separation_over_faces(a, b, frustum, core)
+    margin, best, own = REACH * size, separation_over_faces(a, b, frustum, core), frustum[SWEEP]
     n_faces, faces = faces_of(core)
     found, gap, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
@@ -69,10 +69,11 @@ def evaluate_rim_over_faces(
             # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
             for j in range(int(n_faces)):
                 beyond = max(beyond, plane_height(faces, FACE * j, p))
-        beyond = past_of_rim(beyond - margin, radius, sine)
+        beyond -= margin
+        if height > own + sweep:
+            beyond = past_of_rim(beyond, radius, sine)
         if beyond < past:
             found, gap, past = i, height, beyond
-    own = frustum[SWEEP]
     gap = gap_past_end(gap - (own + sweep), past)
     n = vector_in_world(b, vector_at(faces, FACE * found))
     _, _, outward = across(opposite(n), axis)
