@@ -50,6 +50,8 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
     distance. If False, the forces are the last ones, as close to the cones as the steps have come.
     """
     n = ws.problem.n_unknown
+    if _is_out_of_reach(ws, n, allowed):
+        return False
     phi = _write_excess(ws, n, inset)
     for _ in range(_STEPS):
         if largest_size(ws.floats, ws.problem.right.start, n) <= allowed:
@@ -72,6 +74,26 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
         if phi < 0.0:
             return False
     return False
+
+
+@kernel("b1(ws, i8, f8)")
+def _is_out_of_reach(ws: Workspace, n: int, allowed: float) -> bool:
+    """True if friction within its bounds cannot cause the motion, where all normal forces are given.
+
+    Forces f of least norm are orthogonal to the null space. So all forces g of the same motion have f . g = |f|^2,
+    while forces inside the discs of friction have f . g <= sum mu f_n |f_t|. It is False if a normal force is unknown.
+    """
+    reach = 0.0
+    for i in range(n):
+        unknown = ws.unknowns[i]
+        active = ws.actives[unknown.contact]
+        if active.is_normal_force_unknown:
+            return False
+        if unknown.direction == FIRST_ROW:
+            size = length(active.friction)
+            # components may be outside by what is allowed, so friction by no more than twice that
+            reach += size * (active.static_coefficient * active.normal_force + 2.0 * allowed - size)
+    return reach < 0.0
 
 
 @kernel("f8(ws, i8, f8, f8, f8)")

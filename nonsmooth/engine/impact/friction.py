@@ -18,7 +18,7 @@ from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.search import find_modes
-from nonsmooth.engine.contact.trial import find_tried_forces
+from nonsmooth.engine.contact.trial import find_tried_forces, verify
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import GuardKind, guard_of
 from nonsmooth.engine.impact.rates import evaluate_impact_rates, slip_slope
@@ -167,7 +167,7 @@ def _find_modes(ws: Workspace) -> None:
         own = diagonal_block(ws, active.index)
         acceleration = max(own.nn, own.t11, own.t22) * active.given_force
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
-    if not (find_modes(ws, Solver.NEWTON) or find_modes(ws, Solver.GAUSS_SEIDEL)):
+    if not (verify(ws, is_lenient=False) or find_modes(ws, Solver.NEWTON) or find_modes(ws, Solver.GAUSS_SEIDEL)):
         _exchange_modes(ws)
     for active in ws.actives:
         active.sticks = active.mode_tried == Mode.STICK
