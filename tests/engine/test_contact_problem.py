@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from scipy.linalg import null_space
+from scipy.optimize import linprog
 
 from laws import Coulomb, Unilateral
 from nonsmooth.engine.memory import owners
@@ -241,3 +243,43 @@ def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int
         assert np.hypot(pull[:, 0], pull[:, 1]) == pytest.approx(FRICTION)
         across = pull[:, 0] * slip[:, 1] - pull[:, 1] * slip[:, 0]
         assert across == pytest.approx(0.0, abs=1e-12 * np.max(np.abs(problem.bias)))
+
+
+@pytest.mark.parametrize("n", [2, 3, 5])
+@pytest.mark.parametrize("side", [-1e-3, 1e-3])
+def test_given_normal_forces_hold_contacts_by_friction_if_any_of_its_distributions_does(n: int, side: float) -> None:
+    """Friction is redundant.  The least coefficient that holds all contacts is that of a linear program.
+
+    Next to the bound the search for a distribution may miss one in ten, as it stops after some steps.
+    """
+    n_held = 0
+    for seed in range(10):
+        random = np.random.default_rng(100 * n + seed)
+        jacobian, push = random.normal(size=(3 * n, 3)), random.normal(size=3)
+        delassus, normal = jacobian @ jacobian.T, 10.0 ** random.uniform(-1.0, 1.0, n)
+        along = np.arange(3 * n) % 3 > 0
+        sought = -(jacobian @ push + delassus[:, ~along] @ normal)[along]
+        start = np.linalg.lstsq(delassus[np.ix_(along, along)], sought, rcond=1e-9)[0]
+        null = null_space(delassus[np.ix_(along, along)], rcond=1e-9)
+        least = _least_coefficient(start, null, normal)
+        mu = np.full(n, least * (1.0 + side))
+        memory = _memory(delassus, (jacobian @ push).reshape(n, 3), mu, mu, np.zeros((n, 2)))
+        memory[owners.ActiveContact.has_given_force][:n] = 1
+        memory[owners.ActiveContact.given_force][:n] = normal
+        n_held += call_entry("verify", memory, False)
+    assert n_held >= 9 if side > 0.0 else n_held == 0
+
+
+def _least_coefficient(start: Any, null: Any, normal: Any) -> float:
+    """Return the least coefficient of friction at which some friction ``start + null z`` is within its bounds.
+
+    Discs are polygons of 360 sides, which are right to 4e-5.
+    """
+    angles = np.linspace(0.0, 2.0 * math.pi, 360, endpoint=False)
+    sides = np.column_stack([np.cos(angles), np.sin(angles)])
+    n, m = len(normal), null.shape[1]
+    rows = np.vstack([np.column_stack([sides @ null[2 * i : 2 * i + 2], np.full(360, -normal[i])]) for i in range(n)])
+    bounds = -np.concatenate([sides @ start[2 * i : 2 * i + 2] for i in range(n)])
+    found = linprog(np.append(np.zeros(m), 1.0), A_ub=rows, b_ub=bounds, bounds=[(None, None)] * (m + 1))
+    assert found.success
+    return float(found.x[-1])
