@@ -48,9 +48,7 @@ def test_no_rim_comes_over_a_border_before_the_bodies_have_moved_by_its_gap(buil
         # the whole rim is above the face
         sine, around = 10.0 ** rng.uniform(-5.5, -3.0), rng.uniform(0.0, 6.3)
         axis = np.array([np.cos(around), np.sin(around), 0.0])
-        place = np.array(
-            [*rng.uniform(-0.04, 0.04, 2), height + RADIUS - FOOT + RADIUS * sine * rng.uniform(1.0, 2.0)]
-        )
+        place = np.array([*rng.uniform(-0.04, 0.04, 2), height + RADIUS - FOOT + RADIUS * sine * rng.uniform(1.0, 2.0)])
         turning, shift = sine * rng.uniform(-1.0, 1.0, 2), RADIUS * sine * rng.uniform(-1.0, 1.0, 3)
         blocks = []
         for part in (0.0, 1.0):

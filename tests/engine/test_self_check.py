@@ -184,7 +184,7 @@ def test_contacts_that_nearly_repeat_each_other_move_nothing_far(angle: float) -
     y = memory[owners.Island.y][:7]
     y[2] -= 1e-12
     before = y.copy()
-    call_entry("project_closed", memory, 1, 0, 1)
+    call_entry("project_closed", memory, 1, 0)
     moved = np.linalg.norm((y - before)[:3])
     assert 1e-13 < moved < 1e-8
     assert np.linalg.norm(y[3:]) == pytest.approx(1.0, abs=1e-15)

@@ -66,7 +66,7 @@ def test_chain_costs_what_it_is_long(shuffled: bool) -> None:
     narrow = {}
     for n in (16, 64):
         memory = _started(_row(n, random.permutation(n) if shuffled else np.arange(n), False))
-        call_entry("project_closed", memory, 1, 0, 1)
+        call_entry("project_closed", memory, 1, 0)
         call_entry("right_hand_side", memory, 0.0, memory.start(owners.Island.y), 0, 1)
         narrow[n] = _sizes(memory)[2]
     assert narrow == {16: 1, 64: 1}

@@ -94,7 +94,7 @@ def end_averaging(ws: Workspace) -> None:
 
     The projection removes what the forces pushed too much. The event that follows finds what comes after the span.
     """
-    ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True, closes_gaps=True)
+    ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     # no span has an end
     ws.island.averaged_until = math.inf
 

@@ -56,22 +56,19 @@ from nonsmooth.engine.pairs.listing import list_touching, list_with, longest_ste
 from nonsmooth.engine.pairs.motion import bound_carriers
 
 
-@kernel("i8(ws, f8, b1)")
-def _commit(ws: Workspace, h: float, closes_gaps: bool) -> int:
-    """Accept the step of ``h`` [s] and record its samples. See :func:`_take_over`.
+@kernel("i8(ws, f8)")
+def _commit(ws: Workspace, h: float) -> int:
+    """Accept the step of ``h`` [s] and record its samples.
 
     Returns the number of bodies whose own step (multirate) ends with it.
     """
     record_samples(ws, h)
-    return _take_over(ws, h, closes_gaps)
+    return _take_over(ws, h)
 
 
-@kernel("i8(ws, f8, b1)")
-def _take_over(ws: Workspace, h: float, closes_gaps: bool) -> int:
+@kernel("i8(ws, f8)")
+def _take_over(ws: Workspace, h: float) -> int:
     """Accept the step of ``h`` [s]: set state and time to those at its end, and project on the constraints.
-
-    Gaps are closed only if asked for. An event closes them at the end of its instant. Before, that could move bodies
-    apart again that have just met.
 
     Returns the number of bodies whose own step (multirate) ends with it.
     """
@@ -85,7 +82,7 @@ def _take_over(ws: Workspace, h: float, closes_gaps: bool) -> int:
     if ended > 0:
         group_closed(ws)
     if has_drifted(ws):
-        ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False, closes_gaps=closes_gaps)
+        ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
     return ended
 
 
@@ -123,7 +120,7 @@ def _end_within(ws: Workspace) -> Status:
     ws.step.h = h
     if not try_step(ws, h) < math.inf:
         return Status.NOT_FINITE
-    _take_over(ws, h, closes_gaps=True)
+    _take_over(ws, h)
     return _arrived(ws)
 
 
@@ -165,8 +162,7 @@ def _listed_anew(ws: Workspace, which: int) -> int:
 def _meet(ws: Workspace, h: float) -> Status:
     """Accept the step of ``h`` [s], at whose end two parts meet, and carry out the event; return the status."""
     group = ws.pairs[ws.step.meeting].group
-    # with gaps that have drifted, a face of the other body that is flush with the one below would take part
-    _commit(ws, h, closes_gaps=True)
+    _commit(ws, h)
     ws.island.follows_a_step = False
     status = list_with(ws, group)
     if status != Status.RUNNING:
@@ -293,7 +289,7 @@ def _without_step(ws: Workspace, status: Status) -> Status:
         which = find_feature_end(ws)
         if which >= 0:
             changed = has_other_features(ws, ws.contacts[which])
-            _take_over(ws, ws.step.h, closes_gaps=False)
+            _take_over(ws, ws.step.h)
             return _pass_on(ws, which, changed)
         which = most_loaded_contact(ws, sliding=True)
         if which >= 0:
@@ -314,7 +310,7 @@ def _after_leap(ws: Workspace) -> Status:
     If the jump released a contact, its event is carried out.
     """
     ws.step.h, ws.island.follows_a_step = ws.tolerance.time, False
-    _take_over(ws, ws.step.h, closes_gaps=True)
+    _take_over(ws, ws.step.h)
     cause, which = NO_RELEASE, -1
     for contact in ws.contacts:
         if contact.mode != Mode.OPEN and contact.release != NO_RELEASE and which < 0:
@@ -338,7 +334,7 @@ def _whole_step(ws: Workspace) -> Status:
     which = contact_past_flat_place(ws)
     if which >= 0 and ws.step.h > ws.tolerance.time:
         return _in_part(ws)
-    ended = _commit(ws, ws.step.h, closes_gaps=True)
+    ended = _commit(ws, ws.step.h)
     if ws.step.is_blended:
         ws.island.last_choice = ws.island.time
     if which >= 0:
@@ -393,15 +389,15 @@ def _event(ws: Workspace, h: float, guard: int) -> Status:
     if guard >= first_end_guard(ws):
         which = guard - first_end_guard(ws)
         changed = has_other_features(ws, ws.contacts[which])
-        _commit(ws, h, closes_gaps=False)
+        _commit(ws, h)
         return _pass_on(ws, which, changed)
     if guard >= first_user_guard(ws):
-        _commit(ws, h, closes_gaps=False)
+        _commit(ws, h)
         return _own_event(ws, guard - first_user_guard(ws))
     cause, which = cause_of(ws, guard), contact_of(ws, guard)
     if cause == Cause.STICK_TO_SLIP:
         _break_direction(ws, which)
-    _commit(ws, h, closes_gaps=False)
+    _commit(ws, h)
     if is_of_redundant_force(ws, guard) and choose_forces_again(ws):
         return Status.RUNNING
     return _carry_out(ws, cause, which)

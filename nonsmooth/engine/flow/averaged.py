@@ -32,7 +32,7 @@ def end_averaging_span(ws: Workspace) -> None:
     for contact in ws.contacts:
         if contact.is_averaged and contact.mode != Mode.OPEN:
             contact.mode = contact.mode_after_averaging
-    ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True, closes_gaps=True)
+    ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     for contact in ws.contacts:
         # the projection has closed the gaps, so none has to come to rest
         contact.mean_gap_change = 0.0

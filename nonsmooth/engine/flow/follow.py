@@ -256,7 +256,7 @@ def _end_step(ws: Workspace) -> None:
         end_averaging_span(ws)
         start_averaging_span(ws, follows=True)
     else:
-        ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False, closes_gaps=True)
+        ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
 
 
 @kernel("b1(ws)")

@@ -314,12 +314,11 @@ def _displace(ws: Workspace) -> None:
     normalise_quaternions(ws)
 
 
-@entry_point("f8(ws, b1, b1, b1)")
-def project_closed(ws: Workspace, at_event: bool, averaged: bool, closes_gaps: bool) -> float:
+@entry_point("f8(ws, b1, b1)")
+def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
     """Put the closed contacts on their constraints, gap and rates zero, island by island. Energy that this removes [J].
 
     If ``averaged``, the islands with forces averaged over time are projected, at the end of their span; else the rest.
-    Unless it ``closes_gaps``, no body is moved.
     Kinetic energy is always counted. The potential energy of closed gaps counts at an event only: after a step it is an
     error of the step, which is in no account. Coordinates and velocities in ``y`` change.
     """
@@ -335,7 +334,7 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool, closes_gaps: b
         activate_group(ws, group)
         if is_averaged(ws) != averaged:
             continue
-        projected = _project_active(ws, at_event, closes_gaps)
+        projected = _project_active(ws, at_event)
         loss += projected.loss
         has_moved = projected.has_moved or has_moved
     if has_moved:
@@ -348,9 +347,9 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool, closes_gaps: b
     return loss
 
 
-@kernel("Projected(ws, b1, b1)")
-def _project_active(ws: Workspace, at_event: bool, closes_gaps: bool) -> Projected:
-    """Project the rates of the active contacts, and add the velocities that close their gaps to ``y_stage`` if asked.
+@kernel("Projected(ws, b1)")
+def _project_active(ws: Workspace, at_event: bool) -> Projected:
+    """Project the rates of the active contacts, and add the velocities that close their gaps to ``y_stage``.
 
     Result: kinetic energy that was removed, and whether velocities were added. Nothing is projected if a contact is
     past the end of its feature, or if its features have changed in the step: its rate is then the rate of another gap.
@@ -364,11 +363,11 @@ def _project_active(ws: Workspace, at_event: bool, closes_gaps: bool) -> Project
     # at an event a slow slip is removed too, which needs the tangential rows
     if not at_event and _is_lone_slip(ws):
         # without a gap the velocities are zero, and displace nothing
-        return Projected(_project_lone_slip(ws), closes_gaps)
+        return Projected(_project_lone_slip(ws), True)
     for active in ws.actives:
         evaluate_jacobian(ws, active.contact)
     loss = project_rates(ws, at_event)
-    return Projected(loss, closes_gaps and _add_gaps(ws))
+    return Projected(loss, _add_gaps(ws))
 
 
 @entry_point()
