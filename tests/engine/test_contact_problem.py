@@ -246,17 +246,16 @@ def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int
 
 
 @pytest.mark.parametrize("n", [2, 3, 5])
+@pytest.mark.parametrize("decades", [1.0, 3.0])
 @pytest.mark.parametrize("side", [-1e-3, 1e-3])
-def test_given_normal_forces_hold_contacts_by_friction_if_any_of_its_distributions_does(n: int, side: float) -> None:
-    """Friction is redundant.  The least coefficient that holds all contacts is that of a linear program.
-
-    Next to the bound the search for a distribution may miss one in ten, as it stops after some steps.
-    """
-    n_held = 0
+def test_contacts_stick_by_redundant_friction_if_any_of_its_distributions_holds_them(
+    n: int, decades: float, side: float
+) -> None:
+    """Friction is redundant.  The least coefficient that holds all contacts is that of a linear program."""
     for seed in range(10):
         random = np.random.default_rng(100 * n + seed)
         jacobian, push = random.normal(size=(3 * n, 3)), random.normal(size=3)
-        delassus, normal = jacobian @ jacobian.T, 10.0 ** random.uniform(-1.0, 1.0, n)
+        delassus, normal = jacobian @ jacobian.T, 10.0 ** random.uniform(-decades, decades, n)
         along = np.arange(3 * n) % 3 > 0
         sought = -(jacobian @ push + delassus[:, ~along] @ normal)[along]
         start = np.linalg.lstsq(delassus[np.ix_(along, along)], sought, rcond=1e-9)[0]
@@ -266,8 +265,7 @@ def test_given_normal_forces_hold_contacts_by_friction_if_any_of_its_distributio
         memory = _memory(delassus, (jacobian @ push).reshape(n, 3), mu, mu, np.zeros((n, 2)))
         memory[owners.ActiveContact.has_given_force][:n] = 1
         memory[owners.ActiveContact.given_force][:n] = normal
-        n_held += call_entry("verify", memory, False)
-    assert n_held >= 9 if side > 0.0 else n_held == 0
+        assert call_entry("verify", memory, False) == (side > 0.0)
 
 
 def _least_coefficient(start: Any, null: Any, normal: Any) -> float:

@@ -50,8 +50,6 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
     distance. If False, the forces are the last ones, as close to the cones as the steps have come.
     """
     n = ws.problem.n_unknown
-    if _is_out_of_reach(ws, n, allowed):
-        return False
     phi = _write_excess(ws, n, inset)
     for _ in range(_STEPS):
         if largest_size(ws.floats, ws.problem.right.start, n) <= allowed:
@@ -76,26 +74,6 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
     return False
 
 
-@kernel("b1(ws, i8, f8)")
-def _is_out_of_reach(ws: Workspace, n: int, allowed: float) -> bool:
-    """True if friction within its bounds cannot cause the motion, where all normal forces are given.
-
-    Forces f of least norm are orthogonal to the null space. So all forces g of the same motion have f . g = |f|^2,
-    while forces inside the discs of friction have f . g <= sum mu f_n |f_t|. It is False if a normal force is unknown.
-    """
-    reach = 0.0
-    for i in range(n):
-        unknown = ws.unknowns[i]
-        active = ws.actives[unknown.contact]
-        if active.is_normal_force_unknown:
-            return False
-        if unknown.direction == FIRST_ROW:
-            size = length(active.friction)
-            # components may be outside by what is allowed, so friction by no more than twice that
-            reach += size * (active.static_coefficient * active.normal_force + 2.0 * allowed - size)
-    return reach < 0.0
-
-
 @kernel("f8(ws, i8, f8, f8, f8)")
 def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: float) -> float:
     """Make the longest step along ``x`` that decreases phi sufficiently. Returns the new phi [N^2], or -1 if none does.
@@ -113,6 +91,29 @@ def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: f
             return new
         step_length *= 0.5
     return -1.0
+
+
+@kernel("b1(ws, f8)")
+def is_out_of_reach(ws: Workspace, allowed: float) -> bool:
+    """True if no friction with this motion is within its bounds by ``allowed`` [N], where all normal forces are given.
+
+    The forces f must be those of least norm, which are orthogonal to the null space. So all forces g with the same
+    motion have f . g = |f|^2, while friction g_t within its bounds has f . g <= sum mu f_n |f_t|. It is False if a
+    normal force is unknown, or if the null space is banded, where f is less exact. Then :func:`distribute` decides.
+    """
+    if ws.problem.is_null_space_banded:
+        return False
+    reach = 0.0
+    for i in range(ws.problem.n_unknown):
+        unknown = ws.unknowns[i]
+        active = ws.actives[unknown.contact]
+        if active.is_normal_force_unknown:
+            return False
+        if unknown.direction == FIRST_ROW:
+            size = length(active.friction)
+            # each of two components may be outside by what is allowed
+            reach += size * (active.static_coefficient * active.normal_force + 2.0 * allowed - size)
+    return reach < 0.0
 
 
 # --- the distance to the cones ----------------------------------------------------------------------------------------

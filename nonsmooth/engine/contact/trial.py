@@ -16,9 +16,10 @@ the summands cancel each other and leave round-off of their own size.
 
 from __future__ import annotations
 
+import math
 from enum import IntEnum
 
-from nonsmooth.engine.contact.distribution import distribute
+from nonsmooth.engine.contact.distribution import distribute, is_out_of_reach
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.delassus.delassus import acceleration, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
@@ -32,7 +33,7 @@ NO_FORCE = 1e-9
 _SHARED_ROUND_OFF = 1e-5
 """Part of the zero force of the island that counts as zero in each contact: round-off of large forces reaches all."""
 _DISTRIBUTED = 0.1
-"""Distance of redundant forces to their cones, in zero forces, at which they count as distributed."""
+"""Distance of redundant forces to their cones, relative to the least zero force, at which they count as distributed."""
 EQUAL = 1e3
 """Acceleration, in zero accelerations, that still shows a contact at rest. More contacts than can stick independently
 disagree by so much."""
@@ -128,14 +129,34 @@ def check_laws(ws: Workspace, is_lenient: bool) -> bool:
     same motion, if there are any within the bounds.
     """
     verdict = _check(ws, is_lenient)
-    # no distance inside the cones (inset 0) is needed
-    if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, inset=0.0, allowed=_DISTRIBUTED * ws.problem.small_force):
-        # distribution moves normal forces, and with them the friction of sliding contacts
-        for active in ws.actives:
-            if active.mode_tried == Mode.SLIDE:
-                friction_of_slip(ws, active.index)
-        verdict = _check(ws, is_lenient)
-    return verdict == Verdict.FULFILLED
+    if verdict != Verdict.REDISTRIBUTABLE:
+        return verdict == Verdict.FULFILLED
+    # what the check of the smallest force allows
+    allowed = _DISTRIBUTED * _least_small_force(ws)
+    if is_out_of_reach(ws, allowed):
+        return False
+    # no distance inside the cones (inset 0) is needed; the forces come as close as they can, and the check decides
+    distribute(ws, inset=0.0, allowed=allowed)
+    # distribution moves normal forces, and with them the friction of sliding contacts
+    for active in ws.actives:
+        if active.mode_tried == Mode.SLIDE:
+            friction_of_slip(ws, active.index)
+    return _check(ws, is_lenient) == Verdict.FULFILLED
+
+
+@kernel("f8(ws)")
+def _least_small_force(ws: Workspace) -> float:
+    """Least force that counts as zero, of the active contacts whose forces are redundant [N].
+
+    Friction of least norm may be far larger than its bound. So a given normal force sets the scale of its contact.
+    """
+    least = math.inf
+    for active in ws.actives:
+        if active.has_redundant_force and active.is_normal_force_unknown:
+            least = min(least, small_force(ws, active.index))
+        elif active.has_redundant_force:
+            least = min(least, NO_FORCE * active.normal_force + _SHARED_ROUND_OFF * ws.problem.small_force)
+    return least
 
 
 @kernel("Verdict(ws, b1)")
