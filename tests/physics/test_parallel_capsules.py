@@ -120,5 +120,6 @@ def test_a_capsule_tips_from_one_end_onto_its_crossing(tilt: float, angle: float
     )
     solution = ns.simulate(system, 2.0 * tilt / 0.1)
     assert solution.status == "done"
+    # the first contact of two capsules is that of their sides, where the axes cross
     touched = [solution.system.contacts[int(k)].name for k in solution.events.contact if k >= 0]
     assert "(1)" in touched[0]

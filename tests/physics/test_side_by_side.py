@@ -1,8 +1,6 @@
-"""Two round cylinders that stand or fly side by side: their sides touch along a line."""
+"""Two round cylinders side by side: their sides touch along a line."""
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 import pytest
@@ -10,10 +8,6 @@ import pytest
 import nonsmooth as ns
 from bodies import CylinderBody
 from laws import EnergeticImpact, Frictionless, Unilateral
-
-
-def _laws(restitution: float) -> dict[str, Any]:
-    return {"normal": Unilateral(), "friction": Frictionless(), "impact": EnergeticImpact(restitution)}
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-7, 1e-6, 2e-6, 5e-6, 2e-5])
@@ -26,7 +20,7 @@ def test_cylinders_collide_with_their_sides(angle: float) -> None:
     size = 0.02
     one, two = CylinderBody(size, size, rounding=0.1 * size), CylinderBody(size, size, rounding=0.1 * size)
     system = ns.System([one, two], gravity=0.0)
-    system.contact(one, two, **_laws(0.0))
+    system.contact(one, two, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.0))
     system.place(one, velocity=(0.0, 1.47, 0.0))
     turned = ns.turned_about((0.0, 1.0, 0.0), angle)
     system.place(two, position=(-1e-12, 2.0 * size + 8.9e-3, 0.0), orientation=turned)

@@ -142,7 +142,8 @@ def past_of_rim(past: float, radius: float, sine: float) -> float:
     ``past`` is the distance of the point past the border [m], and the result if it is negative.  ``sine`` is that of
     the angle between the rim and the face.  If the bodies turn by an angle, the point moves round the rim by up to this
     angle over the sine.  So it may come from afar while the bodies hardly move.  This length is for bodies that are
-    apart, whose contacts are sought.  Where they touch, the distance itself tells whether the contact ends.
+    apart, whose contacts are sought.  Where they touch, the distance itself tells whether the contact ends.  Below
+    ``PARALLEL`` the sine counts as this: the length must be positive past the border.
     """
     return past if past <= 0.0 or radius == 0.0 else max(sine, PARALLEL) * min(past, radius)
 

@@ -81,7 +81,8 @@ def evaluate_rim_over_cap(
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
     if radius > 0.0 and sine < FLATTEST:
-        # if no foot is over the cap, a flat rim touches it on the line of centres, in an area that is more than a point
+        # if no foot is over the cap, a flat rim touches it on the line of centres, in an area that is more than a
+        # point. This place moves no faster than the bodies
         _, _, outward = across(minus(place, middle), axis)
         margin, sine = -4.0 * CLOSED, 1.0
     p = ahead(middle, radius, outward)

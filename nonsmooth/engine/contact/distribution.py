@@ -6,7 +6,8 @@ same motion. The half squared distance to the cones,
     phi(f) = sum over the contacts of |f - (projection of f on the cone)|^2 / 2,
 
 is convex and has a continuous slope. Newton's method minimises it along the null space, with a line search. Forces
-exist if and only if the minimum is zero. To find forces at a distance inside the cones, the cones are moved along their
+exist if and only if the minimum is zero. Where all normal forces are given, a sum often shows at once that there are
+none (:func:`is_out_of_reach`). To find forces at a distance inside the cones, the cones are moved along their
 axes.
 
 Linear programming would need polygons in place of the discs of friction. A projection method (alternating between cones

@@ -6,8 +6,8 @@ form; an island within an implicit step, with friction against the slip at the e
 equations of their sticking and sliding contacts. No inequality is solved here: the guards find the time at which a mode
 ends.
 
-The state ends with four energy accounts, whose rates are powers: of driven bodies, of friction, of all that is
-exchanged, and of loads.
+The state ends with five energy accounts, whose rates are powers: of driven bodies, of friction, of all that is
+exchanged, of loads, and of normal forces of the time-stepping fallback.
 """
 
 from __future__ import annotations
@@ -290,11 +290,11 @@ def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool)
 
 @kernel("v2(ws)")
 def _powers_lost(ws: Workspace) -> Pair:
-    """Powers that the closed contacts take from the bodies: by friction, and by forces of the fallback [W].
+    """Powers lost in the closed contacts: by friction, and by normal forces of the time-stepping fallback [W].
 
     A contact that sticks dissipates nothing, unless its averaged forces act while it slips within their span. Averaged
-    normal forces take force times rate, not force times change of the gap: the gap jumps where features change. It is
-    negative if a force pushes while its gap opens. The work of compliant contacts is no loss.
+    normal forces take force times gap rate, not force times change of the gap: the gap jumps where features change.
+    Their power lost is negative if a force pushes while its gap opens. The work of compliant contacts is no loss.
     """
     friction, closing = 0.0, 0.0
     for i in range(ws.island.n_grouped):

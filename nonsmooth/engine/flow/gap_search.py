@@ -313,7 +313,7 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
 
 @kernel("b1(ws, ContactRecord)")
 def _may_face_between(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if the features of an open rigid contact face each other at neither end of the step, but may in between.
+    """True if the features of an open rigid contact face each other at no end of the step, but may do so within it.
 
     They are features of neighbours whose gap is not among those that may close in the step.
     """

@@ -135,10 +135,7 @@ def evaluate_motion(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, f8, i8)")
 def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Evaluate the ballistic bodies of the gaps that may close in the step, at time ``t`` [s] and state ``y``.
-
-    These gaps are in two lists: of features that face each other, and of features that do not.
-    """
+    """Evaluate the ballistic bodies of the gaps that may close in the step, at time ``t`` [s] and state ``y``."""
     for i in range(ws.step.n_may_close):
         _evaluate_ballistic_bodies_of(ws, t, y, ws.contacts[ws.step.may_close[i]])
 
