@@ -31,7 +31,7 @@ from ...shapes.frustum import (
 )
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Polytope
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, vector_at
+from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, times, vector_at
 from ..features.edge_crossing import PARALLEL
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
@@ -203,15 +203,19 @@ def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vec
 
 @compiled
 def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
-    """Return the largest separation of two frustums along three directions of the second [m].
+    """Return the largest separation of two frustums along directions of the second [m].
 
-    They are its axis, the opposite of it, and the part across the axis of the line from the first centre to the second.
+    They are its axis, the opposite of it, the part across the axis of the line from the first centre to the second, and
+    the normal of its side there.
     """
     axis = axis_in_world(b, second)
     _, _, sideways = across(minus(center_in_world(b, second), center_in_world(a, first)), axis)
     best = separation_along(a, first, b, second, axis)
     best = max(best, separation_along(a, first, b, second, opposite(axis)))
-    return float(max(best, separation_along(a, first, b, second, sideways)))
+    best = max(best, separation_along(a, first, b, second, sideways))
+    if second[SIN] != 0.0:
+        best = max(best, separation_along(a, first, b, second, ahead(times(second[COS], sideways), -second[SIN], axis)))
+    return float(best)
 
 
 @compiled
