@@ -124,6 +124,8 @@ class Checkpoint:
         else:
             for numbers, kept in zip(memory.kept, self.parts, strict=True):
                 numbers[:] = kept
+        # the distances to the tables may be those of another number of slots
+        memory.refer_to_tables()
         # a memory that has grown has lost the parameters
         if n_slots < self.n_slots or not np.array_equal(active, _active(memory)):
             _copy_parameters(memory)

@@ -47,7 +47,7 @@ def _parameters(memory: Memory) -> Iterator[np.ndarray]:
     # what a run writes
     blocks[memory.written] = 0.0
     # numbers that refer to tables: in the memory of a copy they are other distances
-    blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
+    blocks[memory.references[:, 0] - memory.blocks] = 0.0
     yield blocks
     # the tables, which a copy of a model reads in the memory of the original
     yield memory.table_numbers

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, Plate, Rest
-from laws import Bristle, EnergeticImpact, HuntCrossley, RateAndState, Unilateral
+from bodies import Ball, BoxBody, Plate, Rest
+from laws import Bristle, Coulomb, EnergeticImpact, HuntCrossley, RateAndState, Unilateral
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
 from nonsmooth.plugins import registry
@@ -76,6 +76,23 @@ def test_inner_states_of_laws_go_on(laws: str) -> None:
         before = model.run(t_end)
         assert lost_by_stopping(whole, before, model.run(0.08, start=before.state)) == []
     assert np.any(before.state.law_states != 0.0)
+
+
+@pytest.mark.parametrize("columns", [1, 4])
+def test_boxes_whose_memory_has_grown_go_on(columns: int) -> None:
+    """Columns of two boxes fall on each other: few or many features, with tables behind a memory that grows."""
+    plate, boxes = Plate(Rest()), [BoxBody(0.01, 0.01, 0.01) for _ in range(2 * columns)]
+    system = ns.System([plate, *boxes])
+    for i, box in enumerate(boxes):
+        for other in (plate, *boxes[:i]):
+            system.contact(other, box, normal=Unilateral(), friction=Coulomb(0.5), impact=EnergeticImpact(0.3))
+        floor = i // columns
+        turn = ns.turned_about((1.0, 2.0, 3.0), 1e-3 * (i + 1))
+        system.place(box, position=(0.021 * (i % columns), 0.0, 0.01 + 0.021 * (floor + 1)), orientation=turn)
+    model = ns.assemble(system)
+    whole, before = model.run(0.1), model.run(0.03)
+    assert len(before.events) < len(whole.events)
+    assert lost_by_stopping(whole, before, model.run(0.1, start=before.state)) == []
 
 
 @final

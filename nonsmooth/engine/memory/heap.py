@@ -85,12 +85,12 @@ class Heap:
         written = np.zeros(len(self._values), bool)
         for starts, size in self._written:
             written[starts[:, None] + np.arange(size)] = True
-        references = tuple((place, start, offsets[id(table)]) for place, start, table in self._references)
+        references = [(place, start, offsets[id(table)]) for place, start, table in self._references]
         made = replace(
             old,
             scalars=old.scalars.copy(),
             slots=self._first + len(self._values),
-            references=references,
+            references=np.reshape(references, (-1, 3)).astype(int),
             written=written,
         )
         numbers = [np.zeros(0), *(np.asarray(table.numbers) for table in tables.values())]

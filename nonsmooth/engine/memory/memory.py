@@ -80,9 +80,9 @@ class Memory:
         The arrays of integers, last those that grow with the number of slots.
     blocks, slots : int
         Offsets in ``floats`` of the blocks that the assembly appended, and of the arrays behind them.
-    references : tuple
+    references : array
         For every table that a function reads: the offset of a number that is the distance to the table, the offset from
-        which the distance counts, and that of the table behind the first table.
+        which the distance counts, and that of the table behind the first table; shape [n, 3].
     written : array
         For each number of the blocks, True if the engine or a plug-in writes it, False for a parameter.
     own : tuple of type
@@ -96,7 +96,7 @@ class Memory:
     integers: np.ndarray
     blocks: int
     slots: int
-    references: tuple[tuple[int, int, int], ...] = ()
+    references: np.ndarray = field(default_factory=lambda: np.zeros((0, 3), int))
     written: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
     own: tuple[type[Singleton], ...] = ()
     foreign_tables: np.ndarray | None = None
@@ -262,10 +262,16 @@ class Memory:
             first, second, n = old.start(one), self.start(one), min(length, length_of(one, counts))
             target[second : second + n] = source[first : first + n]
         self._write_slots(old.counts["n_slots"])
-        # each function finds its table by the distance [floats] from its parameters
+        self.refer_to_tables()
+
+    def refer_to_tables(self) -> None:
+        """Write the numbers by which functions find their tables: the distances [floats] from their parameters.
+
+        They differ in memories with different numbers of slots, or with tables in another memory.
+        """
         distance = (self.table_numbers.ctypes.data - self.floats.ctypes.data) // self.floats.itemsize
-        for place, start, table in self.references:
-            self.floats[place] = distance + table - start
+        places, starts, tables = self.references.T
+        self.floats[places] = distance + tables - starts
 
     def _write_layout(self, counts: Counts) -> None:
         """Write the counts that follow from the number of slots, and the offsets of the arrays with such lengths."""
