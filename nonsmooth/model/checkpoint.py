@@ -124,6 +124,8 @@ class Checkpoint:
         else:
             for numbers, kept in zip(memory.kept, self.parts, strict=True):
                 numbers[:] = kept
+        # the blocks of the checkpoint hold the distances of the tables from where its floats were
+        memory.write_references()
         # a memory that has grown has lost the parameters
         if n_slots < self.n_slots or not np.array_equal(active, _active(memory)):
             _copy_parameters(memory)

@@ -262,7 +262,13 @@ class Memory:
             first, second, n = old.start(one), self.start(one), min(length, length_of(one, counts))
             target[second : second + n] = source[first : first + n]
         self._write_slots(old.counts["n_slots"])
-        # each function finds its table by the distance [floats] from its parameters
+        self.write_references()
+
+    def write_references(self) -> None:
+        """Write the distance to each table, by which the function that reads the table finds it [floats].
+
+        It depends on the address of the floats and on the number of slots, so blocks of another time hold other ones.
+        """
         distance = (self.table_numbers.ctypes.data - self.floats.ctypes.data) // self.floats.itemsize
         for place, start, table in self.references:
             self.floats[place] = distance + table - start
