@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import BoxBody
+from bodies import BoxBody, MeshBody, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.model import broad_phase
 from nonsmooth.runs.so_far import RunSoFar
+from tests.bodies.meshes.parts import bracket
 from tests.runs.continued import differences, lost_by_stopping
 
 T_END = 0.4
@@ -50,6 +51,16 @@ def few(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def grown() -> ns.Solution:
     return ns.simulate(_boxes(), T_END)
+
+
+def _brackets() -> ns.System:
+    """Three brackets far apart that fly together; the functions of their contacts read the mesh from a table."""
+    bodies = [MeshBody(Triangles(*bracket()), density=1000.0) for _ in range(3)]
+    system = ns.System(bodies, gravity=0.0)
+    for body, x in zip(bodies, (-0.1, 0.0, 0.1), strict=True):
+        system.place(body, position=(x, 0.1 * x, 0.0), velocity=(-10.0 * x, 0.0, 0.0), angular_velocity=(1.0, 2.0, 3.0))
+    system.contact_all(ns.ContactLaws(Unilateral(), Coulomb(0.3), EnergeticImpact(0.5)))
+    return system
 
 
 def _n_slots(model: ns.Model) -> int:
@@ -92,6 +103,23 @@ def test_a_run_cut_off_after_its_memory_grew_is_resumed(grown: ns.Solution, tmp_
         ns.assemble(_boxes()).run(T_END, output=tmp_path / "run", until=stop)
     resumed = ns.assemble(_boxes()).resume(tmp_path / "run", until=lambda run: False)
     np.testing.assert_array_equal(resumed.q_end, grown.q_end)
+
+
+def test_a_grown_memory_finds_the_tables_of_meshes() -> None:
+    """The same memory, and a copy of it, run again from the start; each function finds its table by a distance."""
+    model = ns.assemble(_brackets())
+    other, before, t_end = model.copy(), model._blank.n_slots, 0.15
+    first = model.run(t_end)
+    assert _n_slots(model) > before
+    assert len(first.events) > 1
+    for again in (model, other, other):
+        assert differences(first, again.run(t_end)) == []
+        # the references of the blank memory and of the grown one are to the same numbers
+        memory = again._laid.memory
+        for place, start, number in memory.references:
+            distance = int(memory.floats[place])
+            address = memory.floats.ctypes.data + 8 * (start + distance)
+            assert address == memory.table_numbers.ctypes.data + 8 * number
 
 
 def test_histories_of_a_grown_run_are_read_in_a_small_memory(grown: ns.Solution) -> None:

@@ -27,7 +27,7 @@ from laws import (
     RateAndState,
     Unilateral,
 )
-from nonsmooth.engine.memory.modes import Cause
+from nonsmooth.engine.memory.modes import Cause, Mode
 from nonsmooth.parameters import UnusualValue
 from tests.physics.moved_systems import quaternion
 
@@ -162,6 +162,49 @@ def test_a_ball_lands_on_its_axis(law: Any, impact: Any) -> None:
         assert np.any(solution.events.impulse[:, 0, 0] > 0.0)
         ends.append(np.concatenate([turn.inv().apply(solution.q_end[:3]), turn.inv().apply(solution.u_end[:3])]))
     np.testing.assert_allclose(ends[0], ends[1], rtol=0, atol=1e-9)
+
+
+def _ball_up_a_slope(law: Directional, slope: float, speed: float, t_end: float) -> ns.Solution:
+    """Run a ball that slides up a slope without spin; most steps as of a motion without a creep in time."""
+    plate, ball = Plate(Rest(slope=slope)), Ball(RADIUS)
+    system = ns.System([plate, ball], G)
+    system.contact(plate, ball, **_rigid(law))
+    normal = np.array([math.sin(slope), 0.0, math.cos(slope)])
+    up = np.array([-math.cos(slope), 0.0, math.sin(slope)])
+    system.place(ball, position=tuple(RADIUS * normal), velocity=tuple(speed * up))
+    return ns.assemble(system).run(t_end, most_steps=4000)
+
+
+@pytest.mark.parametrize("angle", [0.3, 0.7])
+def test_a_slip_stops_where_friction_the_other_way_is_strong(angle: float) -> None:
+    """A slip against the fur is stopped in finite time, and the fur then holds: the ball rolls from that event on.
+
+    Its slip obeys v' = g_t + 7/2 T(v) / m until it stops, off both axes of the law.
+    """
+    slope, speed, t_end = 0.3, 0.3, 0.12
+    law = Directional(1.0, 0.01, 0.8, axis=(math.cos(angle), math.sin(angle), 0.0), body="first")
+    solution = _ball_up_a_slope(law, slope, speed, t_end)
+    assert solution.status == "done"
+    # x of the plate is down the slope
+    pull, load = np.array([G * math.sin(slope), 0.0]), 3.5 * G * math.cos(slope)
+
+    def slow(t: float, v: np.ndarray) -> float:
+        return float(np.linalg.norm(v)) - 1e-5
+
+    slow.terminal = True  # type: ignore[attr-defined]
+    start = np.array([-speed, 0.0])
+    path = solve_ivp(
+        lambda t, v: pull + load * _along(law, v, angle),
+        (0.0, t_end),
+        start,
+        "LSODA",
+        events=slow,
+        rtol=1e-9,
+        atol=1e-12,
+    )
+    stops = solution.events.time[solution.events.cause == Cause.SLIP_TO_STICK]
+    assert stops == pytest.approx([path.t_events[0][0]], abs=1e-5)
+    assert solution.history("mode")["mode"][-1] == [Mode.STICK]
 
 
 @pytest.mark.parametrize("excess", [-1e-6, 1e-6])

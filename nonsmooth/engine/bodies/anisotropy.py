@@ -47,7 +47,9 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     e1, e2 = _projected_axis(ws, contact, t1, t2)
     v1, v2 = contact.slip_of_tangents
     forward = e1 * v1 + e2 * v2
-    if contact.mode != Mode.STICK and abs(forward) > ws.tolerance.velocity:
+    # in the stages of an implicit step the slip at the end of the stage, which is found later, sets the facing
+    is_known = contact.mode != Mode.STICK and ws.problem.stage_time == 0.0
+    if is_known and abs(forward) > ws.tolerance.velocity:
         contact.facing = 1 if forward > 0.0 else -1
     along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
     # (e1, e2) is the law's axis in components along t1 and t2; (-e2, e1) is the direction across it

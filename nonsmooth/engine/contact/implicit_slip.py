@@ -249,15 +249,20 @@ def _solve_lone_slip(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _turn_facings(ws: Workspace) -> bool:
-    """Set the facing (side from which slip is opposed) of anisotropic friction that stops a slip, by its own force.
+    """Set the facing (side from which slip is opposed) of anisotropic friction by its own force.
 
-    The facing sets its bound. It concerns the force along t1, the axis of the law. True if a bound changes by this, so
-    that the forces must be found again.
+    The facing sets the bound, of a slip that friction stops and of one that goes on. It concerns the force along t1,
+    the axis of the law. A slip across the axis has either facing, with the same force. True if a bound changes by this,
+    so that the forces must be found again.
     """
     has_turned = False
     for active in ws.actives:
-        if ws.contacts[active.contact].mode == Mode.SLIDE and active.mode_tried == Mode.STICK:
-            has_turned = turn_facing(ws, active.contact, active.force[FIRST_ROW]) or has_turned
+        if ws.contacts[active.contact].mode != Mode.SLIDE or active.mode_tried == Mode.OPEN:
+            continue
+        along = active.force[FIRST_ROW]
+        # the direction of a slip is known up to round-off
+        if active.mode_tried == Mode.STICK or abs(along) > EXACT * length(active.friction):
+            has_turned = turn_facing(ws, active.contact, along) or has_turned
     return has_turned
 
 

@@ -68,10 +68,15 @@ def part_before_stop(ws: Workspace, h: float) -> float:
     """
     part, negligible = 1.0, NEGLIGIBLE * ws.tolerance.velocity
     for contact in ws.contacts:
+        # friction that stops a slip sets it to exactly zero
+        if not _has_coulomb_slip(contact) or contact.slip != (0.0, 0.0):
+            continue
         # the slip at the end of the last step is the one at the start of this step
-        has_slip = _has_coulomb_slip(contact)
-        if has_slip and length(contact.slip) <= negligible and length(contact.slip_at_end) > negligible:
+        if length(contact.slip_at_end) > negligible:
             part = min(part, _part_before_stop_of(ws, contact, h))
+        else:
+            # it had stopped before this step, up to round-off
+            ws.step.halting_contact = contact.index
     return part
 
 
