@@ -36,7 +36,8 @@ def solve_cone(
     - P_T - base_T lies in the disc of radius mu (P_N - base_N).  If xi_T is not 0, it lies on the edge of the disc,
       opposite to xi_T.
 
-    With ``shift`` 0, as in an inelastic impact, a solution always exists.
+    With ``shift`` 0, as in an inelastic impact, a solution exists unless driven bodies squeeze a free one: unless some
+    impulses in the cones move nothing, and no rates after the impact stop the approach along them.
 
     Parameters
     ----------
@@ -125,6 +126,7 @@ def solve_rebound(n: int, delassus: Floats, rates: Floats, shift: Floats, out: F
     ``shift`` [m/s] sets the rebound.  The conditions of :func:`solve_cone` hold for the rates after the impact plus
     this shift, which is e times the rates before the impact in Newton's law.  A wedged body has no such solution: the
     impulse that opens one contact compresses another one.  The impact is then solved with ``shift`` 0, as inelastic.
+    If that has no solution, either, the first impulse is nan, and the run names the squeezed body.
     """
     none, least = np.zeros(3 * n), np.zeros(n)
     for i in range(3 * n):

@@ -1,7 +1,8 @@
 """The contact problem with pyramids in place of Coulomb's cones, solved by Lemke's method.
 
 With pyramids it is a linear complementarity problem (Stewart and Trinkle, Anitescu and Potra).  Lemke's method ends at
-a solution, or on a ray if there is none.  The problem of an inelastic impact always has a solution.
+a solution, or on a ray if there is none.  The problem of an inelastic impact has a solution, unless driven bodies
+squeeze a free one.
 """
 
 from __future__ import annotations

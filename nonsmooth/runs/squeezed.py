@@ -1,9 +1,8 @@
 """Diagnosis of a body between driven bodies that approach each other, which no rigid contact can allow.
 
-Take two points of a free body at which driven bodies act. A force along the line between the points is borne if it
-lies in the friction cone of a contact, or along an axis that a joint constrains. Let both ends bear it, and
-let the driven points approach each other along the line. Then the body can neither stick to both nor slip, and the
-impulses grow without bound.
+Take a force on a free body in the friction cone of a contact with a driven body. Let another such contact, or a joint
+with a driven body, bear it: its reaction balances the force. Let the driven bodies approach each other along the force.
+Then the body can neither stick to both nor slip, and the impulses grow without bound.
 """
 
 from __future__ import annotations
@@ -34,16 +33,16 @@ _STATUSES = (
 _CLOSED = 1e4
 """Largest gap of a contact that counts as closed, in gap tolerances. Between two short bounces it is not zero."""
 _ALONG = 1e-9
-"""Sine of the angle between a line and an axis below which they are parallel. Round-off stays below it."""
+"""Part of a force or moment that counts as none, relative to the whole. Round-off stays below it."""
 
 
-class _Support(NamedTuple):
-    """A point of a free body at which a driven body acts, through a contact or a joint.
+class _Touch(NamedTuple):
+    """A closed contact of a free body with a driven one.
 
     Attributes
     ----------
     name : str
-        Name of the contact or joint.
+        Name of the contact.
     body : int
         Number of the free body.
     point : array
@@ -51,9 +50,9 @@ class _Support(NamedTuple):
     velocity : array
         Velocity of the driven body there [m/s].
     normal : array
-        Unit normal of a contact into the free body, shape [3], or the constrained axes of a joint, shape [n, 3].
-    friction : FrictionLaw or None
-        Friction law of a contact; None for a joint.
+        Unit normal into the free body, shape [3].
+    friction : FrictionLaw
+        Friction law of the contact.
     """
 
     name: str
@@ -61,16 +60,78 @@ class _Support(NamedTuple):
     point: np.ndarray
     velocity: np.ndarray
     normal: np.ndarray
-    friction: FrictionLaw | None
+    friction: FrictionLaw
 
-    def bears(self, direction: np.ndarray) -> bool:
-        """True if the support can exert a force along a unit vector, into the free body."""
-        if self.friction is not None:
-            # within the cone about the normal whose half angle is the angle of friction at rest
-            return bool(direction @ self.normal >= math.cos(math.atan(coefficient_of(self.friction)(0.0))))
-        # the part of the direction that no combination of the axes gives
-        rest = direction - self.normal.T @ np.linalg.lstsq(self.normal.T, direction, rcond=None)[0]
-        return float(np.linalg.norm(rest)) <= _ALONG
+    def exerts(self, direction: np.ndarray) -> bool:
+        """True if the contact can exert a force along a unit vector on the free body."""
+        # within the cone about the normal whose half angle is the angle of friction at rest
+        return bool(direction @ self.normal >= math.cos(math.atan(coefficient_of(self.friction)(0.0))))
+
+
+class _Hold(NamedTuple):
+    """A joint of a free body with a driven one. A row of a joint is one scalar constraint.
+
+    Attributes
+    ----------
+    name : str
+        Name of the joint.
+    body : int
+        Number of the free body.
+    forces, moments : array
+        Force of each row, and its moment about the origin [m], relative to the multiplier of the row, shape [n, 3].
+    rates : array
+        Power of each row on the driven body, relative to its multiplier [m/s], shape [n].
+    """
+
+    name: str
+    body: int
+    forces: np.ndarray
+    moments: np.ndarray
+    rates: np.ndarray
+
+
+class _Line(NamedTuple):
+    """A force of a contact that another contact or joint bears.
+
+    Attributes
+    ----------
+    direction : array
+        Unit vector of the force on the free body.
+    approach : float
+        Speed at which the two driven bodies approach each other along the force [m/s].
+    """
+
+    direction: np.ndarray
+    approach: float
+
+
+def _between(one: _Touch, two: _Touch) -> _Line | None:
+    """The line from contact ``one`` to contact ``two`` of a body, or None if a force along it is in only one cone."""
+    between = two.point - one.point
+    length = float(np.linalg.norm(between))
+    if length == 0.0 or not two.exerts(-between / length):
+        return None
+    direction = between / length
+    return _Line(direction, float(direction @ (one.velocity - two.velocity)))
+
+
+def _against(one: _Touch, two: _Hold) -> _Line | None:
+    """The force of contact ``one`` that joint ``two`` bears and that is nearest to the normal, or None.
+
+    The joint bears a force at the contact point if multipliers of its rows give that force, without a moment about the
+    point. A ball joint bears a force through it, a slider any force across its axis.
+    """
+    about_point = two.moments - np.cross(one.point, two.forces)
+    left, sizes, _ = np.linalg.svd(about_point)
+    free = left[:, int(np.sum(sizes > _ALONG * max(1.0, sizes[0]))) :]
+    borne = two.forces.T @ free
+    multipliers = np.linalg.lstsq(borne, one.normal, rcond=_ALONG)[0]
+    force = borne @ multipliers
+    length = float(np.linalg.norm(force))
+    if length <= _ALONG:
+        return None
+    direction = force / length
+    return _Line(direction, float(direction @ one.velocity - free @ multipliers @ two.rates / length))
 
 
 def squeezed_body(model: LaidOut, status: int) -> str:
@@ -84,20 +145,15 @@ def squeezed_body(model: LaidOut, status: int) -> str:
     # writes the points and velocities of bodies, contacts and joints at the last state
     call_entry("evaluate_at", memory)
     contacts = [one for index in range(len(model.active)) for one in _contact(model, index)]
-    for one, two in (*itertools.combinations(contacts, 2), *itertools.product(contacts, _joints(model))):
-        between = two.point - one.point
-        length = float(np.linalg.norm(between))
-        if one.body != two.body or length == 0.0:
-            continue
-        # from the first point to the second: both forces are into the body, toward the other point
-        direction = between / length
-        approach = float(direction @ (one.velocity - two.velocity))
-        if one.bears(direction) and two.bears(-direction) and approach > float(memory[owners.Tolerance.velocity]):
+    pairs = [(one, two, _between(one, two)) for one, two in itertools.combinations(contacts, 2) if one.body == two.body]
+    joints = itertools.product(contacts, _joints(model))
+    for one, two, line in (*pairs, *((one, two, _against(one, two)) for one, two in joints if one.body == two.body)):
+        if line and one.exerts(line.direction) and line.approach > float(memory[owners.Tolerance.velocity]):
             name = model.system.names.bodies[one.body]
             return (
                 f"The body {name!r} is squeezed between driven ones: the {one.name} and the {two.name} press on it "
-                f"along one line, and approach each other at {approach:.3g} m/s. No rigid contact allows that. Give "
-                "these contacts a compliant normal law, or the driven bodies another motion."
+                f"along one line, and approach each other at {line.approach:.3g} m/s. No rigid contact allows that. "
+                "Give these contacts a compliant normal law, or the driven bodies another motion."
             )
     return ""
 
@@ -128,8 +184,8 @@ def _point_and_velocity(
     return row[free : free + 3].copy(), velocity + np.cross(spin, row[driven : driven + 3] - position)
 
 
-def _contact(model: LaidOut, index: int) -> list[_Support]:
-    """The active contact of an index as a support, if it is closed, and between a free and a driven body; else nothing.
+def _contact(model: LaidOut, index: int) -> list[_Touch]:
+    """The active contact of an index, if it is closed, and between a free and a driven body; else nothing.
 
     Only a contact with Coulomb friction has a cone of forces.
     """
@@ -143,27 +199,27 @@ def _contact(model: LaidOut, index: int) -> list[_Support]:
     body, is_second = found
     frames = memory[owners.ContactRecord.frame_a][index], memory[owners.ContactRecord.frame_b][index]
     point, velocity = _point_and_velocity(model, frames, is_second, block)
-    # the normal of a contact is from its first body to its second, that of a support into the free body
+    # the normal of a contact is from its first body to its second, this one into the free body
     normal = (1.0 if is_second else -1.0) * block[blocks.NORMAL : blocks.NORMAL + 3]
-    return [_Support(str(contact), body, point, velocity, normal, contact.friction)]
+    return [_Touch(str(contact), body, point, velocity, normal, contact.friction)]
 
 
-def _joints(model: LaidOut) -> Iterator[_Support]:
-    """The joints, as supports, between a free and a driven body that constrain a point along one axis or more.
-
-    A row of a joint is one scalar constraint.
-    """
+def _joints(model: LaidOut) -> Iterator[_Hold]:
+    """The joints between a free and a driven body."""
     memory = model.memory
     for number, joint in enumerate(joints_in_order(model.system)):
         found = _free_body(model, joint.first, joint.second)
         count, start = (int(memory[one][number]) for one in (owners.JointRecord.n_rows, owners.JointRecord.out))
         rows = memory.floats[start : start + blocks.JOINT_ROW * count].reshape(count, blocks.JOINT_ROW)
-        # rows with a moment constrain an angle, and bear no force at a point
-        rows = rows[~np.any(rows[:, blocks.MOMENT : blocks.MOMENT + 3], axis=1)]
-        if found is None or len(rows) == 0:
+        if found is None or count == 0:
             continue
         body, is_second = found
-        frames = memory[owners.JointRecord.frame_a][number], memory[owners.JointRecord.frame_b][number]
-        # each row has points of its own; those of the first stand for the joint
-        point, velocity = _point_and_velocity(model, frames, is_second, rows[0])
-        yield _Support(str(joint), body, point, velocity, rows[:, blocks.AXIS : blocks.AXIS + 3], None)
+        at = blocks.POINT_B if is_second else blocks.POINT_A
+        forces = rows[:, blocks.AXIS : blocks.AXIS + 3].copy()
+        moments = np.cross(rows[:, at : at + 3], forces) + rows[:, blocks.MOMENT : blocks.MOMENT + 3]
+        place = memory[owners.JointRecord.frame_a if is_second else owners.JointRecord.frame_b][number]
+        frame = memory.floats[int(place) :]
+        position, velocity, spin = (frame[one : one + 3] for one in (blocks.POSITION, blocks.VELOCITY, blocks.SPIN))
+        # power of a force and its moment about the origin: the body-fixed point there moves, too
+        rates = forces @ (velocity - np.cross(spin, position)) + moments @ spin
+        yield _Hold(str(joint), body, forces, moments, rates)

@@ -11,9 +11,10 @@ import pytest
 
 import nonsmooth as ns
 from bodies import CylinderBody, DiscBody, Plate, SuperellipsoidBody
-from laws import Coulomb, EnergeticImpact, Unilateral
+from laws import Coulomb, Directional, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.histories.distances import distances
+from nonsmooth.interfaces import FrictionLaw
 
 T_END, CONTACT_TIME = 0.1333, 2e-5
 DISC = DiscBody(radius=4.529e-3, surface_density=1.0)
@@ -22,12 +23,12 @@ ROLLER = SuperellipsoidBody(
 )
 
 
-def _build() -> ns.System:
+def _build(friction: FrictionLaw = Coulomb(0.3)) -> ns.System:  # noqa: B008 (a law is a constant)
     plate = Plate()
     system = ns.System([plate, DISC, ROLLER])
     law = EnergeticImpact(0.5, exponent=1.5, duration=CONTACT_TIME)
     for one, other in ((plate, DISC), (plate, ROLLER), (DISC, ROLLER)):
-        system.contact(one, other, normal=Unilateral(), friction=Coulomb(0.3), impact=law)
+        system.contact(one, other, normal=Unilateral(), friction=friction, impact=law)
     ns.touching(
         system,
         DISC,
@@ -73,6 +74,21 @@ def test_averagings_that_lead_gaps_astray_are_short(rolled_over: ns.Solution) ->
         ended = ns.simulate(_build(), float(time))
         found = rolled_over.at(time)["u"]
         np.testing.assert_allclose(found, ended.u_end, rtol=1e-9, atol=1e-7)
+
+
+def test_a_mean_force_does_not_jump_where_the_slip_turns_back() -> None:
+    """Friction forward and backward differ. Within a span the slip may turn from one to the other, and the force not.
+
+    A force that jumped there would have most steps rejected, until their length falls below the time tolerance.
+    """
+    for friction in (
+        Directional(forward=0.49, backward=0.29, across=0.72, axis=(-0.59, 0.41, 0.83), body="first"),
+        Directional(forward=0.36, backward=0.77, across=0.38, axis=(-0.84, 1.45, 0.57), body="first"),
+    ):
+        solution = ns.simulate(_build(friction), T_END)
+        assert Cause.AVERAGING in solution.events.cause
+        assert solution.counters.rejected < 2000
+        assert solution.energy.residual < 1e-8
 
 
 def test_energy_is_accounted_where_features_change() -> None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, BallJoint, ConstantVelocity, Distance, DrivenBody, Plate, Rest, Sphere
+from bodies import Ball, BallJoint, ConstantVelocity, Distance, DrivenBody, Plate, Rest, Slider, Sphere
 from laws import Coulomb, EnergeticImpact, LinearCompliant, NewtonImpact, PlasticImpact, Unilateral
 from nonsmooth.interfaces import ImpactLaw, Joint, NormalLaw
+from tests.benchmarks.random_systems.run import NO_ANSWER
 
 RADIUS = 0.01
 IMPACTS: list[ImpactLaw] = [EnergeticImpact(0.5), NewtonImpact(0.5), PlasticImpact()]
@@ -63,6 +65,35 @@ def test_a_pendulum_that_a_plate_lifts_towards_its_joint_is_squeezed(impact: Imp
     system.place(ball, position=(0.004, 0.0, RADIUS))
     with pytest.raises(ns.RunFailed, match=r"'ball' is squeezed.*plate - ball.*joint.*compliant"):
         ns.simulate(system, 0.3)
+
+
+def _on_a_rail(impact: ImpactLaw, friction: float) -> ns.System:
+    """Return a ball on a plate that rises at 0.1 m/s; a rail at an angle of 0.3 rad to the plate holds the ball."""
+    rail = Slider((-0.1, 0.0, 0.0), (0.0, 0.0, 0.0), axis=(math.cos(0.3), 0.0, math.sin(0.3)))
+    held = DrivenBody(Rest(position=(0.1, 0.0, RADIUS)), (Sphere(0.002),))
+    plate, ball = Plate(ConstantVelocity((0.0, 0.0, 0.1), position=(0.0, 0.0, -0.01))), Ball(RADIUS)
+    system = ns.System([plate, held, ball])
+    system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(friction), impact=impact)
+    system.joint(rail, held, ball)
+    system.place(ball, position=(0.0, 0.0, RADIUS))
+    return system
+
+
+@pytest.mark.fast_cases(2)
+@pytest.mark.parametrize("impact", IMPACTS, ids=lambda law: type(law).__name__)
+def test_a_body_on_a_rail_that_friction_holds_is_squeezed(impact: ImpactLaw) -> None:
+    """The rail bears any force across it. One of them is in the cone of friction, as the angle is below atan(0.5).
+
+    Campaigns of random systems count such a run as refused, by what it says.
+    """
+    with pytest.raises(ns.RunFailed, match=r"'ball' is squeezed.*plate - ball.*slider.*compliant") as failure:
+        ns.simulate(_on_a_rail(impact, 0.5), 0.3)
+    assert any(words in str(failure.value) for words in NO_ANSWER)
+
+
+def test_a_body_slides_up_a_rail_that_friction_does_not_hold() -> None:
+    """The angle of the rail exceeds atan(0.2): the plate lifts the ball, which slides along it."""
+    assert ns.simulate(_on_a_rail(PlasticImpact(), 0.2), 0.3).status == "done"
 
 
 def test_joints_may_be_declared_in_another_order_than_their_bodies() -> None:

@@ -125,6 +125,19 @@ def release_sticking_anisotropic(ws: Workspace) -> None:
             contact.mode = Mode.SLIDE
 
 
+@kernel("f8(ws, ContactRecord)")
+def stretch_along(ws: Workspace, contact: ContactRecord) -> float:
+    """Length of the first stretched tangent of a contact [1]: the ratio of friction along the law's axis.
+
+    It changes with the facing. A force ``f1`` along the stretched tangent is ``f1`` times this ratio along the axis.
+    Isotropic friction has ratio 1.
+    """
+    if not contact.is_anisotropic:
+        return 1.0
+    law = at(ws.floats, contact.anisotropy)
+    return law[_FORWARD] if contact.facing == 1 else law[_BACKWARD]
+
+
 @kernel("f8(ws, i8, f8)")
 def force_in_facing(ws: Workspace, c: int, f1: float) -> float:
     """First tangential force ``f1`` of contact ``c`` [N], scaled to the friction ratio of the slip that it opposes.

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.bodies.anisotropy import stretch_along
 from nonsmooth.engine.bodies.compliance import decouple_normals
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
@@ -157,6 +158,7 @@ def _solve(ws: Workspace, time: float) -> bool:
             active.free[r] = contact.bias[r] + row(ws, active.contact, r, ws.island.du.start)
             # the impulses of the last step are the first guess
             active.force[r] = time * contact.mean_force[r] if contact.is_averaged else 0.0
+        active.force[1] /= stretch_along(ws, contact)
         # an open gap may close within the step: its rate at the end must be at least -gap / time. The solver multiplies
         # accelerations by the time
         active.free[NORMAL_ROW] += max(0.0, contact.gap) / (time * time)
@@ -206,3 +208,4 @@ def set_mean_forces(ws: Workspace, time: float) -> None:
         for r in range(3):
             active.force[r] /= time
             contact.mean_force[r] = active.force[r]
+        contact.mean_force[1] *= stretch_along(ws, contact)

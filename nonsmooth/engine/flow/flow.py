@@ -12,7 +12,7 @@ exchanged, of loads, and of normal forces of the time-stepping fallback.
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.anisotropy import force_in_facing
+from nonsmooth.engine.bodies.anisotropy import force_in_facing, stretch_along
 from nonsmooth.engine.bodies.bodies import (
     evaluate_bodies,
     evaluate_driven_bodies,
@@ -177,7 +177,8 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
         active.is_normal_force_unknown = False
         active.normal_force = contact.mean_force[0]
     if contact.is_averaged:
-        active.friction = contact.mean_force[1], contact.mean_force[2]
+        # the slip may turn the facing within the span, but not the force
+        active.friction = contact.mean_force[1] / stretch_along(ws, contact), contact.mean_force[2]
         return
     if contact.mode == Mode.STICK:
         active.static_coefficient = friction_coefficient(ws, c, speed=0.0)

@@ -19,7 +19,7 @@ from __future__ import annotations
 from nonsmooth.engine.impact.end import account, end_phase, lose_energy
 from nonsmooth.engine.impact.friction import break_away, choose_friction, has_stopped
 from nonsmooth.engine.impact.guards import TOGETHER, GuardKind, guard_of, is_rate_guard, prepare_guards
-from nonsmooth.engine.impact.rates import evaluate_impact_forces, gap_rate_slope
+from nonsmooth.engine.impact.rates import evaluate_impact_forces, is_pressed
 from nonsmooth.engine.impact.state import NOISE, is_loaded, least_efficiency, returned_part, state_of, state_size
 from nonsmooth.engine.memory.modes import Phase
 from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace, kernel
@@ -53,15 +53,15 @@ def start_phases(ws: Workspace, probe: float, seed: float) -> None:
     for active in ws.actives:
         _start(ws, active, seed > 0.0)
     choose_friction(ws, probe, turns_rate=False)
-    is_pressed = False
+    has_new = False
     for active in ws.actives:
         rests = active.phase == Phase.IDLE and active.gap_rate_before <= ws.impact.rest_speed
-        if rests and gap_rate_slope(ws, active) < 0.0:
+        if rests and is_pressed(ws, active):
             active.phase = Phase.COMPRESSION
             ws.event.n_phases += 1
-            is_pressed = True
+            has_new = True
     # the new compressions have other forces
-    if is_pressed:
+    if has_new:
         choose_friction(ws, probe, turns_rate=False)
 
 
@@ -151,8 +151,12 @@ def _turn(ws: Workspace, active: ActiveContact) -> bool:
         account(ws, active)
         # without restitution there is no expansion
         if least_efficiency(ws, active) > _NO_RETURN:
-            active.phase = Phase.EXPANSION
             state = state_of(ws, active)
+            # round-off may start a compression, which then stores nothing: an expansion would give energy from nowhere
+            if not state.energy > 0.0:
+                end_phase(ws, active)
+                return False
+            active.phase = Phase.EXPANSION
             state.lost = (1.0 - returned_part(ws, active)) * state.energy
             return False
         _hold(ws, active)
@@ -187,12 +191,13 @@ def _switch_friction(ws: Workspace, active: ActiveContact) -> bool:
     """Let an active contact that sticks break away, or a slip turn. True if a slip stops: friction must be chosen.
 
     The guard of a slip is its component along its first direction. A slip that has only turned far from it continues,
-    and the guard takes its new direction.
+    and the guard takes its new direction. So does any slip of a contact without a normal force, which has no friction:
+    to choose it would stop the slip, the others would start it again, and the impact would never end.
     """
     if active.sticks:
         break_away(ws, active)
         return False
-    if not length(active.slip) > active.rest_slip:
+    if active.normal_force > 0.0 and not length(active.slip) > active.rest_slip:
         return True
     ws.contacts[active.contact].direction = unit(active.slip)
     return False

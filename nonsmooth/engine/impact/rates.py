@@ -20,10 +20,12 @@ which the integrator follows exactly. With the common clock the end of an expans
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import follow_slip
-from nonsmooth.engine.delassus.delassus import add_product
-from nonsmooth.engine.impact.state import expansion_efficiency, is_loaded, is_lone, normal_force, state_at
+from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.impact.state import NOISE, expansion_efficiency, is_loaded, is_lone, normal_force, state_at
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Phase
@@ -61,6 +63,22 @@ def gap_rate_slope(ws: Workspace, active: ActiveContact) -> float:
     """Slope of the gap rate of an active contact under the present forces, G f [m/s per pseudo-time]."""
     # nothing is added to the product: only contact forces change rates in an impact
     return add_product(ws, 0.0, active.index, NORMAL_ROW, ws.problem.forces.start)
+
+
+@kernel("b1(ws, ActiveContact)")
+def is_pressed(ws: Workspace, active: ActiveContact) -> bool:
+    """True if the present forces press an active contact together: its gap rate falls, by more than round-off.
+
+    Round-off is relative to the bounds of the terms of G f, because an entry of G is itself a sum whose terms may
+    cancel, as for two faces at right angles. The force f_j of a contact changes the gap rate of contact i by at most
+    sqrt(G_ii tr G_jj) |f_j|, where G_ii is the normal entry, and tr G_jj the trace of a diagonal block.
+    """
+    bound = 0.0
+    for block in range(active.first_block, active.end_block):
+        other = ws.actives[ws.island.block_column[block]]
+        own, force = diagonal_block(ws, other.index), other.force
+        bound += math.sqrt((own.nn + own.t11 + own.t22) * (force[0] ** 2 + force[1] ** 2 + force[2] ** 2))
+    return bool(gap_rate_slope(ws, active) < -NOISE * math.sqrt(diagonal_block(ws, active.index).nn) * bound)
 
 
 @kernel("v2(ws, ActiveContact)")

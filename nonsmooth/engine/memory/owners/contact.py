@@ -104,7 +104,7 @@ class ContactRecord(Record, key="contacts", capacity="n_slots", length="island.n
     slip_per_force: float = real(_STATE, "1/kg", "Slip acceleration per unit of friction.")
     mode_after_averaging: Mode = one_of(Mode, _STATE, "Mode after averaging, open if not averaged.")
     is_averaged: bool = question(_STATE, "Forces are averaged over a contact time.", inside=("mode_after_averaging", 0))
-    mean_force: Floats = row(_STATE, 3, "N", "Averaged force, n, t1, t2.")
+    mean_force: Floats = row(_STATE, 3, "N", "Averaged force, n, t1, t2, along t1 not stretched.")
     mean_span: float = real(_STATE, "s", "Time over which forces are averaged.")
     mean_gap: float = real(_STATE, "m", "Gap at the start of the averaging span.")
     mean_gap_change: float = real(_STATE, "m", "Change of the gap until it comes to rest.")
