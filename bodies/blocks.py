@@ -39,8 +39,11 @@ def rotation_of(a: float, b: float, c: float, d: float) -> tuple[Vector3, Vector
 @compiled
 def put_rows(out: Floats, place: int, rows: tuple[Vector3, Vector3, Vector3], stride: int = 3) -> None:
     """Write the rows of a matrix into a block, each ``stride`` numbers behind the one before."""
-    for i in range(3):
-        put(out, place + stride * i, rows[i])
+    x, y, z = rows
+    # written out: a loop over a tuple of tuples is not unrolled
+    put(out, place, x)
+    put(out, place + stride, y)
+    put(out, place + 2 * stride, z)
 
 
 def pose_of(position: Sequence[float], orientation: Sequence[float]) -> tuple[float, ...]:

@@ -45,12 +45,11 @@ def _evaluate(
     gravity_y: float,
     gravity_z: float,
 ) -> None:
+    # numbers are read where they are used: more of them at a time would not fit into the registers
     a, b, c, d = q[3], q[4], q[5], q[6]
-    position, velocity, spin = vector_at(q, 0), vector_at(u, 0), vector_at(u, 3)
-    (ox, oy, oz), gravity = spin, (gravity_x, gravity_y, gravity_z)
-    jx, jy, jz, jyz, jxz, jxy = inertia[0], inertia[1], inertia[2], inertia[3], inertia[4], inertia[5]
-    put(out, POSITION, position)
-    put(out, VELOCITY, velocity)
+    ox, oy, oz = spin = vector_at(u, 3)
+    put(out, POSITION, vector_at(q, 0))
+    put(out, VELOCITY, vector_at(u, 0))
     rows = rotation_of(a, b, c, d)
     put_rows(out, ROTATION, rows)
     put(out, SPIN, (dot(rows[0], spin), dot(rows[1], spin), dot(rows[2], spin)))
@@ -58,13 +57,15 @@ def _evaluate(
     out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
     put_rows(out, JACOBIAN + 21, rows, 6)
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    put(out, _RATES, velocity)
+    put(out, _RATES, vector_at(u, 0))
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
     out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
     out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
     out[_RATES + 6] = 0.5 * (a * oz + b * oy - c * ox)
     # force and gyroscopic moment
+    gravity = gravity_x, gravity_y, gravity_z
     put(out, _FORCE, times(mass, gravity))
+    (jx, jy, jz), (jyz, jxz, jxy) = vector_at(inertia, 0), vector_at(inertia, 3)
     # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
     out[_FORCE + 3] = (jy - jz) * oy * oz + (jyz * (oz * oz - oy * oy) + ox * (jxy * oz - jxz * oy))
     out[_FORCE + 4] = (jz - jx) * oz * ox + (jxz * (ox * ox - oz * oz) + oy * (jyz * ox - jxy * oz))
@@ -72,9 +73,10 @@ def _evaluate(
     out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
     for i in range(3):
         put(out, _INVERSE + 21 + 6 * i, vector_at(inverse_inertia, 3 * i))
+    velocity = vector_at(u, 0)
     in_axes = mass * dot(velocity, velocity) + jx * ox * ox + jy * oy * oy + jz * oz * oz
     out[_ENERGY] = 0.5 * in_axes + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
-    out[_ENERGY + 1] = -mass * dot(gravity, position)
+    out[_ENERGY + 1] = -mass * dot(gravity, vector_at(q, 0))
 
 
 @compiled

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.declare import Declaration, Life, Singleton, declarations
+from nonsmooth.engine.memory.declare import Declaration, Singleton, declarations
 from nonsmooth.engine.memory.memory import FIXED_PARTS, Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
@@ -37,8 +37,8 @@ from nonsmooth.engine.memory.tables import (
     storage_of,
     variable_scalars,
 )
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
@@ -128,7 +128,7 @@ class Checkpoint:
         memory.refer_to_tables()
         # a memory that has grown has lost the parameters
         if n_slots < self.n_slots or not np.array_equal(active, _active(memory)):
-            _copy_parameters(memory)
+            call_entry("copy_parameters", memory)
 
 
 @final
@@ -208,7 +208,7 @@ class Difference:
         for numbers, places, bits in zip(memory.kept, self.places, self.bits, strict=True):
             numbers[places] = bits
         _check_values(memory)
-        _copy_parameters(memory)
+        call_entry("copy_parameters", memory)
 
     def _check(self, memory: Memory) -> None:
         """Check that the difference has as many parts as a memory, and that a run may change each of its places.
@@ -233,18 +233,6 @@ class Difference:
 def _active(memory: Memory) -> Integers:
     """Number of the declared contact of each active contact, a view."""
     return cast(Integers, memory[owners.ContactRecord.declared][: memory[owners.Island.n_contacts]])
-
-
-def _copy_parameters(memory: Memory) -> None:
-    """Copy the parameters of its declared contact to each active contact, as the engine does when it lists one.
-
-    Fields that are views (``inside``) of another field are copied with it.
-    """
-    active = _active(memory)
-    contacts = DeclaredContacts.of(memory, active)
-    for one in declarations(owners.ContactRecord).values():
-        if one.life is Life.PARAMETER and not (one.inside[0] or one.is_of_slot):
-            memory[one][: len(active)] = contacts[one]
 
 
 def _check_values(memory: Memory) -> None:

@@ -13,6 +13,7 @@ from nonsmooth.engine.memory.declare import Life, declarations
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import assemble, lay_out
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.declared import DeclaredContacts
 from nonsmooth.model.laid_out import LaidOut
 from tests.bodies.meshes.parts import hills
@@ -80,6 +81,22 @@ def test_a_wall_that_moves_is_always_listed() -> None:
     assert np.all(_listed(model)[moving])
 
 
+_OF_DECLARED = [
+    one
+    for one in declarations(owners.ContactRecord).values()
+    if one.life is Life.PARAMETER and not one.is_of_slot and not one.inside[0]
+]
+"""Parameters that an active contact copies from its declared contact."""
+
+
+def _check_parameters(model: LaidOut) -> None:
+    """Check that all active contacts have the parameters of their declared contacts."""
+    active = model.active
+    declared = DeclaredContacts.of(model.memory, active)
+    for one in _OF_DECLARED:
+        np.testing.assert_array_equal(model.memory[one][: len(active)], declared[one], err_msg=one.name)
+
+
 @pytest.mark.parametrize(
     "laws",
     [
@@ -91,7 +108,10 @@ def test_a_wall_that_moves_is_always_listed() -> None:
     ids=lambda laws: type(laws.friction).__name__,
 )
 def test_active_contacts_have_the_parameters_of_declared_ones(laws: ContactLaws) -> None:
-    """Contacts of a row, of several rows with the same kinds, and of rows with features that a search finds."""
+    """Contacts of a row, of several rows with the same kinds, and of rows with features that a search finds.
+
+    The list is made by the engine, then brought by a checkpoint, which holds no parameters.
+    """
     ground = DrivenBody(carried=(TriangleMesh(Triangles(*hills(6))),))
     bodies = [ground, *(Ball(0.03, 1000.0) for _ in range(3)), *(BoxBody(0.03, 0.03, 0.03, mass=0.1) for _ in range(2))]
     system = System(bodies)
@@ -99,13 +119,16 @@ def test_active_contacts_have_the_parameters_of_declared_ones(laws: ContactLaws)
         system.place(body, position=(0.07 * (i - 2), 0.0, 0.05))
     system.contact_all(laws)
     model = lay_out(system, EventDriven())
-    active = model.active
+    active = model.active.copy()
     assert np.any(model.memory[owners.ContactRecord.features][: len(active)] > 0)
-    declared = DeclaredContacts.of(model.memory, active)
-    for one in declarations(owners.ContactRecord).values():
-        if one.life is Life.PARAMETER and not one.is_of_slot and not one.inside[0]:
-            found = model.memory[one][: len(active)]
-            np.testing.assert_array_equal(found, declared[one], err_msg=one.name)
+    _check_parameters(model)
+    checkpoint = Checkpoint.of(model.memory)
+    for one in _OF_DECLARED:
+        model.memory[one][:] = 0
+    model.memory[owners.ContactRecord.declared][: len(active)] = active[::-1]
+    checkpoint.put(model.memory)
+    np.testing.assert_array_equal(model.active, active)
+    _check_parameters(model)
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.4])

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.modes import NO_RELEASE, Mode
-from nonsmooth.engine.native.kernel import ContactRecord, Workspace, copy_fields, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, copy_fields, entry_point, kernel
 
 
 @kernel("i8(i8, i8)")
@@ -58,6 +58,26 @@ def write_parameters(ws: Workspace, number: int, declared: int, contact: Contact
         contact.impact_force_parameters = _moved(contact.impact_force_parameters, laws)
         contact.efficiency_parameters = _moved(contact.efficiency_parameters, laws)
         contact.map_parameters = _moved(contact.map_parameters, laws)
+
+
+@kernel("i8(ws, i8)")
+def _row_of(ws: Workspace, declared: int) -> int:
+    """Row of a declared contact, by bisection: the contacts of a row follow those of the row before."""
+    first, end = 0, ws.model.n_rows
+    while end - first > 1:
+        middle = (first + end) // 2
+        if ws.rows[middle].first_contact <= declared:
+            first = middle
+        else:
+            end = middle
+    return first
+
+
+@entry_point()
+def copy_parameters(ws: Workspace) -> None:
+    """Write the parameters of its declared contact to each active contact, for a list that a checkpoint brought."""
+    for contact in ws.contacts:
+        write_parameters(ws, _row_of(ws, contact.declared), contact.declared, contact)
 
 
 @kernel("i8(ws, i8)")

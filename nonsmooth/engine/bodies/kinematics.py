@@ -120,6 +120,22 @@ def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
     return not (_opens_aside(ws, contact, False, near) or _opens_aside(ws, contact, True, near))
 
 
+@entry_point("void(ws, i8)")
+def replace_gap(ws: Workspace, c: int) -> None:
+    """Replace the gap of the open contact ``c`` by a positive substitute if it is not the distance of the bodies [m].
+
+    The gap is at most that of surfaces next to each other. See :func:`evaluate_geometry`.
+    """
+    contact, near = ws.contacts[c], ADJACENT * ws.tolerance.gap
+    if contact.gap < 0.0 < contact.past_feature:
+        contact.overlap = contact.gap
+        contact.gap = length((contact.gap, contact.past_feature))
+    is_near = not contact.is_compliant and contact.gap <= near and contact.past_feature <= 0.0
+    if is_near and contact.pair != NO_PAIR and not _can_close(ws, contact, near):
+        # a gap as small as that of surfaces next to each other: if only round-off decides, the gap hardly changes
+        contact.gap = contact.past_feature = 0.5 * near
+
+
 @kernel("void(ws, i8)")
 def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
@@ -146,16 +162,8 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     contact.overlap = 0.0
     if contact.initial_depth > 0.0 and (contact.mode != Mode.OPEN or contact.past_feature <= ws.tolerance.gap):
         contact.gap += contact.initial_depth
-    if contact.mode != Mode.OPEN:
-        return
-    if contact.gap < 0.0 < contact.past_feature:
-        contact.overlap = contact.gap
-        contact.gap = length((contact.gap, contact.past_feature))
-    near = ADJACENT * ws.tolerance.gap
-    is_near = not contact.is_compliant and contact.gap <= near and contact.past_feature <= 0.0
-    if is_near and contact.pair != NO_PAIR and not _can_close(ws, contact, near):
-        # a gap as small as that of surfaces next to each other: if only round-off decides, the gap hardly changes
-        contact.gap = contact.past_feature = 0.5 * near
+    if contact.mode == Mode.OPEN and contact.gap <= ADJACENT * ws.tolerance.gap:
+        replace_gap(ws, c)
 
 
 @kernel("void(ws, i8)")

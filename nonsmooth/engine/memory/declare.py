@@ -11,6 +11,7 @@ there is one (``ws.tolerance.gap``). A class of declarations is also what editor
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -112,7 +113,7 @@ class Declaration:
         """Set name and owner, from the class body. Python calls it for each declaration when the class is made."""
         self.owner, self.name = owner, name
 
-    @property
+    @functools.cached_property
     def is_scalar(self) -> bool:
         """True if it is one number of a part, False if it is an array or a number of each record."""
         return self.size is None and issubclass(self.owner, Singleton)
@@ -127,7 +128,7 @@ class Declaration:
         """True if a step may read it from an earlier step, so that a checkpoint holds it. Else each step writes it."""
         return self.life in (Life.STATE, Life.REUSED)
 
-    @property
+    @functools.cached_property
     def key(self) -> str:
         """Key of the storage that holds it, such as "contacts.gap": its own, or that of which it is a view."""
         storage, _first = self.inside

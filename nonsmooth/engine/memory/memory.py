@@ -29,6 +29,7 @@ from nonsmooth.engine.memory.tables import (
     ends_of,
     group_of,
     has_array,
+    in_order,
     kept_scalars,
     length_of,
     record_with,
@@ -276,7 +277,7 @@ class Memory:
     def _write_layout(self, counts: Counts) -> None:
         """Write the counts that follow from the number of slots, and the offsets of the arrays with such lengths."""
         names = self.record.dtype.names or ()
-        laid = dict(zip(names, _laid(tuple((name, counts[name]) for name in COUNTS), self.own)[0], strict=True))
+        laid = dict(zip(names, _laid(in_order(counts), self.own)[0], strict=True))
         for name in SLOT_COUNTS:
             self.record[f"{ModelNumbers.key}.{name}"] = counts[name]
         for name in _CACHED:
@@ -328,7 +329,7 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Singleton], ...] = ()) -
     ``own`` are the parts that an engine adds. All numbers have their values before any run, and the coefficients of the
     Runge-Kutta pairs are written.
     """
-    values, (n_floats, n_integers) = _laid(tuple(counts.items()), own)
+    values, (n_floats, n_integers) = _laid(in_order(counts), own)
     scalars = np.array([values], record_with(own))
     # an array without entries has no address; the floats always have those of the Runge-Kutta pairs
     floats, integers = np.zeros(n_floats + 1), np.zeros(max(n_integers, 1), np.int64)

@@ -34,6 +34,15 @@ COUNTS = tuple(name for name, one in declarations(ModelNumbers).items() if one.k
 """Counts that size the arrays, and the other integers of a model."""
 SLOT_COUNTS = "n_slots", "n_pivoted", "event_floats", "event_integers"
 """Counts that follow from the number of slots for active contacts."""
+_ONE_OF_EACH: Counts = dict.fromkeys(COUNTS, 1)
+"""Counts of a system with one of each."""
+_WITHOUT_SLOTS: Counts = {**_ONE_OF_EACH, **dict.fromkeys(SLOT_COUNTS, 0)}
+"""Counts of the same system without slots for active contacts."""
+
+
+def in_order(counts: Counts) -> tuple[tuple[str, int], ...]:
+    """All counts by name, in the order of ``COUNTS``, so that a cache finds equal counts."""
+    return tuple((name, counts[name]) for name in COUNTS)
 
 
 def has_array(declared: Declaration) -> bool:
@@ -59,8 +68,13 @@ def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
 
     Keys are as "contacts.gap". The order is that of the offsets (:class:`Group`).
     """
-    found = [one for one in _all(owners) if has_array(one) and one.is_float == of_floats]
-    return {one.key: functools.partial(length_of, one) for one in sorted(found, key=group_of)}
+    return {one.key: functools.partial(length_of, one) for one in _arrays(tuple(owners), of_floats)}
+
+
+@functools.cache
+def _arrays(owners: tuple[type, ...], of_floats: bool) -> tuple[Declaration, ...]:
+    """Arrays of some owners, of floats if ``of_floats``, else of integers, in the order of their offsets."""
+    return tuple(sorted((one for one in _all(owners) if has_array(one) and one.is_float == of_floats), key=group_of))
 
 
 class Group(IntEnum):
@@ -85,8 +99,7 @@ def group_of(declared: Declaration) -> Group:
     """Group of an array."""
     group = Group.LATE if declared.is_late else Group.KEPT if declared.outlives_a_step else Group.SHORT
     # a length is known as a function of the counts only: does it change without any slot?
-    some = dict.fromkeys(COUNTS, 1)
-    depends = length_of(declared, some) != length_of(declared, {**some, **dict.fromkeys(SLOT_COUNTS, 0)})
+    depends = length_of(declared, _ONE_OF_EACH) != length_of(declared, _WITHOUT_SLOTS)
     return Group(group + Group.SLOTS_KEPT) if depends else group
 
 
@@ -102,16 +115,15 @@ def ends_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[in
     ``counts`` are the numbers of bodies, contacts and so on, on which the sizes depend.
     """
     # cached, because systems that differ in their parameters only have the same lengths, and often follow each other
-    return _ends_of(tuple(owners), of_floats, tuple(counts.items()))
+    return _ends_of(tuple(owners), of_floats, in_order(counts))
 
 
 @functools.lru_cache(maxsize=16)
 def _ends_of(owners: tuple[type, ...], of_floats: bool, counts: tuple[tuple[str, int], ...]) -> tuple[int, ...]:
     """:func:`ends_of` with arguments that a cache can hold."""
     lengths, known = [0] * len(Group), dict(counts)
-    for one in _all(owners):
-        if has_array(one) and one.is_float == of_floats:
-            lengths[group_of(one)] += length_of(one, known)
+    for one in _arrays(owners, of_floats):
+        lengths[group_of(one)] += length_of(one, known)
     return tuple(itertools.accumulate(lengths))
 
 
