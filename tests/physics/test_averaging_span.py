@@ -115,7 +115,7 @@ def test_energy_is_accounted_where_features_change() -> None:
 
 
 @pytest.mark.fast_cases(2)
-@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+@pytest.mark.parametrize("seed", [3, 4, 6, 8, 9])
 def test_a_tower_turns_as_fast_as_it_spins(seed: int) -> None:
     """Three cylinders, one on the other, rock on their rims: two contacts of a rim may be micrometres apart.
 
