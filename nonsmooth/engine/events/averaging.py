@@ -13,7 +13,6 @@ import math
 
 from nonsmooth.engine.contact.mean_forces import averaging_time, has_no_stopping_slip, is_averaged
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.averaged import open_apart
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
@@ -96,7 +95,6 @@ def end_averaging(ws: Workspace) -> None:
     The projection removes what the forces pushed too much. The event that follows finds what comes after the span.
     """
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
-    open_apart(ws)
     # no span has an end
     ws.island.averaged_until = math.inf
 

@@ -17,7 +17,6 @@ from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
-from nonsmooth.engine.flow.self_check import held_gap
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
@@ -34,16 +33,8 @@ def end_averaging_span(ws: Workspace) -> None:
         if contact.is_averaged and contact.mode != Mode.OPEN:
             contact.mode = contact.mode_after_averaging
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
-    open_apart(ws)
-
-
-@kernel()
-def open_apart(ws: Workspace) -> None:
-    """Open rigid contacts that averaged forces have led apart: at the end of a span only overlaps are lifted."""
     for contact in ws.contacts:
-        if contact.is_averaged and not contact.is_compliant and held_gap(contact) > ws.tolerance.gap:
-            contact.mode = Mode.OPEN
-        # none has to come to rest
+        # the projection has closed the gaps, so none has to come to rest
         contact.mean_gap_change = 0.0
 
 

@@ -16,7 +16,6 @@ from typing import NamedTuple
 
 from nonsmooth.engine.bodies.articulations import subtract_response
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_body, evaluate_free_bodies
-from nonsmooth.engine.bodies.compliance import decouple_normals
 from nonsmooth.engine.bodies.equations import coordinate_rates
 from nonsmooth.engine.bodies.kinematics import (
     evaluate_jacobian,
@@ -28,9 +27,7 @@ from nonsmooth.engine.bodies.kinematics import (
 )
 from nonsmooth.engine.contact.closed_contacts import coupling
 from nonsmooth.engine.contact.forces import resolve
-from nonsmooth.engine.contact.gauss_seidel import SWEEPS, sweep
 from nonsmooth.engine.contact.mean_forces import is_averaged
-from nonsmooth.engine.contact.newton import search_by_newton
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.guard_values import feature_guard
@@ -48,7 +45,6 @@ from nonsmooth.engine.native.kernel import (
     kernel,
     result,
 )
-from nonsmooth.engine.numerics.arrays import clear
 from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import cross, dot, minus
 
@@ -136,22 +132,20 @@ def _damp(ws: Workspace, damping: float) -> None:
             diagonal_block(ws, active.index).entries[4 * r] *= 1.0 + damping
 
 
-@kernel("b1(ws, b1)")
-def _add_gaps(ws: Workspace, averaged: bool) -> bool:
+@kernel("b1(ws)")
+def _add_gaps(ws: Workspace) -> bool:
     """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time.
 
     They are those of damped least squares. The closer a gap is to the allowed one, the more they are damped, so that
-    they do not exceed the largest allowed correction. If forces are ``averaged``, overlaps are lifted, and gaps are
-    left. True if velocities were added, False if all gaps are negligible, or one is larger than allowed: the check of
-    gaps then ends the run.
+    they do not exceed the largest allowed correction. True if they were added, False if all gaps are negligible, or one
+    is larger than allowed: the check of gaps then ends the run.
     """
     largest = ratio = 0.0
     for active in ws.actives:
         contact = ws.contacts[active.contact]
-        gap = held_gap(contact) if not contact.is_compliant else 0.0
-        size = max(0.0, -gap) if averaged else abs(gap)
-        largest = max(largest, size)
-        ratio = max(ratio, size / allowed_gap(ws, active.contact))
+        gap = abs(held_gap(contact)) if not contact.is_compliant else 0.0
+        largest = max(largest, gap)
+        ratio = max(ratio, gap / allowed_gap(ws, active.contact))
     if largest <= NEGLIGIBLE * ws.tolerance.gap or ratio > 1.0:
         return False
     # project_rates has damped the matrix
@@ -160,38 +154,16 @@ def _add_gaps(ws: Workspace, averaged: bool) -> bool:
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         active.is_normal_force_unknown = not contact.is_compliant
-        active.sticks, active.has_given_force = False, False
+        active.sticks = False
         active.normal_force = active.friction_coefficient = 0.0
         active.direction = contact.direction
         active.free[0] = held_gap(contact)
     if ws.problem.n_active > 1:
         # at most the gap over twice the root of the damping: _LARGEST_CORRECTION times the allowed gap
         _damp(ws, max(_DAMPING, (0.5 * ratio / _LARGEST_CORRECTION) ** 2))
-    if averaged:
-        _lift_overlaps(ws)
-    else:
-        resolve(ws)
+    resolve(ws)
     add_response(ws, ws.problem.forces.start, ws.step.y_stage.start + ws.model.n_q)
     return True
-
-
-@kernel()
-def _lift_overlaps(ws: Workspace) -> None:
-    """Write impulses that push only, and leave no overlap of the active contacts in unit time, to ``force``.
-
-    A gap that is open after a span of averaged forces closes by the forces of the next one. To close it by a
-    displacement could turn bodies whose contacts nearly repeat each other into their neighbours.
-    """
-    clear(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
-    decouple_normals(ws)
-    for active in ws.actives:
-        active.static_coefficient, active.is_at_rest = 0.0, True
-        if ws.contacts[active.contact].is_compliant:
-            # its known force is 0 here
-            active.free[0] = 0.0
-        active.free[1] = active.free[2] = 0.0
-    if not search_by_newton(ws, 0):
-        sweep(ws, SWEEPS)
 
 
 @kernel("f8(ws)")
@@ -395,7 +367,7 @@ def _project_active(ws: Workspace, at_event: bool) -> Projected:
     for active in ws.actives:
         evaluate_jacobian(ws, active.contact)
     loss = project_rates(ws, at_event)
-    return Projected(loss, _add_gaps(ws, averaged=is_averaged(ws)))
+    return Projected(loss, _add_gaps(ws))
 
 
 @entry_point()
