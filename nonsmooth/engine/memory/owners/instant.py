@@ -86,6 +86,7 @@ class Impact(Singleton, key="impact"):
 
 
 _SOLUTION = Life.SOLUTION
+_REUSED = Life.REUSED
 
 
 @final
@@ -107,7 +108,7 @@ class Problem(Singleton, key="problem"):
     is_null_space_banded: bool = question(_SOLUTION, "The null space is known by the band of the square.")
     guess: int = whole(_SOLUTION, "Where the first guess of the accelerations is, or 0.")
     is_unsettled: bool = question(_SOLUTION, "The slip at the end of an implicit stage has not converged.")
-    stage_time: float = real(_SOLUTION, "s", "Time of the implicit stage at whose end the slip is found, or 0.")
+    stage_time: float = real(_REUSED, "s", "Time of the implicit stage at whose end the slip is found, or 0.")
     effort: float = real(_SOLUTION, "1", "Operations of the search so far.")
     acceleration_scale: float = real(_SOLUTION, "m/s^2", "Largest acceleration of the problem.")
     small_acceleration: float = real(_SOLUTION, "m/s^2", "Acceleration that counts as zero.")
