@@ -81,14 +81,11 @@ def test_a_mean_force_does_not_jump_where_the_slip_turns_back() -> None:
 
     A force that jumped there would have most steps rejected, until their length falls below the time tolerance.
     """
-    for friction in (
-        Directional(forward=0.49, backward=0.29, across=0.72, axis=(-0.59, 0.41, 0.83), body="first"),
-        Directional(forward=0.36, backward=0.77, across=0.38, axis=(-0.84, 1.45, 0.57), body="first"),
-    ):
-        solution = ns.simulate(_build(friction), T_END)
-        assert Cause.AVERAGING in solution.events.cause
-        assert solution.counters.rejected < 2000
-        assert solution.energy.residual < 1e-8
+    friction = Directional(forward=0.36, backward=0.77, across=0.38, axis=(-0.84, 1.45, 0.57), body="first")
+    solution = ns.simulate(_build(friction), T_END)
+    assert Cause.AVERAGING in solution.events.cause
+    assert solution.counters.rejected < 2000
+    assert solution.energy.residual < 1e-8
 
 
 def test_energy_is_accounted_where_features_change() -> None:
