@@ -63,7 +63,7 @@ class _Touch(NamedTuple):
     friction: FrictionLaw
 
     def exerts(self, direction: np.ndarray) -> bool:
-        """True if the contact can exert a force along a unit vector on the free body."""
+        """True if a force on the free body along the unit vector ``direction`` is in the friction cone."""
         # within the cone about the normal whose half angle is the angle of friction at rest
         return bool(direction @ self.normal >= math.cos(math.atan(coefficient_of(self.friction)(0.0))))
 

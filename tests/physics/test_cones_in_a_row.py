@@ -9,7 +9,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import ConeBody, Plate
-from laws import Coulomb, EnergeticImpact, Unilateral
+from laws import Bristle, Coulomb, EnergeticImpact, LinearCompliant, Unilateral
 
 RADIUS = 0.006
 
@@ -44,3 +44,26 @@ def test_a_row_of_cones_is_pushed_and_none_passes_another(seed: int, feet: float
     assert np.min(second - first) > RADIUS
     assert np.min(third - second) > RADIUS
     assert third[-1] > third[0]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_cones_meet_rim_to_rim_on_one_spring_at_a_place(seed: int) -> None:
+    """The rim of either cone is over the side of the other.  A second spring would begin at the depth of the first one.
+
+    It would bring in energy that no work accounts for, which ends the run.
+    """
+    rng = np.random.default_rng(seed)
+    laws: dict[str, Any] = {
+        "normal": LinearCompliant(stiffness=10.0 ** rng.uniform(4.0, 5.5), damping=rng.uniform(0.0, 3.0)),
+        "friction": Bristle(0.5, 0.6),
+    }
+    plate, cones = Plate(), [ConeBody(RADIUS, 2.0 * RADIUS) for _ in range(2)]
+    system = ns.System([plate, *cones], gravity=9.81)
+    for one, other in ((plate, cones[0]), (plate, cones[1]), (cones[0], cones[1])):
+        system.contact(one, other, **laws)
+    speed, room = rng.uniform(0.5, 1.5), rng.uniform(1e-4, 5e-4)
+    system.place(cones[0], position=(0.0, 0.0, 0.5 * RADIUS), velocity=(speed, 0.0, 0.0))
+    system.place(cones[1], position=(2.0 * RADIUS + room, 0.0, 0.5 * RADIUS))
+    solution = ns.simulate(system, 0.004)
+    assert solution.status == "done"
+    assert solution.of(cones[1])[1][-1, 0] > 0.0

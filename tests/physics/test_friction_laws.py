@@ -177,7 +177,7 @@ def _ball_up_a_slope(law: Directional, slope: float, speed: float, t_end: float)
 
 @pytest.mark.parametrize("angle", [0.3, 0.7])
 def test_a_slip_stops_where_friction_the_other_way_is_strong(angle: float) -> None:
-    """A slip against the fur is stopped in finite time, and the fur then holds: the ball rolls from that event on.
+    """Strong friction stops a slip in finite time, and then holds the contact: the ball rolls from that event on.
 
     Its slip obeys v' = g_t + 7/2 T(v) / m until it stops, off both axes of the law.
     """
@@ -210,7 +210,7 @@ def test_a_slip_stops_where_friction_the_other_way_is_strong(angle: float) -> No
 @pytest.mark.parametrize("excess", [-1e-6, 1e-6])
 @pytest.mark.parametrize(("heading", "mu"), [(0.0, 0.2), (math.pi, 0.4), (0.5 * math.pi, 0.3)])
 def test_breakaway_by_direction(heading: float, mu: float, excess: float) -> None:
-    """On a slope a block with fur holds iff tan(angle) is at most the coefficient of its way down."""
+    """A block holds on a slope iff tan(angle) is at most the coefficient of friction against its way down."""
     law = Directional(0.2, 0.4, 0.3)
     solution = _block(_rigid(law), 0.02, slope=math.atan(mu) + excess, heading=heading)
     if excess < 0.0:

@@ -213,6 +213,7 @@ def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
     best = separation_along(a, first, b, second, axis)
     best = max(best, separation_along(a, first, b, second, opposite(axis)))
     best = max(best, separation_along(a, first, b, second, sideways))
+    # the normal of a cylinder's side is the part across the axis
     if second[SIN] != 0.0:
         best = max(best, separation_along(a, first, b, second, ahead(times(second[COS], sideways), -second[SIN], axis)))
     return float(best)

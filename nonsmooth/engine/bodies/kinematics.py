@@ -122,7 +122,7 @@ def _can_close(ws: Workspace, contact: ContactRecord, near: float) -> bool:
 
 @entry_point("void(ws, i8)")
 def replace_gap(ws: Workspace, c: int) -> None:
-    """Replace the gap of the open contact ``c`` by a positive substitute if it is not the distance of the bodies [m].
+    """Replace the gap of open contact ``c`` [m] by a positive one if its features do not face or cannot meet.
 
     The gap is at most that of surfaces next to each other. See :func:`evaluate_geometry`.
     """

@@ -112,7 +112,7 @@ def is_out_of_reach(ws: Workspace, allowed: float) -> bool:
             return False
         if unknown.direction == FIRST_ROW:
             size = length(active.friction)
-            # each of two components may be outside by what is allowed
+            # along t1 and along t2 friction may exceed its bound by ``allowed`` each
             reach += size * (active.static_coefficient * active.normal_force + 2.0 * allowed - size)
     return reach < 0.0
 

@@ -249,10 +249,10 @@ def _solve_lone_slip(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _turn_facings(ws: Workspace) -> bool:
-    """Set the facing (side from which slip is opposed) of anisotropic friction by its own force.
+    """Set the facing of anisotropic friction: whether its force opposes slip along the law's axis or against it.
 
-    The facing sets the bound, of a slip that friction stops and of one that goes on. It concerns the force along t1,
-    the axis of the law. A slip across the axis has either facing, with the same force. True if a bound changes by this,
+    The facing sets the bound, of a slip that friction stops and of one that goes on. The force along t1, the axis of
+    the law, decides. A slip across the axis has either facing, with the same force. True if a bound changes by this,
     so that the forces must be found again.
     """
     has_turned = False

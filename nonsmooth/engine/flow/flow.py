@@ -177,7 +177,7 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
         active.is_normal_force_unknown = False
         active.normal_force = contact.mean_force[0]
     if contact.is_averaged:
-        # the slip may turn the facing within the span, but not the force
+        # the force is constant over the span, also where the slip turns back and changes the facing
         active.friction = contact.mean_force[1] / stretch_along(ws, contact), contact.mean_force[2]
         return
     if contact.mode == Mode.STICK:

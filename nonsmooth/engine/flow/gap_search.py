@@ -313,7 +313,7 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
 
 @kernel("b1(ws, ContactRecord)")
 def _may_face_between(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if the features of an open rigid contact face each other at no end of the step, but may do so within it.
+    """True if features of an open rigid contact that do not face each other at either end of the step may do so within.
 
     They are features of neighbours whose gap is not among those that may close in the step.
     """

@@ -73,7 +73,7 @@ def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
 
 @functools.cache
 def _arrays(owners: tuple[type, ...], of_floats: bool) -> tuple[Declaration, ...]:
-    """Arrays of some owners, of floats if ``of_floats``, else of integers, in the order of their offsets."""
+    """Arrays that ``owners`` declare, by offset: those of floats if ``of_floats``, else those of integers."""
     return tuple(sorted((one for one in _all(owners) if has_array(one) and one.is_float == of_floats), key=group_of))
 
 
