@@ -85,9 +85,8 @@ def velocity_at(ws: Workspace, contact: ContactRecord) -> Vector:
 def _opens_aside(ws: Workspace, contact: ContactRecord, of_second: bool, near: float) -> bool:
     """True if two convex shapes are apart, and do not approach, along another direction than the contact normal.
 
-    The direction is the stored direction of their pair. It turns with the second part if ``of_second``, else with the
-    first part. The shapes are apart if they overlap by at most ``near`` [m]. Feet may touch while the shapes are apart,
-    so the result is False for shapes with feet.
+    The direction is the one stored for their pair. It turns with the second part if ``of_second``, else with the first.
+    The shapes are apart if they overlap by at most ``near`` [m]. The result is False for shapes with feet.
     """
     pair = ws.pairs[contact.pair]
     n, has_feet = normal_of_either(ws, pair, of_second), pair.clearance > 0.0
@@ -162,7 +161,8 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     contact.overlap = 0.0
     if contact.initial_depth > 0.0 and (contact.mode != Mode.OPEN or contact.past_feature <= ws.tolerance.gap):
         contact.gap += contact.initial_depth
-    if contact.mode == Mode.OPEN and contact.gap <= ADJACENT * ws.tolerance.gap:
+    may_differ = contact.pair != NO_PAIR or contact.past_feature > 0.0
+    if may_differ and contact.mode == Mode.OPEN and contact.gap <= ADJACENT * ws.tolerance.gap:
         replace_gap(ws, c)
 
 

@@ -18,11 +18,12 @@ from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.search import find_modes
-from nonsmooth.engine.contact.trial import find_tried_forces, verify
-from nonsmooth.engine.delassus.delassus import diagonal_block
+from nonsmooth.engine.contact.trial import NO_FORCE, find_tried_forces, verify
+from nonsmooth.engine.delassus.delassus import diagonal_block, slip_acceleration
 from nonsmooth.engine.impact.guards import GuardKind, guard_of
 from nonsmooth.engine.impact.rates import evaluate_impact_rates, slip_slope
 from nonsmooth.engine.impact.state import NOISE, is_loaded, normal_force, state_of
+from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode, Phase
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
@@ -167,10 +168,39 @@ def _find_modes(ws: Workspace) -> None:
         own = diagonal_block(ws, active.index)
         acceleration = max(own.nn, own.t11, own.t22) * active.given_force
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
-    if not (verify(ws, is_lenient=False) or find_modes(ws, Solver.NEWTON) or find_modes(ws, Solver.GAUSS_SEIDEL)):
+    all_stick = not _is_too_fast(ws) and verify(ws, is_lenient=False)
+    if not (all_stick or find_modes(ws, Solver.NEWTON) or find_modes(ws, Solver.GAUSS_SEIDEL)):
         _exchange_modes(ws)
     for active in ws.actives:
         active.sticks = active.mode_tried == Mode.STICK
+
+
+@kernel("b1(ws)")
+def _is_too_fast(ws: Workspace) -> bool:
+    """True if friction within its bounds cannot keep all contacts in mode ``STICK`` from slipping.
+
+    Let a be the slip accelerations of these contacts without their friction. Friction f that stops them fulfils
+    G f = -a, so |a|^2 = -(G a) . f, and within its bounds this is at most the sum of mu f_n |G a| over the contacts.
+    It takes two products, no solution. An unknown normal force f_n makes the result False.
+    """
+    for active in ws.actives:
+        if not active.has_given_force:
+            return False
+        active.normal_force, active.friction = active.given_force, (0.0, 0.0)
+        if active.mode_tried == Mode.SLIDE:
+            friction_of_slip(ws, active.index)
+    for active in ws.actives:
+        active.acceleration[FIRST_ROW], active.acceleration[SECOND_ROW] = slip_acceleration(ws, active)
+    square = reach = 0.0
+    for active in ws.actives:
+        active.normal_force, active.friction = 0.0, (0.0, 0.0)
+        if active.mode_tried == Mode.STICK:
+            active.friction = active.slip_acceleration
+            square += active.friction[0] ** 2 + active.friction[1] ** 2
+    for active in ws.actives:
+        if active.mode_tried == Mode.STICK:
+            reach += active.static_coefficient * active.given_force * length(slip_acceleration(ws, active))
+    return square > (1.0 + NO_FORCE) * reach
 
 
 @kernel()
