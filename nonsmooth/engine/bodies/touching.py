@@ -40,12 +40,15 @@ def find_touching(ws: Workspace) -> bool:
     is_approaching, has_ended = False, True
     # each pass ends the own step of another body, so that the loop ends
     while has_ended:
-        is_approaching, has_ended = False, False
+        is_approaching = has_ended = may_leave_out = False
         for contact in ws.contacts:
             evaluate_kinematics(ws, contact.index)
             contact.is_touching = _does_touch(ws, contact)
-        leave_out_coincident(ws)
-        _leave_out_blocked(ws)
+            is_of_pair = contact.mode == Mode.OPEN and contact.pair != NO_PAIR
+            may_leave_out = may_leave_out or (contact.is_touching and is_of_pair)
+        if may_leave_out:
+            leave_out_coincident(ws)
+            _leave_out_blocked(ws)
         for contact in ws.contacts:
             if contact.is_touching:
                 is_approaching = _approaches(ws, contact) or is_approaching
