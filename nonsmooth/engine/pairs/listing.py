@@ -197,6 +197,7 @@ def _full(ws: Workspace, margin: float) -> Status:
 @entry_point("Status(ws)")
 def list_near(ws: Workspace) -> Status:
     """List the contacts of all bodies near each other, whether their shapes are apart or not; return the status."""
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for pair in ws.pairs:
         pair.is_apart, pair.reach = False, math.inf
     return fill_list(ws)
@@ -226,12 +227,12 @@ def list_with(ws: Workspace, touching: int) -> Status:
 def fill_list(ws: Workspace) -> Status:
     """Make the list at the present state, by the pairs that are known to be apart; return the status.
 
-    With the status ``LIST_FULL`` the histories are kept, and the call can be repeated in a memory with more slots.
+    Bodies must be evaluated. With the status ``LIST_FULL`` the histories are kept, and the call can be repeated in a
+    memory with more slots.
     """
     store_histories(ws)
     ws.island.follows_a_step = False
     ws.totals.n_listings += 1
-    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     if ws.model.n_spheres == 0:
         for row in range(ws.model.n_rows):
             _enter_row(ws, row)
