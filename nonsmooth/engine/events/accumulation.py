@@ -17,7 +17,7 @@ import math
 
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
-from nonsmooth.engine.bodies.kinematics import row
+from nonsmooth.engine.bodies.kinematics import row, sliding_of
 from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
@@ -31,9 +31,9 @@ from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.memory.event_rows import CLOSING_LOSS, DRIVEN_WORK
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
-from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import dot, length, minus
 
 _PART_AT_REST = 1.0 - 1e-6
 """Part of an averaging span within which a bounce is short: all contacts come to rest at its end, up to round-off."""
@@ -79,7 +79,23 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
     ws.island.first_step = min(ws.island.first_step, 3.0 * rate / acceleration)
     # a contact that coincides with a closed one is the same contact, and does not bounce
     is_back = (rate - acceleration * time) * time <= -max(0.0, contact.gap)
-    return is_back and closed_coincident(ws, c) == NO_CONTACT
+    return is_back and closed_coincident(ws, c) == NO_CONTACT and not _runs_off(ws, contact, 2.0 * rate / acceleration)
+
+
+@kernel("b1(ws, ContactRecord, f8)")
+def _runs_off(ws: Workspace, contact: ContactRecord, time: float) -> bool:
+    """True if the contact point runs past the end of its features within a ``time`` [s], faster than its bodies move.
+
+    The acceleration of the gap is then not that of a bounce. The contact point of two nearly parallel cylinders runs
+    along them at a speed that has no bound. A point that slides or rolls is not faster than slip and turning.
+    """
+    spin = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
+    radius = min(contact.support_radius_a, contact.support_radius_b)
+    sliding = sliding_of(ws, contact)
+    speed = math.sqrt(dot(sliding, sliding))
+    # without an end of its features, `past_feature` is 0
+    is_fast = contact.past_feature != 0.0 and speed > length(contact.slip) + math.sqrt(dot(spin, spin)) * radius
+    return is_fast and contact.past_feature + speed * time > 0.0
 
 
 @kernel("i8(ws)")
