@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.blocks import FRAME, VELOCITY
 from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
 
-from .vectors import Vector3, put
+from .vectors import Vector3, write_vector
 
 POSE = VELOCITY
 """Length of a pose: position [m], then rotation matrix by rows.
@@ -41,9 +41,9 @@ def put_rows(out: Floats, place: int, rows: tuple[Vector3, Vector3, Vector3], st
     """Write the rows of a matrix into a block, each ``stride`` numbers behind the one before."""
     x, y, z = rows
     # written out: a loop over a tuple of tuples is not unrolled
-    put(out, place, x)
-    put(out, place + stride, y)
-    put(out, place + 2 * stride, z)
+    write_vector(out, place, x)
+    write_vector(out, place + stride, y)
+    write_vector(out, place + 2 * stride, z)
 
 
 def pose_of(position: Sequence[float], orientation: Sequence[float]) -> tuple[float, ...]:

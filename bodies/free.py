@@ -21,7 +21,7 @@ from nonsmooth.types import Floats
 from .blocks import places_behind_frame, put_rows, rotation_of
 from .inertia import Triple, check_inertia, tensor_of
 from .values import Word, check_carried, read_start
-from .vectors import ahead, dot, put, times, vector_at
+from .vectors import dot, plus_scaled, scaled, vector_at, write_vector
 
 _WORDS: dict[str, Word] = {
     "position": (3, (0.0, 0.0, 0.0), "m"),
@@ -48,23 +48,23 @@ def _evaluate(
     # numbers are read where they are used: more of them at a time would not fit into the registers
     a, b, c, d = q[3], q[4], q[5], q[6]
     ox, oy, oz = spin = vector_at(u, 3)
-    put(out, POSITION, vector_at(q, 0))
-    put(out, VELOCITY, vector_at(u, 0))
+    write_vector(out, POSITION, vector_at(q, 0))
+    write_vector(out, VELOCITY, vector_at(u, 0))
     rows = rotation_of(a, b, c, d)
     put_rows(out, ROTATION, rows)
-    put(out, SPIN, (dot(rows[0], spin), dot(rows[1], spin), dot(rows[2], spin)))
+    write_vector(out, SPIN, (dot(rows[0], spin), dot(rows[1], spin), dot(rows[2], spin)))
     # Jacobian of (velocity, angular velocity): identity and rotation
     out[JACOBIAN] = out[JACOBIAN + 7] = out[JACOBIAN + 14] = 1.0
     put_rows(out, JACOBIAN + 21, rows, 6)
     # coordinate rates: velocity and half the quaternion product q (0, omega)
-    put(out, _RATES, vector_at(u, 0))
+    write_vector(out, _RATES, vector_at(u, 0))
     out[_RATES + 3] = 0.5 * (-b * ox - c * oy - d * oz)
     out[_RATES + 4] = 0.5 * (a * ox + c * oz - d * oy)
     out[_RATES + 5] = 0.5 * (a * oy + d * ox - b * oz)
     out[_RATES + 6] = 0.5 * (a * oz + b * oy - c * ox)
     # force and gyroscopic moment
     gravity = gravity_x, gravity_y, gravity_z
-    put(out, _FORCE, times(mass, gravity))
+    write_vector(out, _FORCE, scaled(mass, gravity))
     (jx, jy, jz), (jyz, jxz, jxy) = vector_at(inertia, 0), vector_at(inertia, 3)
     # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
     out[_FORCE + 3] = (jy - jz) * oy * oz + (jyz * (oz * oz - oy * oy) + ox * (jxy * oz - jxz * oy))
@@ -72,7 +72,7 @@ def _evaluate(
     out[_FORCE + 5] = (jx - jy) * ox * oy + (jxy * (oy * oy - ox * ox) + oz * (jxz * oy - jyz * ox))
     out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
     for i in range(3):
-        put(out, _INVERSE + 21 + 6 * i, vector_at(inverse_inertia, 3 * i))
+        write_vector(out, _INVERSE + 21 + 6 * i, vector_at(inverse_inertia, 3 * i))
     velocity = vector_at(u, 0)
     in_axes = mass * dot(velocity, velocity) + jx * ox * ox + jy * oy * oy + jz * oz * oz
     out[_ENERGY] = 0.5 * in_axes + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
@@ -93,8 +93,8 @@ def _fly(
 ) -> None:
     half, (jx, jy, jz) = 0.5 * t, vector_at(inertia, 0)
     velocity, gravity = vector_at(u, 0), (gravity_x, gravity_y, gravity_z)
-    put(out, 0, ahead(vector_at(q, 0), t, ahead(velocity, half, gravity)))
-    put(out, 7, ahead(velocity, t, gravity))
+    write_vector(out, 0, plus_scaled(vector_at(q, 0), t, plus_scaled(velocity, half, gravity)))
+    write_vector(out, 7, plus_scaled(velocity, t, gravity))
     ox, oy, oz = vector_at(u, 3)
     # the angular momentum over the moment of inertia across the axis of symmetry stays in space; what the spin about
     # that axis has more turns with the body
@@ -122,7 +122,7 @@ def _fly(
             oz, ox = c * oz + s * ox, c * ox - s * oz
         else:
             ox, oy = c * ox + s * oy, c * oy - s * ox
-    put(out, 10, (ox, oy, oz))
+    write_vector(out, 10, (ox, oy, oz))
 
 
 @functools.lru_cache(maxsize=256)

@@ -17,7 +17,7 @@ from nonsmooth.types import Floats
 
 from .blocks import places_behind_frame
 from .values import Word, keep_carried, read_start
-from .vectors import put, vector_at
+from .vectors import vector_at, write_vector
 
 _WORDS: dict[str, Word] = {
     "position": (2, (0.0, 0.0), "m"),
@@ -42,7 +42,7 @@ def _evaluate(
     gravity_z: float,
 ) -> None:
     c, s = math.cos(q[2]), math.sin(q[2])
-    put(out, POSITION, (q[0], y, q[1]))
+    write_vector(out, POSITION, (q[0], y, q[1]))
     out[ROTATION], out[ROTATION + 2] = c, s
     out[ROTATION + 4] = 1.0
     out[ROTATION + 6], out[ROTATION + 8] = -s, c

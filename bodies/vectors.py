@@ -19,7 +19,7 @@ def vector_at(table: ReadFloats, place: int) -> Vector3:
 
 
 @compiled
-def put(out: Floats, place: int, v: Vector3) -> None:
+def write_vector(out: Floats, place: int, v: Vector3) -> None:
     """Write a vector, or a row of a matrix, from a place of a block on."""
     out[place], out[place + 1], out[place + 2] = v
 
@@ -37,19 +37,19 @@ def minus(a: Vector3, b: Vector3) -> Vector3:
 
 
 @compiled
-def times(factor: float, a: Vector3) -> Vector3:
+def scaled(factor: float, a: Vector3) -> Vector3:
     """Return a multiple of a vector."""
     return factor * a[0], factor * a[1], factor * a[2]
 
 
 @compiled
-def ahead(a: Vector3, way: float, along: Vector3) -> Vector3:
+def plus_scaled(a: Vector3, way: float, along: Vector3) -> Vector3:
     """Return a + way along, such as the point at a distance from a in the direction of a unit vector."""
     return a[0] + way * along[0], a[1] + way * along[1], a[2] + way * along[2]
 
 
 @compiled
-def over(a: Vector3, divisor: float) -> Vector3:
+def divided(a: Vector3, divisor: float) -> Vector3:
     """Return a vector divided by a number."""
     return a[0] / divisor, a[1] / divisor, a[2] / divisor
 
@@ -73,6 +73,6 @@ def cross(a: Vector3, b: Vector3) -> Vector3:
 
 
 @compiled
-def size_of(a: Vector3) -> float:
+def norm(a: Vector3) -> float:
     """Return the length of a vector."""
     return math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])

@@ -17,7 +17,11 @@ from nonsmooth.bodies import BoxBody, Plate
 from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 
 _BLUE, _RED, _GREY = "tab:blue", "tab:red", "0.35"
-_TEXT: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7, "arrowprops": {"arrowstyle": "-", "color": _GREY}}
+_TEXT: dict[str, Any] = {
+    "textcoords": "offset points",
+    "fontsize": 7,
+    "arrowprops": {"arrowstyle": "-", "color": _GREY},
+}
 _LOW, _HIGH = (0.06, 0.04, 0.02), (0.03, 0.03, 0.015)
 
 

@@ -36,7 +36,7 @@ from nonsmooth.types import Floats
 from nonsmooth.vectors import vector
 
 from ..contacts.features.frames import point_in_world, vector_in_world
-from ..vectors import Vector3, ahead, cross, dot, minus, over, plus, put, size_of, times, vector_at
+from ..vectors import Vector3, cross, divided, dot, minus, norm, plus, plus_scaled, scaled, vector_at, write_vector
 
 Point = tuple[float, float, float]
 _WIDTH = 10
@@ -116,14 +116,14 @@ def _acceleration(frame: Floats, d: Vector3) -> Vector3:
         a[1] + turn[2] * d[0] - turn[0] * d[2] + w[1] * along,
         a[2] + turn[0] * d[1] - turn[1] * d[0] + w[2] * along,
     )
-    return ahead(carried, -dot(w, w), d)
+    return plus_scaled(carried, -dot(w, w), d)
 
 
 @compiled
 def _write_row(out: Floats, residual: float, axis: Vector3, moment: Vector3, bias: float) -> None:
     out[RESIDUAL], out[ROW_BIAS] = residual, bias
-    put(out, AXIS, axis)
-    put(out, MOMENT, moment)
+    write_vector(out, AXIS, axis)
+    write_vector(out, MOMENT, moment)
 
 
 @compiled
@@ -132,13 +132,13 @@ def point_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vector3
     n, offset = vector_in_world(a, axis), vector_in_world(b, second)
     point = plus(vector_at(b, POSITION), offset)
     # both sides move with the point of the second body, as seen from the first
-    put(out, POINT_A, point)
-    put(out, POINT_B, point)
+    write_vector(out, POINT_A, point)
+    write_vector(out, POINT_B, point)
     d_a, d_b = minus(point, vector_at(a, POSITION)), minus(point, vector_at(b, POSITION))
     # acceleration of the second body's point relative to the turning frame of the first
     rate = minus(_velocity(b, d_b), _velocity(a, d_a))
     acceleration = minus(_acceleration(b, d_b), _acceleration(a, d_a))
-    acceleration = ahead(acceleration, -2.0, cross(vector_at(a, SPIN), rate))
+    acceleration = plus_scaled(acceleration, -2.0, cross(vector_at(a, SPIN), rate))
     residual = dot(n, minus(d_a, vector_in_world(a, first)))
     _write_row(out, residual, n, (0.0, 0.0, 0.0), dot(n, acceleration))
 
@@ -149,12 +149,12 @@ def angle_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vector3
     e_a, e_b = vector_in_world(a, first), vector_in_world(b, second)
     w_a, w_b, residual = vector_at(a, SPIN), vector_at(b, SPIN), dot(e_a, e_b)
     # kept where the points of the row would be: a row of angles has none
-    put(out, POINT_A, e_a)
-    put(out, POINT_B, e_b)
+    write_vector(out, POINT_A, e_a)
+    write_vector(out, POINT_B, e_b)
     moment = cross(e_b, e_a)
     # (omega_b x e_b) x e_a + e_b x (omega_a x e_a), the rate of the moment
-    turned = ahead(ahead(times(dot(w_b, e_a), e_b), -residual, w_b), residual, w_a)
-    turned = ahead(turned, -dot(w_a, e_b), e_a)
+    turned = plus_scaled(plus_scaled(scaled(dot(w_b, e_a), e_b), -residual, w_b), residual, w_a)
+    turned = plus_scaled(turned, -dot(w_a, e_b), e_a)
     spin, turn = minus(w_b, w_a), minus(vector_at(b, SPIN_ACCELERATION), vector_at(a, SPIN_ACCELERATION))
     bias = 0.0
     for i in range(3):
@@ -166,11 +166,15 @@ def angle_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vector3
 def distance_row(a: Floats, b: Floats, out: Floats, first: Vector3, second: Vector3, length: float) -> None:
     """Write the row of |P_b - P_a| = length."""
     point_a, point_b = point_in_world(a, first), point_in_world(b, second)
-    put(out, POINT_A, point_a)
-    put(out, POINT_B, point_b)
+    write_vector(out, POINT_A, point_a)
+    write_vector(out, POINT_B, point_b)
     apart = minus(point_b, point_a)
-    distance = size_of(apart)
-    n, d_a, d_b = over(apart, distance), minus(point_a, vector_at(a, POSITION)), minus(point_b, vector_at(b, POSITION))
+    distance = norm(apart)
+    n, d_a, d_b = (
+        divided(apart, distance),
+        minus(point_a, vector_at(a, POSITION)),
+        minus(point_b, vector_at(b, POSITION)),
+    )
     rate = minus(_velocity(b, d_b), _velocity(a, d_a))
     acceleration = minus(_acceleration(b, d_b), _acceleration(a, d_a))
     stretch = dot(n, rate)

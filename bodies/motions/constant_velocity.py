@@ -14,7 +14,7 @@ from nonsmooth.types import Floats
 
 from ..blocks import pose_of
 from ..values import check_fields
-from ..vectors import put
+from ..vectors import write_vector
 
 
 def _evaluate(
@@ -45,14 +45,14 @@ def _evaluate(
     ox, oy, oz = rate * x, rate * y, rate * z
     # velocity omega x offset and acceleration omega x (omega x offset) about the moving centre
     wx, wy, wz = oy * bz - oz * by, oz * bx - ox * bz, ox * by - oy * bx
-    put(out, POSITION, (bx, by, bz))
-    put(out, VELOCITY, (wx, wy, wz))
+    write_vector(out, POSITION, (bx, by, bz))
+    write_vector(out, VELOCITY, (wx, wy, wz))
     # add the motion of the centre
     for i in range(3):
         out[POSITION + i] += centre[i] + velocity[i] * t
         out[VELOCITY + i] += velocity[i]
-    put(out, SPIN, (ox, oy, oz))
-    put(out, ACCELERATION, (oy * wz - oz * wy, oz * wx - ox * wz, ox * wy - oy * wx))
+    write_vector(out, SPIN, (ox, oy, oz))
+    write_vector(out, ACCELERATION, (oy * wz - oz * wy, oz * wx - ox * wz, ox * wy - oy * wx))
 
 
 @final

@@ -8,7 +8,7 @@ from typing import TypeAlias
 from nonsmooth.compiled import call_support, compiled
 from nonsmooth.types import ReadFloats
 
-from ..vectors import Vector3, ahead, cross, dot, plus, times
+from ..vectors import Vector3, cross, dot, plus, plus_scaled, scaled
 
 Core: TypeAlias = ReadFloats
 """The numbers of a core, which functions only read."""
@@ -84,8 +84,8 @@ def _slope(core: Core, n: Vector3, t: Vector3) -> Vector3:
     for i in range(-2, 3):
         if i != 0:
             weight = (8.0 if abs(i) == 1 else -1.0) * (1.0 if i > 0 else -1.0) / (12.0 * _TURN)
-            x, y, z = plus(times(math.cos(i * _TURN), n), times(math.sin(i * _TURN), t))
-            slope = ahead(slope, weight, call_support(core, FUNCTION, x, y, z))
+            x, y, z = plus(scaled(math.cos(i * _TURN), n), scaled(math.sin(i * _TURN), t))
+            slope = plus_scaled(slope, weight, call_support(core, FUNCTION, x, y, z))
     return slope
 
 

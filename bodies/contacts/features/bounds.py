@@ -16,7 +16,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, cross, dot, minus, size_of, times, vector_at
+from ...vectors import Vector3, cross, dot, minus, norm, plus_scaled, scaled, vector_at
 from .frames import point_in_world, vector_in_world
 from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
@@ -33,7 +33,7 @@ def squared_distance_of_segments(w: Vector3, e: Vector3, p: float, f: Vector3, q
     s = min(max((along_e - across * along_f) / square, 0.0), p) if square > 0.0 else 0.0
     t = min(max(s * across - along_f, 0.0), q)
     s = min(max(along_e + t * across, 0.0), p)
-    apart = minus(ahead(w, t, f), times(s, e))
+    apart = minus(plus_scaled(w, t, f), scaled(s, e))
     return float(dot(apart, apart))
 
 
@@ -48,13 +48,13 @@ def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends:
         # n is above the arc: the sine of its angle with the plane of the arc
         return float(abs(dot(n, along)))
     # a chord is shorter than the angle
-    return float(min(size_of(minus(n, ends[0])), size_of(minus(n, ends[1]))))
+    return float(min(norm(minus(n, ends[0])), norm(minus(n, ends[1]))))
 
 
 @compiled
 def _of_row(frame: Floats, edges: Floats, at: int, sign: float) -> Vector3:
     """Return ``sign`` times a vector of a row of edges, in the world."""
-    return vector_in_world(frame, times(sign, vector_at(edges, at)))
+    return vector_in_world(frame, scaled(sign, vector_at(edges, at)))
 
 
 @compiled
@@ -67,7 +67,7 @@ def _between_arcs(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Flo
     ends_a = cross(e, into_a[0]), cross(into_a[1], e)
     ends_b = cross(f, into_b[0]), cross(into_b[1], f)
     for sign in (1.0, -1.0):
-        n = times(sign, cross(e, f))
+        n = scaled(sign, cross(e, f))
         # the arcs cross: the common normal belongs to both
         if max(max(dot(n, into_a[0]), dot(n, into_a[1])), max(dot(n, into_b[0]), dot(n, into_b[1]))) <= 0.0:
             return 0.0

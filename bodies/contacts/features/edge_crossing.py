@@ -9,11 +9,11 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.numerics.tolerances import ADJACENT, GAP, RELATIVE_GAP
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of, times, vector_at
+from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus_scaled, scaled, vector_at
 from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
 from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
-ASTRAY = 0.25
+CONE_MARGIN = 0.25
 """Sine of the largest angle between a contact normal and the normals of its features: 14 degrees.
 
 An edge, a rim or a corner has a range of outward normals, between the normals of its adjacent surfaces.  The margin
@@ -30,7 +30,7 @@ Crossing: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, float, float, fl
 
 
 @compiled
-def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, n: Vector3) -> float:
+def sine_off_cone(frame: Floats, edge: Floats, at: int, sign: float, n: Vector3) -> float:
     """Return the sine of the angle from the unit vector ``sign`` n to the range of normals of an edge.
 
     The normals of an edge lie between the normals of its two faces.  The result is not positive within this range.  The
@@ -44,7 +44,7 @@ def edge_astray(frame: Floats, edge: Floats, at: int, sign: float, n: Vector3) -
 @compiled
 def _across_of(e: Vector3, f: Vector3) -> Vector3:
     """Return the shorter of the vectors f - e and f + e of two unit vectors."""
-    return minus(f, times(1.0 if dot(e, f) > 0.0 else -1.0, e))
+    return minus(f, scaled(1.0 if dot(e, f) > 0.0 else -1.0, e))
 
 
 @compiled
@@ -88,7 +88,7 @@ def cross_edges(
     The normal is perpendicular to both edges, with the sign for which it is nearer to the normals of the edges.  Edges
     without faces have no sign, so their gap is positive.  The distance past the boundary is positive if a nearest point
     is past the end of its edge by more than ``margin`` [m], if the sine of the angle between the edges is below
-    ``parallel``, or if the normal is farther than ``ASTRAY`` from the normals of an edge.  The rows of the edges begin
+    ``parallel``, or if the normal is farther than ``CONE_MARGIN`` from the normals of an edge.  The rows of the edges begin
     at the indices ``at_a`` and ``at_b``.
     """
     start = point_in_world(a, vector_at(edge_a, at_a))
@@ -96,23 +96,23 @@ def cross_edges(
     w = minus(point_in_world(b, vector_at(edge_b, at_b)), start)
     # e x f = e x (f - e): the short vector f - e keeps its digits, so the normal of nearly parallel edges is accurate
     n = cross(e, _across_of(e, f))
-    sine = size_of(n)
+    sine = norm(n)
     s, t, past_ends, past = 0.0, 0.0, 0.0, size
     if sine > 1e-3 * parallel:
-        n = over(n, sine)
+        n = divided(n, sine)
         # s and t: distances of the nearest points along the lines, s = (w x f) . n / sine and t = (w x e) . n / sine,
         # with the unit vectors e and f of the lines and the vector w from the start of the first to that of the second
         s, t = dot(n, cross(w, f)) / sine, dot(n, cross(w, e)) / sine
         past_ends = max(max(-s, s - edge_a[at_a + LENGTH]), max(-t, t - edge_b[at_b + LENGTH]))
         past = max(past_ends - margin, size * (1.0 - sine / parallel))
     else:
-        n = minus(w, times(dot(w, e), e))
-        apart = size_of(n)
-        n = over(n, apart) if apart > 0.0 else tangent_of(e)
+        n = minus(w, scaled(dot(w, e), e))
+        apart = norm(n)
+        n = divided(n, apart) if apart > 0.0 else tangent_of(e)
     # measured between the nearest points, so that the length of the edges does not multiply the error of the normal
-    gap = dot(minus(ahead(w, t, f), times(s, e)), n)
-    astray = max(edge_astray(a, edge_a, at_a, 1.0, n), edge_astray(b, edge_b, at_b, -1.0, n))
-    reversed_astray = max(edge_astray(a, edge_a, at_a, -1.0, n), edge_astray(b, edge_b, at_b, 1.0, n))
-    if reversed_astray < astray or (reversed_astray == astray and gap < 0.0):
-        n, gap, astray = opposite(n), -gap, reversed_astray
-    return ahead(start, s, e), e, f, n, gap, past_ends, max(past, size * (astray - ASTRAY))
+    gap = dot(minus(plus_scaled(w, t, f), scaled(s, e)), n)
+    off_cone = max(sine_off_cone(a, edge_a, at_a, 1.0, n), sine_off_cone(b, edge_b, at_b, -1.0, n))
+    reversed_off_cone = max(sine_off_cone(a, edge_a, at_a, -1.0, n), sine_off_cone(b, edge_b, at_b, 1.0, n))
+    if reversed_off_cone < off_cone or (reversed_off_cone == off_cone and gap < 0.0):
+        n, gap, off_cone = opposite(n), -gap, reversed_off_cone
+    return plus_scaled(start, s, e), e, f, n, gap, past_ends, max(past, size * (off_cone - CONE_MARGIN))

@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.blocks import NORMAL, POSITION, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
 from ...shapes.placement import turned
-from ...vectors import Vector3, dot, minus, over, put, size_of, times, vector_at
+from ...vectors import Vector3, divided, dot, minus, norm, scaled, vector_at, write_vector
 
 
 @compiled
@@ -62,15 +62,15 @@ def across(vector: Vector3, axis: Vector3) -> tuple[float, float, Vector3]:
     The unit vector is perpendicular to the axis even if the part across the axis is zero.
     """
     along = dot(vector, axis)
-    part = minus(vector, times(along, axis))
-    size = size_of(part)
+    part = minus(vector, scaled(along, axis))
+    size = norm(part)
     if size > 0.0:
-        part = over(part, size)
+        part = divided(part, size)
         # if the vector is nearly parallel to the axis, its part across is round-off and may lean: project again
-        part = minus(part, times(dot(part, axis), axis))
-        length = size_of(part)
+        part = minus(part, scaled(dot(part, axis), axis))
+        length = norm(part)
         if length > 0.5:
-            return along, size, over(part, length)
+            return along, size, divided(part, length)
     return along, size, tangent_of(axis)
 
 
@@ -105,4 +105,4 @@ def write_tangent(a: Floats, out: Floats) -> None:
 
     The tangent depends only on the direction of the normal in the axes of the first body, whose frame block is ``a``.
     """
-    put(out, TANGENT, vector_in_world(a, tangent_of(vector_in_body(a, vector_at(out, NORMAL)))))
+    write_vector(out, TANGENT, vector_in_world(a, tangent_of(vector_in_body(a, vector_at(out, NORMAL)))))

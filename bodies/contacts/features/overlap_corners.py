@@ -19,12 +19,12 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, vector_at
-from .edge_crossing import ASTRAY
+from .edge_crossing import CONE_MARGIN
 from .frames import point_in_world, vector_in_body, vector_in_world
 from .polytope_tables import FACE, LENGTH
 from .vertex_face import CLOSED, nearest_feature, past_face, plane_height
 
-_COSINE = math.sqrt(1.0 - ASTRAY * ASTRAY)
+_COSINE = math.sqrt(1.0 - CONE_MARGIN * CONE_MARGIN)
 """Cosine of the largest angle between a contact normal and the normal of a face next to it."""
 FLUSH = 0.02
 """Sine of the largest angle between two faces that are next to each other.

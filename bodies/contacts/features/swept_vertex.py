@@ -13,8 +13,8 @@ from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Point
-from ...vectors import Vector3, cross, dot, minus, put, times, vector_at
-from .edge_crossing import ASTRAY
+from ...vectors import Vector3, cross, dot, minus, scaled, vector_at, write_vector
+from .edge_crossing import CONE_MARGIN
 from .frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
 from .polytope_tables import (
@@ -112,9 +112,9 @@ def write_vertex_over(
     sign = 1.0 - 2.0 * swap
     near, far = 10 - int(3.0 * swap), 7 + int(3.0 * swap)
     out[GAP], out[FEATURE], out[PAST_END] = gap, number, past
-    put(out, NORMAL, times(sign, n))
-    put(out, near, minus(center, times(radius, n)))
-    put(out, far, minus(vector_at(out, near), times(gap, n)))
+    write_vector(out, NORMAL, scaled(sign, n))
+    write_vector(out, near, minus(center, scaled(radius, n)))
+    write_vector(out, far, minus(vector_at(out, near), scaled(gap, n)))
     write_tangent(a, out)
     write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
@@ -125,13 +125,13 @@ def _is_along_side(own: Floats, other: Floats, core: Floats, number: int, n_star
     """Return whether the nearest feature of a core is the side of a capsule, nearly parallel to the vertex's own.
 
     The vertex is the end of a segment, with the single unit vector ``star`` in the frame ``own``.  The largest sine of
-    the angle is ``ASTRAY``.
+    the angle is ``CONE_MARGIN``.
     """
     if n_star != 1.0 or core[N_FACES] > 0.0 or number > 0:
         return False
     along = vector_in_world(other, vector_at(core, int(core[EDGES]) + ALONG))
     across = cross(along, vector_in_world(own, vector_at(star, 0)))
-    return bool(dot(across, across) <= ASTRAY * ASTRAY)
+    return bool(dot(across, across) <= CONE_MARGIN * CONE_MARGIN)
 
 
 @compiled
@@ -184,14 +184,14 @@ def write_vertex(
         # the contact normal and the common direction u point from the first body to the second
         sign = 1.0 - 2.0 * swap
         first, second = (own_faces, faces_of(core)) if swap == 1.0 else (faces_of(core), own_faces)
-        u = common_direction(a, b, *first, *second, times(sign, n))
+        u = common_direction(a, b, *first, *second, scaled(sign, n))
         if dot(u, u) > 0.0:
             ends = block_at(core, int(core[ENDS]))
             beyond, within = vertex_past_corner(
                 own_frame,
                 other,
                 swap == 1.0,
-                times(sign, u),
+                scaled(sign, u),
                 *faces_of(core),
                 *edges_of(core),
                 ends,

@@ -8,7 +8,7 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, dot, minus, over, size_of, times, vector_at
+from ...vectors import Vector3, divided, dot, minus, norm, scaled, vector_at
 from .frames import point_in_body, tangent_of, vector_in_body, vector_in_world
 from .polytope_tables import EDGE, ENDS, FACE, FACES, N_FACES, N_VERTICES, VERTEX, VERTICES, edges_of, faces_of
 
@@ -66,7 +66,7 @@ def past_face(faces: Floats, n_faces: float, face: int, height: float, point: Ve
     It is the largest height of the projection over the planes of the other faces, -inf if there are none.  ``face`` is
     the index at which the row of the face begins, ``height`` the height of the point over it [m].
     """
-    foot, past = minus(point, times(height, vector_at(faces, face))), -math.inf
+    foot, past = minus(point, scaled(height, vector_at(faces, face))), -math.inf
     for i in range(int(n_faces)):
         if FACE * i != face:
             past = max(past, plane_height(faces, FACE * i, foot))
@@ -159,7 +159,7 @@ def _edge(edges: Floats, n_edges: float, point: Vector3) -> tuple[int, float]:
         e = EDGE * i
         w, direction, length = minus(point, vector_at(edges, e)), vector_at(edges, e + 3), edges[e + 6]
         along = min(max(dot(w, direction), 0.0), length)
-        w = minus(w, times(along, direction))
+        w = minus(w, scaled(along, direction))
         square, within = dot(w, w), min(along, length - along)
         if square < least * (1.0 - _SAME) or (square <= least * (1.0 + _SAME) and within > inside):
             least, best, place, inside = square, i, along, within
@@ -180,9 +180,9 @@ def nearest_feature(
         return face, distance, *vector_at(faces, FACE * face), math.inf
     edge, along = _edge(edges, n_edges, point)
     e = EDGE * edge
-    n = minus(minus(point, vector_at(edges, e)), times(along, vector_at(edges, e + 3)))
-    distance = size_of(n)
-    n = over(n, distance) if distance > 0.0 else tangent_of(vector_at(edges, e + 3))
+    n = minus(minus(point, vector_at(edges, e)), scaled(along, vector_at(edges, e + 3)))
+    distance = norm(n)
+    n = divided(n, distance) if distance > 0.0 else tangent_of(vector_at(edges, e + 3))
     within = min(along, edges[e + 6] - along)
     if within > 0.0:
         return int(n_faces) + edge, distance, *n, within

@@ -21,7 +21,7 @@ from nonsmooth.engine.memory.blocks import (
 )
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, cross, dot, minus, over, put, size_of, times, vector_at
+from ...vectors import Vector3, cross, divided, dot, minus, norm, plus_scaled, scaled, vector_at, write_vector
 from .frames import write_tangent
 
 
@@ -112,8 +112,8 @@ def write_apart(a: Floats, out: Floats, size: float) -> None:
         out[i] = 0.0
     out[GAP] = out[PAST_END] = _APART * size
     out[NORMAL + 2], out[TANGENT] = 1.0, 1.0
-    put(out, POINT_A, vector_at(a, POSITION))
-    put(out, POINT_B, ahead(vector_at(a, POSITION), out[GAP], vector_at(out, NORMAL)))
+    write_vector(out, POINT_A, vector_at(a, POSITION))
+    write_vector(out, POINT_B, plus_scaled(vector_at(a, POSITION), out[GAP], vector_at(out, NORMAL)))
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, 0.0)
 
@@ -127,12 +127,12 @@ def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, n: Vect
     """
     nx, ny, nz = n
     p, q = vector_at(out, POINT_A), vector_at(out, POINT_B)
-    distance = size_of(minus(q, p))
-    n = over(minus(q, p), distance) if distance > 0.0 else (nx, ny, nz)
+    distance = norm(minus(q, p))
+    n = divided(minus(q, p), distance) if distance > 0.0 else (nx, ny, nz)
     out[GAP] = distance - radius_a - radius_b
-    put(out, NORMAL, n)
-    put(out, POINT_A, ahead(p, radius_a, n))
-    put(out, POINT_B, minus(q, times(radius_b, n)))
+    write_vector(out, NORMAL, n)
+    write_vector(out, POINT_A, plus_scaled(p, radius_a, n))
+    write_vector(out, POINT_B, minus(q, scaled(radius_b, n)))
     write_tangent(a, out)
 
 
@@ -144,8 +144,8 @@ def place_sphere(a: Floats, out: Floats, center: Vector3, distance: float, radiu
     """
     out[GAP] = distance - radius
     n = vector_at(out, NORMAL)
-    put(out, POINT_A, minus(center, times(distance, n)))
-    put(out, POINT_B, minus(center, times(radius, n)))
+    write_vector(out, POINT_A, minus(center, scaled(distance, n)))
+    write_vector(out, POINT_B, minus(center, scaled(radius, n)))
     write_tangent(a, out)
 
 

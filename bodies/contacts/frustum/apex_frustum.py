@@ -6,7 +6,7 @@ from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
-from ...vectors import ahead, dot, minus, opposite, times
+from ...vectors import dot, minus, opposite, plus_scaled, scaled
 from ..features.frames import across
 from ..features.swept_vertex import END, NEAR
 from ..features.writing import write_round
@@ -35,7 +35,7 @@ def evaluate_apex_over_frustum(
     p = on_axis_in_world(own, first, first[HIGH])
     along, away, outward = across(minus(p, center_in_world(other, second)), other_axis)
     distance, radial, axial, part = nearest_part(second, along, away)
-    n = ahead(times(-radial, outward), -axial, other_axis)
+    n = plus_scaled(scaled(-radial, outward), -axial, other_axis)
     past = past_apex(first, distance, dot(n, axis), size)
     if distance - first[SWEEP] - second[SWEEP] > NEAR * size:
         # the apex sphere is part of the body: its gap is an upper bound, so at a wide gap the contact stays valid

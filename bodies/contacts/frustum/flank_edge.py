@@ -9,12 +9,12 @@ from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP
-from ...vectors import ahead, plus
+from ...vectors import plus, plus_scaled
 from ..features.polytope_tables import LENGTH, edge_at
 from ..features.writing import write_sweep
-from ..smooth.smooth_core import axes_in_world, forth
+from ..smooth.smooth_core import axes_in_world, rotated
 from .frustum import FLANK, center_in_world, write_part
-from .frustum_writing import astray_of_edge, edge_in_frustum, past_end, write_crossing
+from .frustum_writing import edge_in_frustum, off_cone_of_edge, past_end, write_crossing
 
 
 @compiled
@@ -58,18 +58,18 @@ def write_edge_across_side(
     s = 0.5 * edge[LENGTH]
     if abs(crossing) > 1e-6:
         s = -(vy * ex - vx * ey) / crossing
-    p, n = ahead(start, s, d), (cosine * ex, cosine * ey, sine)
+    p, n = plus_scaled(start, s, d), (cosine * ex, cosine * ey, sine)
     away = ex * p[0] + ey * p[1] - gap * cosine
     up = cosine * (p[2] - gap * n[2] - frustum[LOW]) - sine * (away - frustum[0])
     over = max(max(-s, s - edge[LENGTH]), max(-up, up - frustum[SIDE]))
     if abs(ratio) > 1.0 or abs(crossing) <= 1e-6:
         # no normal of the side is perpendicular to the edge, or the edge is parallel to the side: no valid crossing
         over = size
-    steep, astray = abs(crossing), astray_of_edge(b, edge, axes, n)
-    past = past_end(a, b, frustum, core, is_convex, gap, over, steep, astray, size)
-    point = plus(center, forth(axes, ahead(p, -gap, n)))
+    steep, off_cone = abs(crossing), off_cone_of_edge(b, edge, axes, n)
+    past = past_end(a, b, frustum, core, is_convex, gap, over, steep, off_cone, size)
+    point = plus(center, rotated(axes, plus_scaled(p, -gap, n)))
     write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, steep, n, point)
-    outward = forth(axes, (ex, ey, 0.0))
+    outward = rotated(axes, (ex, ey, 0.0))
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), outward, cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])
 

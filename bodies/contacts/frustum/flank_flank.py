@@ -8,7 +8,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, size_of, times
+from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import least_round_sine
 from ..features.frames import tangent_of
 from .frustum import FLANK, axis_in_world, center_in_world
@@ -23,18 +23,18 @@ def _across_both(a: Vector3, b: Vector3) -> tuple[Vector3, float]:
     """
     v = cross(a, b)
     # the components of a small product along a are round-off
-    v = ahead(v, -dot(v, a), a)
-    size = size_of(v)
-    return (over(v, size), size) if size > 0.0 else (tangent_of(a), 0.0)
+    v = plus_scaled(v, -dot(v, a), a)
+    size = norm(v)
+    return (divided(v, size), size) if size > 0.0 else (tangent_of(a), 0.0)
 
 
 @compiled
 def _line(frustum: Floats, center: Vector3, axis: Vector3, n: Vector3) -> tuple[Vector3, Vector3]:
     """Return the straight line of the side with the outward normal n: its lower end [m] and unit vector."""
     cosine, sine = frustum[COS], frustum[SIN]
-    outward = over(ahead(n, -sine, axis), cosine)
-    low = ahead(ahead(center, frustum[LOW], axis), frustum[0], outward)
-    return low, ahead(times(cosine, axis), -sine, outward)
+    outward = divided(plus_scaled(n, -sine, axis), cosine)
+    low = plus_scaled(plus_scaled(center, frustum[LOW], axis), frustum[0], outward)
+    return low, plus_scaled(scaled(cosine, axis), -sine, outward)
 
 
 def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, size: float) -> None:
@@ -52,8 +52,8 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
     reach_a = first[COS] * first[0] + first[SIN] * first[LOW]
     reach_b = second[COS] * second[0] + second[SIN] * second[LOW]
     for sign in (-1.0, 1.0):
-        t = ahead(plus(times(one, axis_a), times(two, e)), sign * part, c)
-        t = over(t, size_of(t))
+        t = plus_scaled(plus(scaled(one, axis_a), scaled(two, e)), sign * part, c)
+        t = divided(t, norm(t))
         found = dot(t, minus(center_b, center_a)) - reach_a - reach_b
         if found > gap:
             gap, n = found, t
@@ -66,9 +66,9 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
         s, t_b = dot(n, cross(w, v)) / crossing, dot(n, cross(w, u)) / crossing
         over_end = max(max(-s, s - first[SIDE]), max(-t_b, t_b - second[SIDE]))
         # the distance along n of the points that cross: an error of n hardly changes it
-        gap = dot(n, ahead(ahead(w, t_b, v), -s, u))
-    p = ahead(p, s, u)
-    q = ahead(p, gap, n)
+        gap = dot(n, plus_scaled(plus_scaled(w, t_b, v), -s, u))
+    p = plus_scaled(p, s, u)
+    q = plus_scaled(p, gap, n)
     away_a, away_b = first[0] - first[SIN] * s, second[0] - second[SIN] * t_b
     past = max(past_border(over_end, 0.0, size), past_depth(a, first, b, second, gap, size))
     write_two(a, out, 0.0, first, second, gap, past, n, p)

@@ -31,7 +31,7 @@ from ...shapes.frustum import (
 )
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Polytope
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, size_of, times, vector_at
+from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import PARALLEL
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
@@ -81,7 +81,7 @@ def axis_in_world(frame: Floats, frustum: Floats) -> Vector3:
 @compiled
 def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
     """Return the point of the axis of a frustum at a height over its centre, in the world [m]."""
-    return ahead(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
+    return plus_scaled(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
 
 
 @compiled
@@ -155,7 +155,7 @@ def least_height(frustum: Floats, height: float, axis: Vector3, normal: Vector3)
     ``height`` is the height of its centre [m], ``axis`` its unit axis, ``normal`` the unit normal of the plane.
     """
     # the root of 1 - cosine^2 would be wrong by up to 1e-8 for an axis along the normal
-    cosine, sine = dot(axis, normal), size_of(cross(axis, normal))
+    cosine, sine = dot(axis, normal), norm(cross(axis, normal))
     return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
 
 
@@ -215,7 +215,9 @@ def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
     best = max(best, separation_along(a, first, b, second, sideways))
     # the normal of a cylinder's side is the part across the axis
     if second[SIN] != 0.0:
-        best = max(best, separation_along(a, first, b, second, ahead(times(second[COS], sideways), -second[SIN], axis)))
+        best = max(
+            best, separation_along(a, first, b, second, plus_scaled(scaled(second[COS], sideways), -second[SIN], axis))
+        )
     return float(best)
 
 
@@ -267,7 +269,7 @@ def tip_past_rim(
         rise = dot(n, edge)
         if rise * lengths[i] <= 2.0 * depth:
             continue
-        at = ahead(p, depth / rise, edge)
+        at = plus_scaled(p, depth / rise, edge)
         along = dot(n, at)
         least = min(least, math.sqrt(max(dot(at, at) - along * along, 0.0)) - radius)
     return least + depth
@@ -277,7 +279,7 @@ _WAYS = 12
 """Number of unit vectors that stand for edges of an apex (down the side of the cone) or of a foot (along the cap).
 
 An apex or a foot is treated as a corner with these edges, evenly spaced around the axis.  A face can touch it only if
-no edge points into the face steeper than :data:`bodies.contacts.features.edge_crossing.ASTRAY`.  The steepest of 12
+no edge points into the face steeper than :data:`bodies.contacts.features.edge_crossing.CONE_MARGIN`.  The steepest of 12
 edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all directions.
 """
 

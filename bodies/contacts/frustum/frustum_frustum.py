@@ -12,7 +12,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
 from ...shapes.frustum import FEET, SIDE, SWEEP, Frustum, without_feet
-from ...vectors import ahead, minus, opposite, times, vector_at
+from ...vectors import minus, opposite, plus_scaled, scaled, vector_at
 from ..features.frames import across, point_in_world
 from ..features.vertex_face import CLOSED, REACH
 from .apex_frustum import evaluate_apex_over_frustum
@@ -76,7 +76,7 @@ def evaluate_rim_over_cap(
     own, other = (b, a) if swap == 1.0 else (a, b)
     axis, cap_axis, place = axis_in_world(own, first), axis_in_world(other, second), center_in_world(other, second)
     wide, height, up = cap_of(second, cap)
-    n, middle = times(-up, cap_axis), point_in_world(own, vector_at(center, 0))
+    n, middle = scaled(-up, cap_axis), point_in_world(own, vector_at(center, 0))
     _, sine, outward = across(n, axis)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
@@ -85,7 +85,7 @@ def evaluate_rim_over_cap(
         # point. This place moves no faster than the bodies
         _, _, outward = across(minus(place, middle), axis)
         margin, sine = -4.0 * CLOSED, 1.0
-    p = ahead(middle, radius, outward)
+    p = plus_scaled(middle, radius, outward)
     along, away, from_axis = across(minus(p, place), cap_axis)
     gap = up * (along - height)
     past = away - wide - margin * size

@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN
-from ...vectors import Vector3, ahead, minus, plus, times, vector_at
+from ...vectors import Vector3, minus, plus, plus_scaled, scaled, vector_at
 from ..features.frames import across, point_in_world
 from ..features.polytope_tables import faces_of, vertex_at
 from ..features.vertex_face import CLOSED, height_over
@@ -54,7 +54,7 @@ def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[fl
 @compiled
 def normal_of_part(axis: Vector3, outward: Vector3, radial: float, axial: float) -> Vector3:
     """Return the normal with the components ``radial`` along ``outward`` and ``axial`` along the axis."""
-    return plus(times(radial, outward), times(axial, axis))
+    return plus(scaled(radial, outward), scaled(axial, axis))
 
 
 @compiled
@@ -118,7 +118,7 @@ def evaluate_vertex_over_frustum(
         if has_part(frustum, part):
             height, _, radial, axial = over_part(frustum, part, along, away)
             n = normal_of_part(axis, outward, radial, axial)
-            best = max(best, least_over(b, core, n, ahead(point, -height, n)))
+            best = max(best, least_over(b, core, n, plus_scaled(point, -height, n)))
             highest = max(highest, height)
     found, gap, past = LOW_CAP, 0.0, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
@@ -126,7 +126,7 @@ def evaluate_vertex_over_frustum(
             continue
         height, beyond, radial, axial = over_part(frustum, part, along, away)
         n = normal_of_part(axis, outward, radial, axial)
-        below = ahead(point, -height, n)
+        below = plus_scaled(point, -height, n)
         if least_over(b, core, n, below) < best - margin:
             continue
         if height < 0.0:

@@ -20,12 +20,23 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import Core
-from ...vectors import Vector3, ahead, dot, minus, opposite, plus, vector_at
+from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
 from ..features.writing import write_sweep
 from ..smooth.inscribed import gauge, no_shorter_way
 from ..smooth.round_search import up_hills
-from ..smooth.smooth_core import CENTER, RADIUS, Answer, Axes, axes_in_world, back, between_axes, forth, longest, spread
+from ..smooth.smooth_core import (
+    CENTER,
+    RADIUS,
+    Axes,
+    NearestPoint,
+    axes_in_world,
+    largest_semi_axis,
+    relative_rotation,
+    rotated,
+    rotated_back,
+    spread,
+)
 from ..smooth.smooth_newton import widest_of_round, write_surface
 from ..smooth.smooth_starts import starts_of, uphill
 from .frustum import (
@@ -85,15 +96,15 @@ _TURNS = 8
 
 
 @compiled
-def _is_before(core: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
+def _is_before(core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
     """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there."""
     g, p, n = found
-    from_centre = minus(ahead(p, -g, n), place)
-    return bool(dot(n, from_centre) < 0.0 and gauge(core, back(turn, from_centre)) < 1.0)
+    from_centre = minus(plus_scaled(p, -g, n), place)
+    return bool(dot(n, from_centre) < 0.0 and gauge(core, rotated_back(turn, from_centre)) < 1.0)
 
 
 @compiled
-def is_over_cap(frustum: Floats, part: int, place: Vector3, found: Answer) -> bool:
+def is_over_cap(frustum: Floats, part: int, place: Vector3, found: NearestPoint) -> bool:
     """True if the gap found over a cap is proved to be the largest over all normals.
 
     It always is if the bodies are apart.  At an overlap of depth d, two points of the smooth body prove it.  The first
@@ -115,7 +126,7 @@ def is_over_cap(frustum: Floats, part: int, place: Vector3, found: Answer) -> bo
 
 
 @compiled
-def _has_room(frustum: Floats, part: int, found: Answer, near: float) -> bool:
+def _has_room(frustum: Floats, part: int, found: NearestPoint, near: float) -> bool:
     """True if the gap found over a cap or the side is proved to be the largest over all normals.
 
     The proof is a ball about the smooth body's point, with the depth of the overlap as its radius: if the ball lies
@@ -142,7 +153,7 @@ def _into(frustum: Floats, point: Vector3) -> Vector3:
 
 
 @compiled
-def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
+def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
     """True if a common point of both bodies is found, which confirms that the bodies overlap as ``found`` says.
 
     Points of the frustum are tried in two series.  The first series has the frustum's points nearest to points of the
@@ -153,7 +164,7 @@ def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: 
     p = q
     for i in range(_SAMPLES + _PROJECTIONS):
         if i <= _SAMPLES:
-            p = ahead(q, -(g * i / _SAMPLES), n)
+            p = plus_scaled(q, -(g * i / _SAMPLES), n)
         elif i == _SAMPLES + 1:
             p = place
         else:
@@ -162,9 +173,9 @@ def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: 
             off, way, _ = widest_of_round(point, core, turn, way, way)
             if not off > 0.0:
                 return False
-            p = ahead(p, float(i - _SAMPLES), way)
+            p = plus_scaled(p, float(i - _SAMPLES), way)
         p = _into(frustum, p)
-        if gauge(core, back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE:
+        if gauge(core, rotated_back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE:
             return True
     return False
 
@@ -178,7 +189,7 @@ def _nearest(
     core: Core,
     turn: Axes,
     place: Vector3,
-) -> tuple[Answer, int]:
+) -> tuple[NearestPoint, int]:
     """Return the largest gap found over all normals, with point and normal, and the part of the frustum it belongs to.
 
     The first result holds the gap of the cores [m], the smooth body's point [m] and the normal, in the axes of the
@@ -186,7 +197,7 @@ def _nearest(
     A negative gap needs a common point of both bodies as a proof.
     """
     x, y, z = place
-    size = spread(place) + longest(core) + frustum[0] + frustum[HIGH] - frustum[LOW]
+    size = spread(place) + largest_semi_axis(core) + frustum[0] + frustum[HIGH] - frustum[LOW]
     bodies = frustum, low, high, point, core, turn, place, size
     near = ON_BORDER * size
     away = math.sqrt(x * x + y * y)
@@ -197,7 +208,7 @@ def _nearest(
         over = on_cap(frustum, core, turn, place, part, near)
         if is_over_cap(frustum, part, place, over):
             return over, part
-    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     where = LOW_CAP
     is_deep, is_sharp = False, max(core[3], core[4]) > 2.0
     shallow = _SLIGHT * size if is_sharp else _SHALLOW * size
@@ -256,11 +267,11 @@ def _nearest(
 @compiled
 def _is_deep(frustum: Floats, core: Core, turn: Axes, place: Vector3) -> bool:
     """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
-    return bool(gauge(core, back(turn, minus(_into(frustum, place), place))) < _DEEP)
+    return bool(gauge(core, rotated_back(turn, minus(_into(frustum, place), place))) < _DEEP)
 
 
 @compiled
-def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
+def _higher(bodies: Bodies, best: NearestPoint, where: int) -> tuple[NearestPoint, int]:
     """Return the larger of the gap ``best`` and the gaps of further local maxima, and the part it belongs to.
 
     No further search is made if a ball inside of the smooth body proves that ``best`` is the largest
@@ -279,14 +290,14 @@ def _higher(bodies: Bodies, best: Answer, where: int) -> tuple[Answer, int]:
 
 
 @compiled
-def _beside_apex(bodies: Bodies) -> Answer:
+def _beside_apex(bodies: Bodies) -> NearestPoint:
     """Return gap, point and normal of the largest local maximum of the gap over the side beside the apex.
 
     Searches start at the normals with a maximal gap over the apex.  The gap is nan if no maximum was found.
     """
     frustum, _, high, _, core, turn, place, size = bodies
     from_apex = (place[0], place[1], place[2] - frustum[HIGH])
-    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     for start in starts_of(high, core, turn, from_apex):
         _, (nx, ny, _) = uphill(high, core, turn, from_apex, start, _NEARBY)
         if nx != 0.0 or ny != 0.0:
@@ -297,7 +308,7 @@ def _beside_apex(bodies: Bodies) -> Answer:
 
 
 @compiled
-def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
+def _on_hills(bodies: Bodies) -> tuple[NearestPoint, int]:
     """Return the largest local maximum that the gap has, as a function of the normal, over each rim; and this rim.
 
     The gap of two convex bodies is the largest separation over all normals.  The searches ascend from several normals.
@@ -305,7 +316,7 @@ def _on_hills(bodies: Bodies) -> tuple[Answer, int]:
     of both bodies proves the overlap.
     """
     frustum, low, high, point, core, turn, place, size = bodies
-    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     where = LOW_RIM
     for part in (LOW_RIM, HIGH_RIM):
         if part == HIGH_RIM and frustum[SIDE] == 0.0:
@@ -332,19 +343,19 @@ def evaluate_frustum_smooth(
     """
     axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
     center = center_in_world(a, first)
-    place = back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
-    turn = between_axes(axes_a, axes_b)
+    place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
+    turn = relative_rotation(axes_a, axes_b)
     (g, p, n), part = _nearest(first, low, high, point, second, turn, place)
-    gap, normal = g - second[RADIUS] - first[SWEEP], forth(axes_a, n)
-    point_b = ahead(plus(center, forth(axes_a, p)), -second[RADIUS], normal)
+    gap, normal = g - second[RADIUS] - first[SWEEP], rotated(axes_a, n)
+    point_b = plus_scaled(plus(center, rotated(axes_a, p)), -second[RADIUS], normal)
     write_contact(a, out, gap, 0.0, part_number(first, part), normal, point_b, True)
-    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(p, place)))
+    write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, place)))
     radial = math.sqrt(n[0] * n[0] + n[1] * n[1])
     ex, ey = (n[0] / radial, n[1] / radial) if radial > 0.0 else (1.0, 0.0)
     away = max(ex * p[0] + ey * p[1] - g * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away, _, _ = rim_of(first, part)
-    write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), forth(axes_a, (ex, ey, 0.0)), radial, away)
+    write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), rotated(axes_a, (ex, ey, 0.0)), radial, away)
     write_sweep(out, SIDE_A, first[SWEEP])
 
 

@@ -12,7 +12,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import SWEEP, Frustum, without_feet
 from ...shapes.sphere import Sphere
-from ...vectors import Vector3, ahead, minus, put, times
+from ...vectors import Vector3, minus, plus_scaled, scaled, write_vector
 from ..features.frames import across, point_in_world
 from ..features.writing import place_sphere, write_round, write_sweep
 from .frustum import axis_in_world, center_in_world, nearest_part, part_names, part_number, write_part
@@ -29,7 +29,7 @@ def write_frustum_ball(
     axis, point = axis_in_world(a, first), point_in_world(b, place)
     along, away, outward = across(minus(point, center_in_world(a, first)), axis)
     distance, radial, axial, part = nearest_part(first, along, away)
-    put(out, NORMAL, ahead(times(radial, outward), axial, axis))
+    write_vector(out, NORMAL, plus_scaled(scaled(radial, outward), axial, axis))
     out[FEATURE] = part_number(first, part)
     place_sphere(a, out, point, distance - first[SWEEP], radius)
     write_part(out, SIDE_A, part, axis, outward, radial, away - distance * radial)

@@ -1,7 +1,7 @@
 """Searches for the largest gap of a smooth body over one part of a cylinder, a cone or a disc.
 
 The gap is a function of the unit normal, and a part of the frustum has a range of normals: a cap has one normal, the
-side has normals of one unknown angle, a rim has a fan of normals at each of its points.  The result, gap, point and
+side has normals of one unknown angle, a rim has a normal cone at each of its points.  The result, gap, point and
 normal, is a local maximum of the gap over the normals of all parts if the smooth body's point lies opposite the part.
 Otherwise the gap is nan.  The angle on the side is found by Newton's method on the support function, or by halving if
 the body is boxy.  A rim is searched as a flat ellipsoid, an apex as a point.
@@ -19,7 +19,7 @@ from ...shapes.support_function import Core, is_round, support_of
 from ...vectors import Vector3, dot, opposite, plus
 from ..smooth.boxy_line import across_line
 from ..smooth.round_search import next_to_axis, round_circle
-from ..smooth.smooth_core import Answer, Axes, back, bend, forth
+from ..smooth.smooth_core import Axes, NearestPoint, bend, rotated, rotated_back
 from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, LOW_CAP, cap_of, rim_of
 
@@ -27,7 +27,7 @@ ON_BORDER = 1e-14
 """Round-off allowed in two checks of a local maximum of the gap.
 
 The first is the distance of its point past the border of the cap or the side, relative to the size of both bodies.  The
-second is the sine of the angle of its normal outside of the fan of normals of the rim, between side and cap.
+second is the sine of the angle of its normal outside of the normal cone of the rim, between side and cap.
 """
 _NEAR_BORDER = 1e-10
 """Tolerance of `by_search` in place of ``ON_BORDER``; the error of the gap, which is stationary, is only its square."""
@@ -47,11 +47,11 @@ result needs a residual below ``_RIGHT``.
 @compiled
 def point_against(core: Core, turn: Axes, place: Vector3, n: Vector3) -> Vector3:
     """Return the smooth body's farthest point in the direction -n [m], in the axes of the frustum."""
-    return plus(place, forth(turn, support_of(core, back(turn, opposite(n)))[1]))
+    return plus(place, rotated(turn, support_of(core, rotated_back(turn, opposite(n)))[1]))
 
 
 @compiled
-def on_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
+def on_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, near: float) -> NearestPoint:
     """Return gap, smooth body's point [m] and normal at the point that is lowest over a cap.
 
     ``part`` is ``LOW_CAP`` or ``HIGH_CAP``.  The gap is nan if the point lies more than ``near`` [m] outside of the
@@ -66,7 +66,7 @@ def on_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, n
 
 
 @compiled
-def _on_end_of_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, near: float) -> Answer:
+def _on_end_of_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, near: float) -> NearestPoint:
     """Return gap, point and normal as :func:`on_cap`, for a body so flat that round-off moves its lowest point.
 
     If round-off moved the lowest point past the border of the cap, the normal is tilted outwards: the larger the tilt,
@@ -107,7 +107,7 @@ def _on_end_of_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part
 
 
 @compiled
-def _if_on_flank(frustum: Floats, near: float, found: Answer) -> Answer:
+def _if_on_flank(frustum: Floats, near: float, found: NearestPoint) -> NearestPoint:
     """Return a maximum of the gap over the side, continued beyond its rims; the gap is nan if it is not on the side.
 
     Its point on the side must not have crossed the axis.  ``near`` is the tolerance at the rims [m].
@@ -120,7 +120,7 @@ def _if_on_flank(frustum: Floats, near: float, found: Answer) -> Answer:
 
 
 @compiled
-def _along_side(frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: float, ey: float) -> Answer:
+def _along_side(frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: float, ey: float) -> NearestPoint:
     """Return the maximum of the gap over the side, continued beyond its rims, by halving."""
     cosine, sine = frustum[COS], frustum[SIN]
     reach = cosine * frustum[0] + sine * frustum[LOW]
@@ -130,7 +130,7 @@ def _along_side(frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: flo
 @compiled
 def on_flank(
     frustum: Floats, core: Core, turn: Axes, place: Vector3, direction: tuple[float, float], near: float
-) -> Answer:
+) -> NearestPoint:
     """Return gap, smooth body's point [m] and normal of a local maximum of the gap over the side.
 
     The gap is nan if there is no maximum.  The search starts at the normal in ``direction`` from the axis.
@@ -148,7 +148,7 @@ def on_flank(
 @compiled
 def _on_round_flank(
     frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: float, ey: float, near: float
-) -> Answer:
+) -> NearestPoint:
     """Return the maximum of the gap over the side, continued beyond its rims, by Newton's method for one angle.
 
     The angle is the angle of the normal round the axis.
@@ -160,8 +160,8 @@ def _on_round_flank(
     g, before, halvings = -math.inf, math.inf, 0
     for _ in range(_STEPS):
         n = (cosine * ex, cosine * ey, sine)
-        s = support_of(core, back(turn, opposite(n)))
-        p = plus(place, forth(turn, s[1]))
+        s = support_of(core, rotated_back(turn, opposite(n)))
+        p = plus(place, rotated(turn, s[1]))
         found = dot(n, p) - reach
         if found < g - _SEEN * size and halvings < _HALVINGS:
             halvings += 1
@@ -170,7 +170,7 @@ def _on_round_flank(
             g, halvings = found, 0
             lx, ly = ex, ey
             rate = cosine * (ex * p[1] - ey * p[0])
-            t = back(turn, (-ey, ex, 0.0))
+            t = rotated_back(turn, (-ey, ex, 0.0))
             second = -cosine * (ex * p[0] + ey * p[1]) - cosine * cosine * bend(s[2], t, t)
             residual = abs(rate)
             if residual <= _ROUND_OFF * size or (residual <= _CLOSE * size and residual >= 0.5 * before):
@@ -188,7 +188,7 @@ def _on_round_flank(
 
 
 @compiled
-def _if_in_fan(frustum: Floats, up: float, height: float, least: float, found: Answer) -> Answer:
+def _if_in_fan(frustum: Floats, up: float, height: float, least: float, found: NearestPoint) -> NearestPoint:
     """Return a maximum of the gap over the circle of a rim, from the centre of the frustum.
 
     The gap is nan if the sine of the angle of its normal over the side is below ``least``; a disc has no side.
@@ -210,7 +210,7 @@ def on_rim(
     direction: tuple[float, float],
     part: int,
     tilt: float,
-) -> Answer:
+) -> NearestPoint:
     """Return gap, smooth body's point [m] and normal of a local maximum of the gap over a rim, or over the apex.
 
     The gap is nan if there is no maximum.  ``part`` is ``LOW_RIM`` or ``HIGH_RIM``; the apex is an upper rim of radius
@@ -249,7 +249,7 @@ def by_search(
     direction: tuple[float, float],
     part: int,
     size: float,
-) -> Answer:
+) -> NearestPoint:
     """Return a local maximum of the gap over a part (cap, side or rim), by searches round the axis.
 
     It serves if `on_cap`, `on_flank` and `on_rim` found no maximum.  The tolerance at the border of a part is larger
@@ -257,7 +257,7 @@ def by_search(
     """
     (sx, sy), (x, y, z) = direction, place
     near = _NEAR_BORDER * size
-    found: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    found: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     if part == LOW_CAP or part == HIGH_CAP:
         return _on_end_of_cap(frustum, core, turn, place, part, near)
     if part == FLANK:

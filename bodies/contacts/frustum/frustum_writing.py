@@ -1,7 +1,7 @@
 """Writes the geometry block of contacts in which a side or rim of a frustum crosses an edge or another frustum.
 
 It also computes the distance of such a contact past the boundary of its features: the ends of an edge or of a side, and
-the fan of normals of an edge or a rim.  An edge belongs to the second body: a sharp or rounded polyhedron, or a
+the normal cone of an edge or a rim.  An edge belongs to the second body: a sharp or rounded polyhedron, or a
 capsule.
 """
 
@@ -14,13 +14,13 @@ from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, SIN, SWEEP
-from ...vectors import Vector3, ahead, dot, minus, over, put, size_of, times, vector_at
-from ..features.edge_crossing import ASTRAY, PARALLEL, edge_astray
+from ...vectors import Vector3, divided, dot, minus, norm, plus_scaled, scaled, vector_at, write_vector
+from ..features.edge_crossing import CONE_MARGIN, PARALLEL, sine_off_cone
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG, START
 from ..features.vertex_face import REACH
 from ..features.writing import write_principal, write_sweep
-from ..smooth.smooth_core import Axes, back, forth
+from ..smooth.smooth_core import Axes, rotated, rotated_back
 from .frustum import (
     axis_in_world,
     center_in_world,
@@ -34,13 +34,13 @@ from .frustum import (
 
 
 @compiled
-def past_border(over: float, astray: float, size: float) -> float:
+def past_border(over: float, off_cone: float, size: float) -> float:
     """Return the distance of a contact of two frustums past the boundary of its features [m]; negative if it is valid.
 
-    ``over`` is the distance past the ends of both features [m].  ``astray`` is the sine of the angle between the
-    contact normal and the fans of normals of the features.
+    ``over`` is the distance past the ends of both features [m].  ``off_cone`` is the sine of the angle between the
+    contact normal and the normal cones of the features.
     """
-    return max(over - REACH * size, size * (astray - ASTRAY))
+    return max(over - REACH * size, size * (off_cone - CONE_MARGIN))
 
 
 @compiled
@@ -92,20 +92,20 @@ def past_disc(
     # rounded bodies on the other side of the plane are apart
     if height <= REACH * size or first[SWEEP] + second[SWEEP] > 0.0:
         return size
-    _, away, _ = across(minus(ahead(p, gap / (gap - height), to_middle), center), axis)
+    _, away, _ = across(minus(plus_scaled(p, gap / (gap - height), to_middle), center), axis)
     # the rim of a disc that only touches the frustum lies below its surface by round-off
-    behind = REACH * size - (second[0] - away) * (height - gap) / size_of(to_middle)
-    along, away, _ = across(minus(ahead(p, -up * gap, axis), center_in_world(one, first)), own_axis)
+    behind = REACH * size - (second[0] - away) * (height - gap) / norm(to_middle)
+    along, away, _ = across(minus(plus_scaled(p, -up * gap, axis), center_in_world(one, first)), own_axis)
     outside = nearest_part(first, along, away)[0] - REACH * size
     return float(min(behind, max(outside, past_depth(one, first, other, second, gap, size))))
 
 
 @compiled
-def astray_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat: bool) -> float:
-    """Return the sine of the angle between a contact normal and the fan of normals of a rim; negative inside this fan.
+def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat: bool) -> float:
+    """Return the sine of the angle between a contact normal and the normal cone of a rim; negative inside this cone.
 
     The contact normal points out of the frustum; ``radial`` and ``axial`` are its components away from the axis and
-    along it.  The fan lies between the normals of side and cap.  ``up`` is 1 for the upper rim and -1 for the lower
+    along it.  The cone lies between the normals of side and cap.  ``up`` is 1 for the upper rim and -1 for the lower
     one; ``flat`` means a disc, which has no side.
     """
     if flat:
@@ -143,9 +143,9 @@ def write_contact(
         Whether the contact point is that of the second body.
     """
     out[GAP], out[FEATURE], out[PAST_END] = gap, feature, past
-    put(out, NORMAL, normal)
-    put(out, POINT_B if of_second else POINT_A, point)
-    put(out, POINT_A if of_second else POINT_B, ahead(point, -gap if of_second else gap, normal))
+    write_vector(out, NORMAL, normal)
+    write_vector(out, POINT_B if of_second else POINT_A, point)
+    write_vector(out, POINT_A if of_second else POINT_B, plus_scaled(point, -gap if of_second else gap, normal))
     write_tangent(a, out)
 
 
@@ -168,8 +168,8 @@ def write_two(
     of the features [m].
     """
     sweep = one[SWEEP]
-    gap, point = gap_past_end(distance - sweep - two[SWEEP], past), ahead(p, sweep, normal)
-    write_contact(a, out, gap, past, 0.0, times(1.0 - 2.0 * swap, normal), point, swap == 1.0)
+    gap, point = gap_past_end(distance - sweep - two[SWEEP], past), plus_scaled(p, sweep, normal)
+    write_contact(a, out, gap, past, 0.0, scaled(1.0 - 2.0 * swap, normal), point, swap == 1.0)
 
 
 @compiled
@@ -182,11 +182,11 @@ def write_side(
     the contact point, of any length.  ``normal`` is the outward normal there, ``away`` the distance of the point from
     the axis [m].
     """
-    outward = ahead(place, -dot(place, axis), axis)
-    length = size_of(outward)
+    outward = plus_scaled(place, -dot(place, axis), axis)
+    length = norm(outward)
     radial = 0.0
     if length > 0.0:
-        outward = over(outward, length)
+        outward = divided(outward, length)
         radial = dot(normal, outward)
     side = SIDE_B if second == 1.0 else SIDE_A
     write_part(out, side, part, axis, outward, radial, away)
@@ -197,17 +197,17 @@ def write_side(
 def edge_in_frustum(b: Floats, edge: Floats, axes: Axes, center: Vector3) -> tuple[Vector3, Vector3]:
     """Return the start of an edge [m] and its unit vector, from the centre and in the axes of the frustum."""
     start = minus(point_in_world(b, vector_at(edge, START)), center)
-    return back(axes, start), back(axes, vector_in_world(b, vector_at(edge, ALONG)))
+    return rotated_back(axes, start), rotated_back(axes, vector_in_world(b, vector_at(edge, ALONG)))
 
 
 @compiled
-def astray_of_edge(b: Floats, edge: Floats, axes: Axes, normal: Vector3) -> float:
-    """Return the sine of the angle between a contact normal and an edge's fan of normals; negative inside the fan.
+def off_cone_of_edge(b: Floats, edge: Floats, axes: Axes, normal: Vector3) -> float:
+    """Return the sine of the angle between a contact normal and an edge's normal cone; negative inside the cone.
 
-    The contact normal, in the axes of the frustum, points from the frustum to the edge.  The fan lies between the
+    The contact normal, in the axes of the frustum, points from the frustum to the edge.  The cone lies between the
     normals of the two faces of the edge.
     """
-    return float(edge_astray(b, edge, 0, -1.0, forth(axes, normal)))
+    return float(sine_off_cone(b, edge, 0, -1.0, rotated(axes, normal)))
 
 
 @compiled
@@ -220,18 +220,18 @@ def past_end(
     gap: float,
     over_end: float,
     sine: float,
-    astray: float,
+    off_cone: float,
     size: float,
 ) -> float:
     """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
     The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over_end`` the distance past the
     ends of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.
-    ``astray`` is the sine of the angle between the contact normal and the fans of normals of the features.  If the
+    ``off_cone`` is the sine of the angle between the contact normal and the normal cones of the features.  If the
     body with the edge is convex, it has a ``core``.  A crossing below zero is then not valid if the cores overlap less
     along the normal of a cap of the frustum or of a face of the core.
     """
-    past = max(over_end - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
+    past = max(over_end - REACH * size, size * max(PARALLEL - sine, off_cone - CONE_MARGIN))
     if past <= 0.0 and gap < -REACH * size and is_convex:
         best = max(separation_over_faces(a, b, frustum, core), separation_over_caps(a, b, frustum, core))
         past = max(past, best - gap - REACH * size)
@@ -262,9 +262,9 @@ def write_crossing(
     therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.  A negative gap is kept if
     the body with the edge is convex (:func:`gap_past_end`).
     """
-    sweep, outward = frustum[SWEEP], forth(axes, normal)
+    sweep, outward = frustum[SWEEP], rotated(axes, normal)
     gap = distance - radius - sweep
     if past > 0.0 and (gap >= 0.0 or not is_convex):
         gap = math.hypot(gap, max(PARALLEL, sine) * past)
-    write_contact(a, out, gap, past, 0.0, outward, ahead(p, sweep, outward), False)
+    write_contact(a, out, gap, past, 0.0, outward, plus_scaled(p, sweep, outward), False)
     write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

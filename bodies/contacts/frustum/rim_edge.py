@@ -13,12 +13,12 @@ from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SIDE, SWEEP
-from ...vectors import ahead, dot, minus, opposite, over, plus, size_of, times
+from ...vectors import divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.polytope_tables import LENGTH, edge_at
 from ..features.writing import write_sweep
-from ..smooth.smooth_core import axes_in_world, forth
+from ..smooth.smooth_core import axes_in_world, rotated
 from .frustum import center_in_world, rim_of, write_part
-from .frustum_writing import astray_of_edge, astray_of_rim, edge_in_frustum, past_end, write_crossing
+from .frustum_writing import edge_in_frustum, off_cone_of_edge, off_cone_of_rim, past_end, write_crossing
 
 _STEEP = 0.5
 """Cosine of the angle between edge and axis, above which both contacts are sought on the half nearer to the edge.
@@ -146,42 +146,42 @@ def write_edge_across_rim(
     e = (cosine * gx + sine * fx, cosine * gy + sine * fy, 0.0)
     # the normal is perpendicular to the rim's tangent and to the edge
     n = (e[0] * d[2], e[1] * d[2], -e[1] * d[1] - e[0] * d[0])
-    crossing, p = size_of(n), (wide * e[0], wide * e[1], height)
+    crossing, p = norm(n), (wide * e[0], wide * e[1], height)
     s = dot(minus(p, start), d)
-    w = minus(ahead(start, s, d), p)
+    w = minus(plus_scaled(start, s, d), p)
     total = radius + frustum[SWEEP]
     if total == 0.0 and crossing > 1e-6:
-        n = over(n, crossing)
+        n = divided(n, crossing)
     else:
         # rounded bodies, or an edge along the rim's tangent: the normal is along the line between both points, or
         # radial if the points coincide
-        apart = size_of(w)
-        n = over(w, apart) if apart > 1e-9 * size else e
+        apart = norm(w)
+        n = divided(w, apart) if apart > 1e-9 * size else e
     if total > 0.0:
         # a rounded edge along the tangent touches the rim at a single point, so the crossing is well defined
         crossing = 1.0
     height_over = dot(n, w)
-    astray, flip = 2.0, 1.0
+    off_cone, flip = 2.0, 1.0
     for sign in (-1.0, 1.0):
         if total > 0.0 and sign * height_over < 0.0:
             # rounded bodies: the normal must point from the rim to the edge, so skip the opposite sign
             continue
         radial = sign * (e[0] * n[0] + e[1] * n[1])
-        off = astray_of_rim(frustum, up, radial, sign * n[2], frustum[SIDE] == 0.0)
-        off = max(off, astray_of_edge(b, edge, axes, times(sign, n)))
-        if off < astray:
-            astray, flip = off, sign
-    n, gap = times(flip, n), flip * height_over
+        off = off_cone_of_rim(frustum, up, radial, sign * n[2], frustum[SIDE] == 0.0)
+        off = max(off, off_cone_of_edge(b, edge, axes, scaled(sign, n)))
+        if off < off_cone:
+            off_cone, flip = off, sign
+    n, gap = scaled(flip, n), flip * height_over
     over_end = max(-s, s - edge[LENGTH])
     if short > _STEEP:
         over_end = max(over_end, size * _past_division(half, d[0] * e[0] + d[1] * e[1], short))
     if none > 0.0 or crossing <= 1e-6:
         over_end = size
-    past = past_end(a, b, frustum, core, is_convex, gap, over_end, crossing, astray, size)
-    point = plus(center, forth(axes, p))
+    past = past_end(a, b, frustum, core, is_convex, gap, over_end, crossing, off_cone, size)
+    point = plus(center, rotated(axes, p))
     write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, crossing, n, point)
     axis, radial = (axes[2], axes[5], axes[8]), e[0] * n[0] + e[1] * n[1]
-    write_part(out, SIDE_A, int(rim), axis, forth(axes, e), radial, wide)
+    write_part(out, SIDE_A, int(rim), axis, rotated(axes, e), radial, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])
 
 

@@ -8,7 +8,7 @@ from nonsmooth.engine.memory.blocks import SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SWEEP
-from ...vectors import ahead, opposite, vector_at
+from ...vectors import opposite, plus_scaled, vector_at
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import FACE, faces_of
 from ..features.vertex_face import REACH, past_face, plane_height
@@ -62,7 +62,7 @@ def evaluate_rim_over_faces(
         if least_height(frustum, plane_height(faces, f, middle), own_axis, vector_at(faces, f)) < best - margin:
             continue
         _, sine, outward = across(opposite(vector_at(faces, f)), own_axis)
-        p = ahead(own_place, radius, outward)
+        p = plus_scaled(own_place, radius, outward)
         height = plane_height(faces, f, p)
         beyond = past_face(faces, n_faces, f, height, p)
         if height < 0.0:
@@ -77,7 +77,7 @@ def evaluate_rim_over_faces(
     gap = gap_past_end(gap - (own + sweep), past)
     n = vector_in_world(b, vector_at(faces, FACE * found))
     _, _, outward = across(opposite(n), axis)
-    point = ahead(ahead(place, radius, outward), -own, n)
+    point = plus_scaled(plus_scaled(place, radius, outward), -own, n)
     write_contact(a, out, gap, past, float(found), opposite(n), point, False)
     write_flat(out, SIDE_B)
     write_side(out, 0.0, frustum, LOW_RIM, axis, outward, opposite(n), radius)

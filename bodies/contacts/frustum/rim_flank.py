@@ -12,11 +12,11 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, plus, size_of, times
+from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.frames import across
-from ..smooth.smooth_core import axes_in_world, back, forth
+from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .frustum import FLANK, center_in_world, rim_of
-from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
+from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_side, write_two
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
@@ -38,8 +38,8 @@ def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: floa
     the side's body ``second``.
     """
     c, s = math.cos(angle), math.sin(angle)
-    x, y, wide = ahead(ahead(middle, c, g), s, h)
-    dx, dy, dz = ahead(times(c, h), -s, g)
+    x, y, wide = plus_scaled(plus_scaled(middle, c, g), s, h)
+    dx, dy, dz = plus_scaled(scaled(c, h), -s, g)
     away = max(math.sqrt(x * x + y * y), 1e-300)
     slope = (x * dx + y * dy) / away
     bend = (dx * dx + dy * dy - x * (x - middle[0]) - y * (y - middle[1]) - slope * slope) / away
@@ -77,7 +77,7 @@ def least_round(second: Floats, middle: Vector3, g: Vector3, h: Vector3, low: fl
     _, _, bend = _height(second, middle, g, h, angle)
     # if the interval covers the whole rim, it has no ends, so that any minimum is inside of it
     within = low <= angle <= high or high - low > 1.5 * math.pi
-    return angle, within and bend > _BENT * size_of(g)
+    return angle, within and bend > _BENT * norm(g)
 
 
 def evaluate_rim_over_side(
@@ -107,8 +107,8 @@ def evaluate_rim_over_side(
     center, place = center_in_world(own, first), center_in_world(other, second)
     radius, height, up = rim_of(first, rim)
     # the centre of the rim and its axis, in the axes of the side
-    axis = back(axes, (own_axes[2], own_axes[5], own_axes[8]))
-    middle = ahead(back(axes, minus(center, place)), height, axis)
+    axis = rotated_back(axes, (own_axes[2], own_axes[5], own_axes[8]))
+    middle = plus_scaled(rotated_back(axes, minus(center, place)), height, axis)
     # h: projection of the side's axis on the plane of the rim; g: perpendicular to h in this plane
     _, _, h = across((0.0, 0.0, 1.0), axis)
     # the height can have two minima round the rim only if a straight line of the side is nearly parallel to the plane
@@ -116,7 +116,7 @@ def evaluate_rim_over_side(
     # it has no minimum. In other poses, called steep, the whole rim is searched for its single minimum
     lean = math.asin(min(abs(axis[2]), 1.0))
     steep = lean > _STEEP and abs(lean - math.asin(second[SIN])) > _STEEP
-    g, h = times(radius, cross(h, axis)), times(radius * half, h)
+    g, h = scaled(radius, cross(h, axis)), scaled(radius * half, h)
     angle, found = 0.0, True
     if radius > 0.0:
         low, high = 0.0, math.pi
@@ -125,7 +125,7 @@ def evaluate_rim_over_side(
             low = math.atan2(middle[0] * h[0] + middle[1] * h[1], middle[0] * g[0] + middle[1] * g[1])
             high = low + 2.0 * math.pi
         angle, found = least_round(second, middle, g, h, low, high)
-    offset = plus(times(math.cos(angle), g), times(math.sin(angle), h))
+    offset = plus(scaled(math.cos(angle), g), scaled(math.sin(angle), h))
     point = plus(middle, offset)
     away = math.sqrt(point[0] * point[0] + point[1] * point[1])
     ex, ey = (point[0] / away, point[1] / away) if away > 0.0 else (1.0, 0.0)
@@ -136,17 +136,17 @@ def evaluate_rim_over_side(
     # check that the contact normal is a normal of the rim
     axial = dot(n, axis)
     radial = dot(n, offset) / radius if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
-    astray = astray_of_rim(first, up, radial, axial, first[SIDE] == 0.0)
+    off_cone = off_cone_of_rim(first, up, radial, axial, first[SIDE] == 0.0)
     over = max(-along, along - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
         # extend the side past its end, until the contact of both rims is valid
         over -= _BEYOND * size
     if not found or (steep and half < 0.0):
         over = size
-    normal, from_axis = forth(axes, n), forth(axes, point)
-    past = max(past_border(over, astray, size), past_depth(own, first, other, second, gap, size))
+    normal, from_axis = rotated(axes, n), rotated(axes, point)
+    past = max(past_border(over, off_cone, size), past_depth(own, first, other, second, gap, size))
     write_two(a, out, swap, first, second, gap, past, normal, plus(place, from_axis))
-    own_axis, outward = (own_axes[2], own_axes[5], own_axes[8]), forth(axes, offset)
+    own_axis, outward = (own_axes[2], own_axes[5], own_axes[8]), rotated(axes, offset)
     write_side(out, swap, first, int(rim), own_axis, outward, normal, radius)
     away = max(away - gap * cosine, 0.0)
     write_side(out, 1.0 - swap, second, FLANK, (axes[2], axes[5], axes[8]), from_axis, opposite(normal), away)

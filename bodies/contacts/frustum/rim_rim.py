@@ -13,13 +13,13 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, SIDE, SIN, SWEEP
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, size_of, times
+from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL
 from ..features.frames import across
 from ..features.vertex_face import CLOSED, REACH
-from ..smooth.smooth_core import axes_in_world, back, forth
+from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .frustum import FLANK, LOW_RIM, center_in_world, rim_of
-from .frustum_writing import astray_of_rim, past_border, past_depth, write_side, write_two
+from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_side, write_two
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
@@ -38,7 +38,7 @@ _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 def _round(g: Vector3, h: Vector3, angle: float) -> tuple[Vector3, Vector3]:
     """Return the unit vector g cos(angle) + h sin(angle), and its derivative by the angle."""
     c, s = math.cos(angle), math.sin(angle)
-    return plus(times(c, g), times(s, h)), minus(times(c, h), times(s, g))
+    return plus(scaled(c, g), scaled(s, h)), minus(scaled(c, h), scaled(s, g))
 
 
 @compiled
@@ -53,7 +53,7 @@ def _slope(
     ``radius``.  The curvature [m] is the derivative of the slope by the angle.
     """
     u, (tx, ty, tz) = _round(g, h, angle)
-    x, y, z = ahead(middle, radius, u)
+    x, y, z = plus_scaled(middle, radius, u)
     away = max(math.sqrt(x * x + y * y), 1e-300)
     square = (away - wide) * (away - wide) + z * z
     part = 1.0 - wide / away
@@ -79,7 +79,7 @@ def _link_depth(wide: float, radius: float, center: Vector3, g: Vector3, h: Vect
     least, most = math.inf, -math.inf
     for sign in (-1.0, 1.0):
         c, s = radius * math.cos(middle + sign * turn), radius * math.sin(middle + sign * turn)
-        x, y, _ = ahead(ahead(center, c, g), s, h)
+        x, y, _ = plus_scaled(plus_scaled(center, c, g), s, h)
         depth = wide - math.hypot(x, y)
         least, most = min(least, depth), max(most, depth)
     return most if least < 0.0 < most else 0.0
@@ -152,12 +152,12 @@ def evaluate_rims(
     own_axis, place = (own_axes[2], own_axes[5], own_axes[8]), center_in_world(b, second)
     (radius, height, up_a), (wide, level, up_b) = rim_of(first, rim_a), rim_of(second, rim_b)
     # centre of the first rim, from the centre of the second, and axis of the first, in the axes of the second body
-    axis = back(axes, own_axis)
-    cx, cy, cz = ahead(back(axes, minus(center_in_world(a, first), place)), height, axis)
+    axis = rotated_back(axes, own_axis)
+    cx, cy, cz = plus_scaled(rotated_back(axes, minus(center_in_world(a, first), place)), height, axis)
     middle = (cx, cy, cz - level)
     # g: unit vector in the plane of the first rim, towards the second rim's centre; h: perpendicular to it
     _, _, g = across(opposite(middle), axis)
-    h = times(half, cross(axis, g))
+    h = scaled(half, cross(axis, g))
     angle = _nearest_angle(wide, radius, middle, g, h)
     total = first[SWEEP] + second[SWEEP]
     are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
@@ -167,34 +167,34 @@ def evaluate_rims(
     if is_edge_to_edge:
         angle = 0.0
     u, t = _round(g, h, angle)
-    point = ahead(middle, radius, u)
+    point = plus_scaled(middle, radius, u)
     away = math.sqrt(point[0] * point[0] + point[1] * point[1])
     e = (point[0] / away, point[1] / away, 0.0) if away > 0.0 else (1.0, 0.0, 0.0)
     w = (wide * e[0] - point[0], wide * e[1] - point[1], -point[2])
     # normal: cross product of both tangents; the tangent of the second circle is (-ey, ex, 0)
     n = (-t[2] * e[0], -t[2] * e[1], t[0] * e[0] + t[1] * e[1])
-    crossing, apart = size_of(n), size_of(w)
+    crossing, apart = norm(n), norm(w)
     # rounded rims that lie on each other along the whole circle are left to the contacts of rims over caps
     is_ring = total > 0.0 and crossing <= PARALLEL and math.sqrt(w[0] * w[0] + w[1] * w[1]) < REACH * apart
     if total > 0.0 and apart > 1e-9 * size:
         # the normal of cores that are apart is the line between their points, also for parallel tangents
-        n, crossing = over(w, apart), 1.0
+        n, crossing = divided(w, apart), 1.0
     elif is_edge_to_edge or crossing <= PARALLEL:
         n, crossing = u, 1.0 if is_edge_to_edge else 0.0
     else:
-        n = over(n, crossing)
-    astray, flip = 3.0, 1.0
+        n = divided(n, crossing)
+    off_cone, flip = 3.0, 1.0
     for sign in (-1.0, 1.0):
         if total > 0.0 and sign * dot(n, w) < 0.0:
             continue
-        off = astray_of_rim(first, up_a, sign * dot(n, u), sign * dot(n, axis), first[SIDE] == 0.0)
+        off = off_cone_of_rim(first, up_a, sign * dot(n, u), sign * dot(n, axis), first[SIDE] == 0.0)
         radial = -sign * (n[0] * e[0] + n[1] * e[1])
-        off = max(off, astray_of_rim(second, up_b, radial, -sign * n[2], second[SIDE] == 0.0))
-        if off < astray:
-            astray, flip = off, sign
-    n = times(flip, n)
+        off = max(off, off_cone_of_rim(second, up_b, radial, -sign * n[2], second[SIDE] == 0.0))
+        if off < off_cone:
+            off_cone, flip = off, sign
+    n = scaled(flip, n)
     gap = dot(n, w)
-    past = past_border(-size, astray, size)
+    past = past_border(-size, off_cone, size)
     # sines of the angles between the contact normal and the normals of the two sides; a disc has no side
     lean = up_a * (first[COS] * dot(n, axis) - first[SIN] * dot(n, u)) if first[SIDE] > 0.0 else 1.0
     radial = n[0] * e[0] + n[1] * e[1]
@@ -210,16 +210,16 @@ def evaluate_rims(
     if is_outside or crossing <= PARALLEL or is_ring or (is_edge_to_edge and half < 0.0):
         past = max(past, size)
     if gap < 0.0:
-        past = max(past, size * (astray - PARALLEL))
+        past = max(past, size * (off_cone - PARALLEL))
     if not is_edge_to_edge:
         past = max(past, past_depth(a, first, b, second, gap, size))
     if are_discs and gap < 0.0 and not is_edge_to_edge:
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
         past = max(past, crossing * (-0.5 * gap - REACH * size) - _link_depth(wide, radius, middle, g, h))
-    normal, from_center = forth(axes, n), forth(axes, (point[0], point[1], point[2] + level))
+    normal, from_center = rotated(axes, n), rotated(axes, (point[0], point[1], point[2] + level))
     write_two(a, out, 0.0, first, second, gap, past, normal, plus(place, from_center))
-    write_side(out, 0.0, first, LOW_RIM, own_axis, forth(axes, u), normal, radius)
+    write_side(out, 0.0, first, LOW_RIM, own_axis, rotated(axes, u), normal, radius)
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side: so the normal stays radial while
     # one edge slips over the other
     part = FLANK if is_edge_to_edge else LOW_RIM
-    write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), forth(axes, e), opposite(normal), wide)
+    write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), rotated(axes, e), opposite(normal), wide)

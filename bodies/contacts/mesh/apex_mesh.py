@@ -9,7 +9,7 @@ from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import HIGH, SWEEP
-from ...vectors import ahead, dot, minus, opposite, vector_at
+from ...vectors import dot, minus, opposite, plus_scaled, vector_at
 from ..features.frames import point_in_body
 from ..features.swept_vertex import END, NEAR, OPEN
 from ..features.writing import write_round
@@ -62,6 +62,6 @@ def write_apex(
     if past > 0.0:
         # write a large gap for a small distance past the end, so that the contact is not taken for a closed one
         gap = gap_past_end(max(gap, 0.0), max(past, OPEN * shared))
-    write_contact(a, out, gap, past, 0.0, n, ahead(apex, radius, n), False)
+    write_contact(a, out, gap, past, 0.0, n, plus_scaled(apex, radius, n), False)
     write_round(out, SIDE_A, radius)
     write_feature(b, out, SIDE_B, surface, found[2], found[3])

@@ -9,8 +9,8 @@ from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SIDE
-from ...vectors import Vector3, ahead, dot, minus, vector_at
-from ..features.edge_crossing import ASTRAY
+from ...vectors import Vector3, dot, minus, plus_scaled, vector_at
+from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import across, point_in_world, vector_in_body
 from ..features.vertex_face import CLOSED, REACH
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, tip_past_rim
@@ -79,12 +79,12 @@ def evaluate_corner_over_frustum(
         if height < 0.0 and not flat:
             # a corner below a cap's plane or the side's cone touches it only if the corner is inside of the frustum
             beyond = max(beyond, deepest)
-        beyond = max(beyond - margin, size * (_leaning(b, n_star, star, n) - ASTRAY))
+        beyond = max(beyond - margin, size * (_leaning(b, n_star, star, n) - CONE_MARGIN))
         if flat and height < -CLOSED * size and beyond <= 0.0:
             # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
             # the point of the disc nearest to the corner
             past_rim = tip_past_rim(b, n_star, star, lengths, minus(point, center), n, -height, frustum[0])
-            below = vector_in_body(b, minus(ahead(point, -height, n), vector_at(b, POSITION)))
+            below = vector_in_body(b, minus(plus_scaled(point, -height, n), vector_at(b, POSITION)))
             if past_rim > 0.0 and depth_inside(surface, below) == 0.0:
                 beyond = min(-height, past_rim)
         key = height * height + max(beyond, 0.0) * max(beyond, 0.0)

@@ -9,13 +9,13 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import LOW, SIDE, SIN, SWEEP
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, plus, size_of, vector_at
-from ..features.edge_crossing import ASTRAY
+from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, vector_at
+from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import across, point_in_body, vector_in_body
 from ..features.vertex_face import CLOSED
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from ..frustum.frustum_polyhedron import has_part, normal_of_part, over_part
-from ..frustum.frustum_writing import astray_of_rim
+from ..frustum.frustum_writing import off_cone_of_rim
 from ..surface.surface_search import in_triangle, steepest
 from ..surface.surface_tables import CORNER, CORNERS, FACE, FACES
 from .surface_rim import lowest_on_rim
@@ -64,12 +64,12 @@ def _lowest(frustum: Floats, upper: int, pose: FrustumPose, n: Vector3) -> tuple
     """Return a rim's farthest point along n [m], the radial component of n, and a sine.
 
     n points into the surface, so that this is the rim's lowest point over it.  ``upper`` is 1 for the upper rim, 0 for
-    the lower one.  The sine is that of the angle between n and the fan of normals of the rim, negative inside this fan.
+    the lower one.  The sine is that of the angle between n and the normal cone of the rim, negative inside this cone.
     """
     center, axis = pose
     axial, radial, outward = lowest_on_rim(n, axis, (1.0, 0.0, 0.0))
-    astray = astray_of_rim(frustum, 2.0 * upper - 1.0, radial, axial, frustum[SIDE] == 0.0)
-    return ahead(ahead(center, frustum[LOW + upper], axis), frustum[upper], outward), radial, astray
+    off_cone = off_cone_of_rim(frustum, 2.0 * upper - 1.0, radial, axial, frustum[SIDE] == 0.0)
+    return plus_scaled(plus_scaled(center, frustum[LOW + upper], axis), frustum[upper], outward), radial, off_cone
 
 
 @compiled
@@ -89,12 +89,12 @@ def rim_is_near(
         until the next search [rad].
     """
     t, n = triangle, opposite(vector_at(surface, int(surface[FACES]) + FACE * int(surface[triangle + 9])))
-    lowest, radial, astray = _lowest(frustum, upper, pose, n)
-    if astray > ASTRAY + turn:
+    lowest, radial, off_cone = _lowest(frustum, upper, pose, n)
+    if off_cone > CONE_MARGIN + turn:
         return False
     one, two, three = vector_at(surface, t), vector_at(surface, t + 3), vector_at(surface, t + 6)
-    middle = over(plus(plus(one, two), three), 3.0)
-    wide = max(size_of(minus(one, middle)), size_of(minus(two, middle)), size_of(minus(three, middle)))
+    middle = divided(plus(plus(one, two), three), 3.0)
+    wide = max(norm(minus(one, middle)), norm(minus(two, middle)), norm(minus(three, middle)))
     if _from_rim(frustum, upper, pose, middle) > reach + wide:
         return False
     x, y, z, _ = in_triangle(surface, t, lowest)
@@ -115,7 +115,7 @@ def _edge_comes_near(
     low, high = 0.0, length
     for _ in range(_HALVINGS):
         s, half = 0.5 * (low + high), 0.5 * (high - low)
-        along, away, outward = across(minus(ahead(start, s, direction), center), axis)
+        along, away, outward = across(minus(plus_scaled(start, s, direction), center), axis)
         distance, radial, axial, _ = nearest_part(frustum, along, away)
         if distance <= reach:
             return True
@@ -134,10 +134,10 @@ def edge_normal(surface: Floats, edge: int) -> tuple[Vector3, float]:
     along = vector_at(surface, edge + 3)
     left, right = cross(along, vector_at(surface, edge + 7)), cross(vector_at(surface, edge + 10), along)
     n = plus(left, right)
-    norm = size_of(n)
-    if norm <= _SHARP:
+    length = norm(n)
+    if length <= _SHARP:
         return opposite(left), math.pi
-    return over(opposite(n), norm), math.acos(min(0.5 * norm, 1.0))
+    return divided(opposite(n), length), math.acos(min(0.5 * length, 1.0))
 
 
 @compiled
@@ -182,18 +182,18 @@ def _rim_crosses(
     All normals within the angle ``off`` [rad] of ``normal`` are considered.  The edge is given by its start [m], its
     direction and its length [m].  ``reach`` is the distance from the core up to which features are near [m].
     """
-    lowest, radial, astray = _lowest(frustum, upper, pose, normal)
-    if astray > off:
+    lowest, radial, off_cone = _lowest(frustum, upper, pose, normal)
+    if off_cone > off:
         return False
     way = reach + frustum[upper] * _swing(radial, off)
     s = min(max(dot(minus(lowest, start), along), 0.0), length)
-    apart = minus(ahead(start, s, along), lowest)
+    apart = minus(plus_scaled(start, s, along), lowest)
     if dot(apart, apart) > way * way:
         return False
     pieces = min(_PIECES, 1 + int(4.0 * length / frustum[upper]))
     half = 0.5 * length / pieces
     for i in range(pieces):
-        if _from_rim(frustum, upper, pose, ahead(start, (2 * i + 1) * half, along)) <= reach + half:
+        if _from_rim(frustum, upper, pose, plus_scaled(start, (2 * i + 1) * half, along)) <= reach + half:
             return True
     return False
 
@@ -227,6 +227,6 @@ def corner_is_near(
             # as the corner moves by up to ``reach``, the side's normal turns round the axis: add a bound of the angle
             slack += 2.0 if reach >= away else 0.5 * math.pi * reach / away
         down = opposite(normal_of_part(axis, outward, radial, axial))
-        if abs(height) <= reach and beyond <= reach and steepest(surface, c, down) <= ASTRAY + slack:
+        if abs(height) <= reach and beyond <= reach and steepest(surface, c, down) <= CONE_MARGIN + slack:
             return True
     return False

@@ -12,7 +12,7 @@ from nonsmooth.types import Floats
 from ...meshes.patches import patches_for_ball
 from ...shapes.frustum import HIGH, SIDE, SWEEP, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
-from ...vectors import ahead, minus, size_of, vector_at
+from ...vectors import minus, norm, plus_scaled, vector_at
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
 from ..frustum.frustum_swept import write_rounded_vertex
@@ -161,7 +161,7 @@ def find_near_frustum(
         at = int(surface[NODES]) + NODE * node
         corner = vector_at(surface, at)
         diagonal = minus(vector_at(surface, at + 3), corner)
-        if from_core(frustum, pose, ahead(corner, 0.5, diagonal)) > sweep + reach + 0.5 * size_of(diagonal):
+        if from_core(frustum, pose, plus_scaled(corner, 0.5, diagonal)) > sweep + reach + 0.5 * norm(diagonal):
             node = int(surface[at + 6])
             continue
         members = int(surface[MEMBERS]) + int(surface[at + 7])
@@ -177,7 +177,7 @@ def find_near_frustum(
             b, a, surface, place, points[v + 3], star, sweep + reach, turn, POINT, float(i), out, n, limit
         )
     if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[1] == 0.0:
-        n = patches_near(surface, ahead(pose[0], frustum[HIGH], pose[1]), sweep + reach, APEX, 0.0, out, n, limit)
+        n = patches_near(surface, plus_scaled(pose[0], frustum[HIGH], pose[1]), sweep + reach, APEX, 0.0, out, n, limit)
     out[0] = float(n) if n <= limit else most + 1.0
 
 

@@ -18,8 +18,8 @@ from nonsmooth.types import Floats
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_body
 from ...shapes.frustum import SIDE, SWEEP
-from ...vectors import Vector3, ahead, minus, put, vector_at
-from ..features.edge_crossing import edge_astray
+from ...vectors import Vector3, minus, plus_scaled, vector_at, write_vector
+from ..features.edge_crossing import sine_off_cone
 from ..features.frames import across, point_in_body
 from ..features.vertex_face import CLOSED
 from ..frustum.flank_edge import write_edge_across_side
@@ -29,8 +29,8 @@ from ..smooth.smooth_core import Axes, axes_in_world
 from ..surface.surface_search import depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
-_ASTRAY = 1e-6
-"""Sine of the largest angle between a contact normal and the edge's fan of normals.  If it is larger, a face is nearer.
+_CONE_MARGIN = 1e-6
+"""Sine of the largest angle between a contact normal and the edge's normal cone.  If it is larger, a face is nearer.
 """
 
 
@@ -51,7 +51,7 @@ def _is_aside(b: Floats, out: Floats, frustum: Floats, axes: Axes, place: Vector
 def _judge(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
     """Open the contact of a frustum and a crossing edge of a mesh in two cases.
 
-    If the contact normal is outside of the edge's fan of normals, a face is nearer, and has its own contact with the
+    If the contact normal is outside of the edge's normal cone, a face is nearer, and has its own contact with the
     frustum.  If the gap shows an overlap but neither contact point is inside of the other body, the bodies do not
     overlap there.  Overlaps within the margin ``CLOSED`` are judged by the normal, deeper ones by the points.
     """
@@ -59,13 +59,13 @@ def _judge(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, sur
     if out[PAST_END] > 0.0:
         return
     if gap >= -CLOSED * size:
-        astray = edge_astray(b, edge, 0, -1.0, vector_at(out, NORMAL))
-        beyond = size * (astray - _ASTRAY)
+        off_cone = sine_off_cone(b, edge, 0, -1.0, vector_at(out, NORMAL))
+        beyond = size * (off_cone - _CONE_MARGIN)
     elif _is_aside(b, out, frustum, axes_in_world(a, frustum), center_in_world(a, frustum), surface):
         beyond = -gap
     if beyond > 0.0:
         out[GAP], out[PAST_END] = math.hypot(gap, beyond), beyond
-        put(out, POINT_B, ahead(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
+        write_vector(out, POINT_B, plus_scaled(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
 
 
 def evaluate_mesh_edge_across_side(

@@ -10,13 +10,13 @@ from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, SIDE, SWEEP
-from ...vectors import Vector3, ahead, opposite, vector_at
-from ..features.edge_crossing import ASTRAY
+from ...vectors import Vector3, opposite, plus_scaled, vector_at
+from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex_face import CLOSED, REACH
 from ..features.writing import gap_at_distance, write_flat, write_sweep
 from ..frustum.frustum import LOW_RIM, axis_in_world, write_part
-from ..frustum.frustum_writing import astray_of_rim, write_contact
+from ..frustum.frustum_writing import off_cone_of_rim, write_contact
 from ..surface.surface_search import box_square, depth_inside, face_height, has_patch
 from ..surface.surface_tables import (
     FACE,
@@ -118,11 +118,11 @@ def rim_under(
             if surface[f + 4] != patch:
                 continue
             axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, f)), axis, otherwise)
-            p = ahead(center, radius, outward)
+            p = plus_scaled(center, radius, outward)
             height = face_height(surface, f, p)
             if height * height > best:
                 continue
-            lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
+            lean = size * (off_cone_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - CONE_MARGIN)
             over, inside, ends, square = over_face(surface, t, height, lean, margin, p)
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face, point_under = -height, inside, face, p
@@ -147,9 +147,9 @@ def rim_over(
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size, f = surface[SIZE], int(surface[FACES]) + FACE * face
     axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, f)), axis, otherwise)
-    point = ahead(center, radius, outward)
+    point = plus_scaled(center, radius, outward)
     height = face_height(surface, f, point)
-    lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
+    lean = size * (off_cone_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - CONE_MARGIN)
     best, height_best, apart, past = reach * reach, 0.0, reach, reach
     under, under_past = math.inf, 0.0
     node = 0
@@ -197,7 +197,7 @@ def write_rim(
     otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
     n = vector_in_world(b, opposite(vector_at(surface, int(surface[FACES]) + FACE * face)))
     _, sine, outward = lowest_on_rim(n, axis, otherwise)
-    point = ahead(ahead(point_in_world(a, place), radius, outward), sweep, n)
+    point = plus_scaled(plus_scaled(point_in_world(a, place), radius, outward), sweep, n)
     write_contact(a, out, gap_at_distance(gap, past, sweep), past, float(face), n, point, False)
     write_part(out, SIDE_A, LOW_RIM, axis, outward, sine, radius)
     write_sweep(out, SIDE_A, sweep)

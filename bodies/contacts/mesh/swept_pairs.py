@@ -13,7 +13,7 @@ from nonsmooth.types import Floats
 from ...meshes.patches import Patches, patches_for_ball
 from ...shapes.polyhedron import SweptPolytope
 from ...shapes.triangle_mesh import TriangleMesh
-from ...vectors import ahead, minus, opposite, plus, put, size_of, times, vector_at
+from ...vectors import minus, norm, opposite, plus, plus_scaled, scaled, vector_at, write_vector
 from ..features.bounds import edges_bound
 from ..features.frames import vector_in_body, vector_in_world
 from ..features.polytope_tables import N_EDGES as N_CORE_EDGES
@@ -59,9 +59,9 @@ def corners_over(a: Floats, b: Floats, surface: Floats, core: Floats, near: Near
     (reach, turn, most), sweep, node = near, core[SWEEP], 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
-        half = times(0.5, minus(vector_at(surface, at + 3), vector_at(surface, at)))
+        half = scaled(0.5, minus(vector_at(surface, at + 3), vector_at(surface, at)))
         found = nearest_of_core(core, seen_from(b, a, plus(vector_at(surface, at), half)))
-        if found[1] > sweep + reach + size_of(half):
+        if found[1] > sweep + reach + norm(half):
             node = int(surface[at + 6])
             continue
         for i in range(int(surface[at + 8])):
@@ -74,7 +74,7 @@ def corners_over(a: Floats, b: Floats, surface: Floats, core: Floats, near: Near
             to_core = opposite(vector_in_body(a, vector_in_world(b, (x, y, z))))
             is_over_face = number < int(core[N_FACES]) or distance <= 0.0
             if is_over_face or distance * steepest(surface, c, to_core) <= reach + turn * distance:
-                put(out, 1 + 3 * n, (UNDER, float(corner), 0.0))
+                write_vector(out, 1 + 3 * n, (UNDER, float(corner), 0.0))
                 n += 1
         node += 1
     return n
@@ -110,7 +110,7 @@ def _write_crossing(
     crossing = crossing_of(a, b, surface, one, core, two, sweep, size)
     p, _, _, n, gap, _, past = crossing
     if gap < 0.0 and past <= 0.0:
-        past = max(past, past_surface(a, b, surface, core, two, (0.0, 0.0), -gap, ahead(p, gap, n)))
+        past = max(past, past_surface(a, b, surface, core, two, (0.0, 0.0), -gap, plus_scaled(p, gap, n)))
     write_edges(a, out, crossing, past, sweep)
 
 

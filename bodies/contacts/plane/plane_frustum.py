@@ -12,7 +12,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, FEET, Frustum, Point
 from ...shapes.ground import Ground
-from ...vectors import ahead, cross, opposite, vector_at
+from ...vectors import cross, opposite, plus_scaled, vector_at
 from ..features.frames import across, point_in_world, vector_in_world
 from ..features.writing import write_principal, write_sweep
 from .plane_ball import ball_over_plane
@@ -55,8 +55,8 @@ def evaluate_rim_over_plane(
         reach *= sine / crown
         sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)
         out_of_rim = math.copysign(radius / crown * (crown * crown - sine * sine) / sum_of_cosines, along)
-    point = ahead(point_in_world(b, vector_at(center, 0)), reach, down)
-    place_over_plane(a, out, ahead(ahead(point, out_of_rim, along_axis), -rounding, n), height)
+    point = plus_scaled(point_in_world(b, vector_at(center, 0)), reach, down)
+    place_over_plane(a, out, plus_scaled(plus_scaled(point, out_of_rim, along_axis), -rounding, n), height)
     slide, turn = (crown, radius) if is_crown else (1.0, 0.0)
     write_principal(out, SIDE_B, cross(along_axis, down), max(sine, crown), radius, slide, turn)
     write_sweep(out, SIDE_B, rounding)

@@ -6,7 +6,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, POSITION, ROTATION, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, minus, put, vector_at
+from ...vectors import Vector3, minus, plus_scaled, vector_at, write_vector
 from ..features.frames import point_in_world
 from ..features.writing import write_flat, write_round
 
@@ -26,12 +26,12 @@ def place_over_plane(a: Floats, out: Floats, center: Vector3, height: float, rad
     n = axis_of(a, 2)
     d = minus(center, vector_at(a, POSITION))
     gap = -height - radius + n[0] * d[0] + n[1] * d[1] + n[2] * d[2]
-    lowest = ahead(center, -radius, n)
+    lowest = plus_scaled(center, -radius, n)
     out[GAP] = gap
-    put(out, NORMAL, n)
-    put(out, TANGENT, axis_of(a, 0))
-    put(out, POINT_A, ahead(lowest, -gap, n))
-    put(out, POINT_B, lowest)
+    write_vector(out, NORMAL, n)
+    write_vector(out, TANGENT, axis_of(a, 0))
+    write_vector(out, POINT_A, plus_scaled(lowest, -gap, n))
+    write_vector(out, POINT_B, lowest)
     write_flat(out, SIDE_A)
 
 

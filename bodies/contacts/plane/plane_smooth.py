@@ -15,9 +15,9 @@ from ...shapes.ellipsoid import Ellipsoid
 from ...shapes.ground import Ground
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import support_of
-from ...vectors import Vector3, ahead, cross, dot, opposite, over, plus, vector_at
+from ...vectors import Vector3, cross, divided, dot, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world, turned_by, vector_in_body
-from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, back, forth
+from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, rotated, rotated_back
 from ..smooth.smooth_newton import write_surface
 from ..smooth.tangent_plane import write_matrices
 from .plane_point import axis_of, place_over_plane
@@ -32,10 +32,10 @@ def scaled(factors: Vector3, v: Vector3) -> Vector3:
 def evaluate_smooth_over_plane(a: Floats, b: Floats, out: Floats, second: Floats, height: float) -> None:
     """Write the geometry block of a smooth body, given as a core, over a plane."""
     axes, n = axes_in_world(b, second), axis_of(a, 2)
-    normal = back(axes, opposite(n))
+    normal = rotated_back(axes, opposite(n))
     _, point, _ = support_of(second, normal)
-    lowest = plus(point_in_world(b, vector_at(second, CENTER)), forth(axes, point))
-    place_over_plane(a, out, ahead(lowest, -second[RADIUS], n), height)
+    lowest = plus(point_in_world(b, vector_at(second, CENTER)), rotated(axes, point))
+    place_over_plane(a, out, plus_scaled(lowest, -second[RADIUS], n), height)
     write_surface(out, SIDE_B, second, axes, normal, point)
 
 
@@ -54,7 +54,7 @@ def evaluate_ellipsoid_over_plane(
     # support function h and its derivative, the point
     squares = semi[0] * semi[0], semi[1] * semi[1], semi[2] * semi[2]
     h = math.sqrt(dot(scaled(squares, n), n))
-    p = over(scaled(squares, n), h)
+    p = divided(scaled(squares, n), h)
     lowest = plus(vector_at(center, 0), turned_by(w, x, y, z, p[0], p[1], p[2]))
     place_over_plane(a, out, point_in_world(b, lowest), height)
     # slide 1, turn the second derivative of h in the tangent plane: the inverse of the shape operator

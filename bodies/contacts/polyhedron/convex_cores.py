@@ -7,8 +7,8 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, cross, dot, minus, size_of, vector_at
-from ..features.edge_crossing import Crossing, edge_astray
+from ...vectors import Vector3, cross, dot, minus, norm, plus_scaled, vector_at
+from ..features.edge_crossing import Crossing, sine_off_cone
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import ALONG, EDGE, EDGES, INTO_FIRST, INTO_SECOND, LENGTH, N_EDGES, START, faces_of
 from ..features.vertex_face import height_over, separation_of_faces
@@ -42,7 +42,7 @@ def _separation_of_edges(a: Floats, b: Floats, core_a: Floats, core_b: Floats, p
             p, q = dot(n, vector_at(core_a, one + INTO_FIRST)), dot(n, vector_at(core_a, one + INTO_SECOND))
             r, s = -dot(n, u), -dot(n, v)
             is_ahead, is_behind = max(p, q, r, s) <= 0.0, min(p, q, r, s) >= 0.0
-            sine = size_of(n)
+            sine = norm(n)
             if (is_ahead or is_behind) and sine > parallel:
                 gap = dot(n, minus(start, vector_at(core_a, one + START))) / sine
                 best = max(best, gap if is_ahead else -gap)
@@ -87,14 +87,14 @@ def past_if_convex(
         Gaps up to this size are round-off [m].
     """
     p, e, f, n, gap, _, _ = crossing
-    ends = min(core_a[one + LENGTH], core_b[two + LENGTH]) * size_of(cross(e, f))
-    inside = max(edge_astray(a, core_a, one, 1.0, n), edge_astray(b, core_b, two, -1.0, n))
+    ends = min(core_a[one + LENGTH], core_b[two + LENGTH]) * norm(cross(e, f))
+    inside = max(sine_off_cone(a, core_a, one, 1.0, n), sine_off_cone(b, core_b, two, -1.0, n))
     is_flush = ends < within and inside > -_FLUSH
     if past <= within and (gap < -within or is_flush):
         best = max(separation_of_faces(a, b, core_a, core_b), separation_of_faces(b, a, core_b, core_a))
         if is_flush and best >= gap - within:
             past = max(past, within - ends)
-        outside = min(height_over(b, *faces_of(core_b), p), height_over(a, *faces_of(core_a), ahead(p, gap, n)))
+        outside = min(height_over(b, *faces_of(core_b), p), height_over(a, *faces_of(core_a), plus_scaled(p, gap, n)))
         if gap < -within and outside > within:
             best = max(best, _separation_of_edges(a, b, core_a, core_b, parallel))
         past = max(past, best - gap - within)

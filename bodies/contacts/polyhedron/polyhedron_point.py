@@ -11,7 +11,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.point import Point
 from ...shapes.polyhedron import Polyhedron
-from ...vectors import minus, put, times, vector_at
+from ...vectors import minus, scaled, vector_at, write_vector
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.polytope_tables import FACE, FACES, core_numbers, faces_of, point_numbers, vertex_at
 from ..features.vertex_face import height_over, nearest_face
@@ -33,11 +33,11 @@ def evaluate_vertex_over_faces(
     face, gap, past = nearest_face(other, own_frame, core, own, place, size)
     normal = vector_at(core, int(core[FACES]) + FACE * int(face))
     out[GAP], out[FEATURE], out[PAST_END] = gap, face, past
-    put(out, NORMAL, vector_in_world(other, times(sign, normal)))
-    put(out, near, place)
-    put(out, far, minus(place, times(sign * gap, vector_at(out, NORMAL))))
+    write_vector(out, NORMAL, vector_in_world(other, scaled(sign, normal)))
+    write_vector(out, near, place)
+    write_vector(out, far, minus(place, scaled(sign * gap, vector_at(out, NORMAL))))
     # fixed to the body of the face
-    put(out, TANGENT, vector_in_world(other, tangent_of(normal)))
+    write_vector(out, TANGENT, vector_in_world(other, tangent_of(normal)))
     write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, 0.0)
 

@@ -13,7 +13,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import Polyhedron
-from ...vectors import ahead, put
+from ...vectors import plus_scaled, write_vector
 from ..features.bounds import edges_bound
 from ..features.edge_crossing import cross_edges, least_sine
 from ..features.polytope_tables import core_numbers, edge_at
@@ -39,12 +39,12 @@ def evaluate_convex_edges(
     if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    put(out, NORMAL, n)
-    put(out, POINT_A, p)
-    put(out, POINT_B, ahead(p, gap, n))
+    write_vector(out, NORMAL, n)
+    write_vector(out, POINT_A, p)
+    write_vector(out, POINT_B, plus_scaled(p, gap, n))
     # take the edge as tangent: it is fixed to a body. If both edges lie in a face, round-off turns the normal, and a
     # tangent that is computed from the normal would turn with it
-    put(out, TANGENT, e)
+    write_vector(out, TANGENT, e)
     write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, 0.0)
 

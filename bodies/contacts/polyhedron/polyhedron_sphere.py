@@ -12,7 +12,7 @@ from nonsmooth.types import Floats
 from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Point
 from ...shapes.sphere import Sphere
-from ...vectors import minus, put, times, vector_at
+from ...vectors import minus, scaled, vector_at, write_vector
 from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
 from ..features.polytope_tables import N_FACES, SWEEP, core_numbers, edges_of, part_names
 from ..features.swept_vertex import write_swept
@@ -29,9 +29,9 @@ def evaluate_ball_over_polyhedron(
     n = vector_in_world(a, (x, y, z))
     off = distance - core[SWEEP]
     out[GAP], out[FEATURE] = off - radius, number
-    put(out, NORMAL, n)
-    put(out, POINT_A, minus(center, times(off, n)))
-    put(out, POINT_B, minus(center, times(radius, n)))
+    write_vector(out, NORMAL, n)
+    write_vector(out, POINT_A, minus(center, scaled(off, n)))
+    write_vector(out, POINT_B, minus(center, scaled(radius, n)))
     write_tangent(a, out)
     write_swept(a, out, SIDE_A, number, core[N_FACES], *edges_of(core), core[SWEEP])
     write_round(out, SIDE_B, radius)

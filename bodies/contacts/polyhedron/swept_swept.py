@@ -13,9 +13,9 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.polyhedron import SweptPolytope
-from ...vectors import ahead, dot, put
+from ...vectors import dot, plus_scaled, write_vector
 from ..features.bounds import edges_bound
-from ..features.edge_crossing import ASTRAY, cross_edges, least_round_sine
+from ..features.edge_crossing import CONE_MARGIN, cross_edges, least_round_sine
 from ..features.frames import write_tangent
 from ..features.overlap_corners import common_direction, crossing_past_corner, part_of_overlap
 from ..features.polytope_tables import SWEEP, core_numbers, edge_at, faces_of
@@ -55,14 +55,14 @@ def evaluate_swept_edges(
             beyond = crossing_past_corner(a, b, u, core_a, one, core_b, two, p, e, f, n, gap, size)
             # a tilt moves the nearest points of nearly parallel edges far past the ends: farther than a quarter of the
             # gap of the cores, the contact ends
-            past = (1.0 - part) * past + part * max(beyond, over - ASTRAY * gap)
+            past = (1.0 - part) * past + part * max(beyond, over - CONE_MARGIN * gap)
     gap -= radius_a + radius_b
     if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    put(out, NORMAL, n)
-    put(out, POINT_A, ahead(p, radius_a, n))
-    put(out, POINT_B, ahead(ahead(p, radius_a, n), gap, n))
+    write_vector(out, NORMAL, n)
+    write_vector(out, POINT_A, plus_scaled(p, radius_a, n))
+    write_vector(out, POINT_B, plus_scaled(plus_scaled(p, radius_a, n), gap, n))
     write_tangent(a, out)
     write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, radius_a)
     write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, radius_b)

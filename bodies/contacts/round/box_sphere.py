@@ -13,7 +13,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.box import Box
 from ...shapes.sphere import Sphere
-from ...vectors import Vector3, minus, over, put, size_of, vector_at
+from ...vectors import Vector3, divided, minus, norm, vector_at, write_vector
 from ..features.frames import point_in_body, point_in_world, turned_by, vector_in_world
 from ..features.writing import place_sphere, write_flat, write_principal, write_round
 
@@ -64,8 +64,8 @@ def _nearest_feature(half: Vector3, p: Vector3) -> tuple[tuple[int, int, int], f
             z = 1 if p[2] >= 0.0 else -1
         return (x, y, z), -least, (float(x), float(y), float(z))
     d = _beyond(p[0], x, half[0]), _beyond(p[1], y, half[1]), _beyond(p[2], z, half[2])
-    distance = size_of(d)
-    return (x, y, z), distance, over(d, distance)
+    distance = norm(d)
+    return (x, y, z), distance, divided(d, distance)
 
 
 def evaluate_box_sphere(
@@ -95,7 +95,7 @@ def evaluate_box_sphere(
     center = point_in_world(b, vector_at(center_b, 0))
     p = minus(point_in_body(a, center), vector_at(center_a, 0))
     sides, distance, n = _nearest_feature(vector_at(half, 0), turned_by(w, -x, -y, -z, p[0], p[1], p[2]))
-    put(out, NORMAL, vector_in_world(a, _in_body(orientation, n)))
+    write_vector(out, NORMAL, vector_in_world(a, _in_body(orientation, n)))
     place_sphere(a, out, (center[0], center[1], center[2]), distance - rounding, radius)
     on_x, on_y, on_z = abs(sides[0]), abs(sides[1]), abs(sides[2])
     if on_x + on_y + on_z == 1:

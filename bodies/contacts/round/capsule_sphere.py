@@ -12,7 +12,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.capsule import Capsule
 from ...shapes.sphere import Sphere
-from ...vectors import Vector3, ahead, dot, minus, put, vector_at
+from ...vectors import Vector3, dot, minus, plus_scaled, vector_at, write_vector
 from ..features.frames import point_in_world, tangent_of, vector_in_world
 from ..features.writing import join_cores, write_principal, write_round
 
@@ -52,8 +52,8 @@ def evaluate_capsule_sphere(a: Floats, b: Floats, out: Floats, first: Floats, ra
     point = point_in_world(b, vector_at(center, 0))
     along = dot(minus(point, middle), axis)
     near = _within(along, half)
-    put(out, POINT_B, point)
-    put(out, POINT_A, ahead(middle, near, axis))
+    write_vector(out, POINT_B, point)
+    write_vector(out, POINT_A, plus_scaled(middle, near, axis))
     x, y, z = tangent_of(axis)
     join_cores(a, out, own, radius, (x, y, z))
     if near == along:

@@ -10,7 +10,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.sphere import Sphere
-from ...vectors import put
+from ...vectors import write_vector
 from ..features.frames import point_in_world
 from ..features.writing import join_cores, write_round
 
@@ -29,8 +29,8 @@ def evaluate_spheres(
     z_b: float,
 ) -> None:
     """Write the geometry block of two spheres, given by radius [m] and centre in the body frame [m]."""
-    put(out, POINT_A, point_in_world(a, (x_a, y_a, z_a)))
-    put(out, POINT_B, point_in_world(b, (x_b, y_b, z_b)))
+    write_vector(out, POINT_A, point_in_world(a, (x_a, y_a, z_a)))
+    write_vector(out, POINT_B, point_in_world(b, (x_b, y_b, z_b)))
     join_cores(a, out, radius_a, radius_b, (a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8]))
     write_round(out, SIDE_A, radius_a)
     write_round(out, SIDE_B, radius_b)

@@ -13,9 +13,9 @@ import math
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core
-from ...vectors import Vector3, ahead, cross, dot, minus, plus, times
+from ...vectors import Vector3, cross, dot, minus, plus, plus_scaled, scaled
 from .bracket import bracket, narrowed, next_place
-from .smooth_core import Answer, Axes, facing_point, longest, spread
+from .smooth_core import Axes, NearestPoint, facing_point, largest_semi_axis, spread
 
 _LOOKS = 8
 """Number of directions, evenly spaced round the axis of the line, at which the gap is sampled before the search."""
@@ -30,7 +30,7 @@ _ROUND_OFF = 4e-16
 @compiled
 def across_line(
     core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
-) -> Answer:
+) -> NearestPoint:
     """Return the gap of a line and a core with flat places [m], the core's point [m] and the normal.
 
     The gap is the largest over all normals round the line; it is nan if no maximum was found.  The line goes through
@@ -95,7 +95,7 @@ def across_line(
                 low, rising = 0.5 * (low + high), slope
     if not (rising > 0.0 > falling):
         return math.nan, found[1], found[2]
-    none = _ROUND_OFF * (spread(place) + longest(core))
+    none = _ROUND_OFF * (spread(place) + largest_semi_axis(core))
     sides = bracket(low, high, rising, falling)
     for _ in range(_STEPS):
         middle, sides = next_place(sides)
@@ -108,7 +108,7 @@ def across_line(
             one, up = _look(core, turn, place, e, n, cosine, sine, low)
             two, down = _look(core, turn, place, e, n, cosine, sine, high)
             part = min(max(up / (up - down), 0.0), 1.0) if up > down else 0.5
-            return found[0] - reach, ahead(one[1], part, minus(two[1], one[1])), found[2]
+            return found[0] - reach, plus_scaled(one[1], part, minus(two[1], one[1])), found[2]
         sides = narrowed(sides, middle, slope)
     return math.nan, found[1], found[2]
 
@@ -116,7 +116,7 @@ def across_line(
 @compiled
 def _look(
     core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
-) -> tuple[Answer, float]:
+) -> tuple[NearestPoint, float]:
     """Return gap, core's point and normal, and the gap's derivative by the angle, at an ``angle`` round the line [rad].
 
     The line has the unit direction ``e``; the unit vector ``n``, perpendicular to it, is at angle 0.  The normal has
@@ -125,6 +125,6 @@ def _look(
     """
     u = cross(e, n)
     c, s = cosine * math.cos(angle), cosine * math.sin(angle)
-    normal = ahead(plus(times(c, n), times(s, u)), sine, e)
+    normal = plus_scaled(plus(scaled(c, n), scaled(s, u)), sine, e)
     p, _ = facing_point(core, turn, place, normal)
-    return (dot(normal, p), p, normal), dot(minus(times(c, u), times(s, n)), p)
+    return (dot(normal, p), p, normal), dot(minus(scaled(c, u), scaled(s, n)), p)

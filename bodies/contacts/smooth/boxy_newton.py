@@ -15,10 +15,10 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core, boxy_gauge_of
-from ...vectors import Vector3, cross, dot, minus, over, plus, size_of, times
+from ...vectors import Vector3, cross, divided, dot, minus, norm, plus, scaled
 from ..features.frames import tangent_of
 from .newton import RIGHT, has_ended
-from .smooth_core import RADIUS, Answer, Axes, back, facing_point, longest, spread
+from .smooth_core import RADIUS, Axes, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
 from .tangent_plane import (
     Symmetric,
     along,
@@ -55,16 +55,16 @@ Place: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, Symmetric]
 def place_on(core: Core, p: Vector3) -> Place:
     """Return the point of a boxy core's surface in the direction p, with normal and shape operator."""
     f, slope, bends = boxy_gauge_of(core, p)
-    length = size_of(slope)
-    n = over(slope, length)
+    length = norm(slope)
+    n = divided(slope, length)
     t = tangent_of(n)
     u = cross(n, t)
     # the second derivative goes with 1 / f
-    return over(p, f), n, t, u, times(f / length, bends_in_plane(bends, t, u))
+    return divided(p, f), n, t, u, scaled(f / length, bends_in_plane(bends, t, u))
 
 
 @compiled
-def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the gap of a boxy core and another core [m], the point on the boxy core [m], and the normal from it.
 
     Point and normal are in the axes of the boxy core.  The gap is nan if the search fails.  The other core must not be
@@ -87,8 +87,8 @@ def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vecto
     start : Vector3
         Direction of the point to begin with, of any length.
     """
-    extent = longest(core)
-    size = spread(place) + extent + longest(other)
+    extent = largest_semi_axis(core)
+    size = spread(place) + extent + largest_semi_axis(other)
     p, last, step = start, start, (0.0, 0.0, 0.0)
     merit, promise, before, halvings = math.inf, 0.0, math.inf, 0
     for _ in range(_STEPS):
@@ -98,12 +98,12 @@ def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vecto
         found = 0.5 * dot(d, d)
         seen = _SEEN * size * (_SEEN * size + math.sqrt(found))
         if found > merit - promise + seen and halvings < _HALVINGS:
-            halvings, step, promise = halvings + 1, times(0.5, step), 0.5 * promise
+            halvings, step, promise = halvings + 1, scaled(0.5, step), 0.5 * promise
         else:
             merit, halvings, last = found, 0, p
             g, (r, s) = dot(n, d), in_plane(t, u, d)
             residual = math.sqrt(r * r + s * s)
-            h11, h12, h22 = bends_in_plane(bends, back(turn, t), back(turn, u))
+            h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, t), rotated_back(turn, u))
             m11, m12 = 1.0 + (h11 + g) * k11 + h12 * k12, (h11 + g) * k12 + h12 * k22
             m21, m22 = h12 * k11 + (h22 + g) * k12, 1.0 + h12 * k12 + (h22 + g) * k22
             m = m11, m12, m21, m22
@@ -141,7 +141,11 @@ def write_boxy(out: Floats, side: int, core: Core, axes: Axes, p: Vector3) -> No
     """
     _, _, first, second, (k11, k12, k22) = place_on(core, p)
     t, u = tangents_in(axes, out)
-    (c11, c12, c21, c22), least, radius = from_tangents(t, u, first, second), _FLATTEST / longest(core), core[RADIUS]
+    (c11, c12, c21, c22), least, radius = (
+        from_tangents(t, u, first, second),
+        _FLATTEST / largest_semi_axis(core),
+        core[RADIUS],
+    )
     k11, k22 = k11 + least, k22 + least
     s11 = c11 * (k11 * c11 + k12 * c12) + c12 * (k12 * c11 + k22 * c12)
     s12 = c11 * (k11 * c21 + k12 * c22) + c12 * (k12 * c21 + k22 * c22)

@@ -13,10 +13,10 @@ import math
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core
-from ...vectors import Vector3, dot, minus, over, plus, size_of, times
+from ...vectors import Vector3, divided, dot, minus, norm, plus, scaled
 from .boxy_newton import place_on
 from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
-from .smooth_core import Answer, Axes, back, forth, longest, spread
+from .smooth_core import Axes, NearestPoint, largest_semi_axis, rotated, rotated_back, spread
 from .tangent_plane import along, by_symmetric, determinant, from_tangents, in_plane, solved
 
 _STEPS = 100
@@ -31,7 +31,7 @@ _LEAST = 0.05
 
 
 @compiled
-def meet(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, other: Vector3) -> Answer:
+def meet(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, other: Vector3) -> NearestPoint:
     """Return the gap of two boxy cores [m], the point on the first core and its outward normal.
 
     Point and normal are in the axes of the first core, from its centre.  The gap is nan if no solution was found.
@@ -43,20 +43,20 @@ def meet(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, 
     start, other : Vector3
         Directions from each centre to the point at which the search starts, both in the axes of the first core.
     """
-    extent_a, extent_b = longest(first), longest(second)
+    extent_a, extent_b = largest_semi_axis(first), largest_semi_axis(second)
     size, weight = spread(place) + extent_a + extent_b, min(extent_a, extent_b)
     p, q, last_p, last_q = start, other, start, other
     step_p, step_q = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     merit, before, halvings = math.inf, math.inf, 0
     for _ in range(_STEPS):
         p, n, t, u, (a11, a12, a22) = place_on(first, p)
-        q, m, t_b, u_b, k_b = place_on(second, back(turn, q))
-        q, m, t_b, u_b = forth(turn, q), forth(turn, m), forth(turn, t_b), forth(turn, u_b)
+        q, m, t_b, u_b, k_b = place_on(second, rotated_back(turn, q))
+        q, m, t_b, u_b = rotated(turn, q), rotated(turn, m), rotated(turn, t_b), rotated(turn, u_b)
         d = minus(plus(place, q), p)
         (r, s), (v, w), facing = in_plane(t, u, d), in_plane(t, u, m), dot(n, m)
         found = misfit(r, s, v, w, facing, weight)
         if found > merit and halvings < _HALVINGS and found > (CLOSE * size) ** 2:
-            halvings, step_p, step_q = halvings + 1, times(0.5, step_p), times(0.5, step_q)
+            halvings, step_p, step_q = halvings + 1, scaled(0.5, step_p), scaled(0.5, step_q)
         else:
             if halvings >= _HALVINGS:
                 return math.nan, p, n
@@ -83,7 +83,7 @@ def meet(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, 
             step_p = along((i, j), t, u)
             step_q = along(solved(c, det_c, (k11 * i + k12 * j - r, k12 * i + k22 * j - s)), t_b, u_b)
             longest_step = max(1.0, _part(step_p, extent_a), _part(step_q, extent_b))
-            step_p, step_q = over(step_p, longest_step), over(step_q, longest_step)
+            step_p, step_q = divided(step_p, longest_step), divided(step_q, longest_step)
         p, q = plus(last_p, step_p), plus(last_q, step_q)
     return math.nan, last_p, (0.0, 0.0, 1.0)
 
@@ -91,4 +91,4 @@ def meet(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, 
 @compiled
 def _part(step: Vector3, extent: float) -> float:
     """Return the length of a step, relative to the longest one."""
-    return float(size_of(step) / (_LONGEST * extent))
+    return float(norm(step) / (_LONGEST * extent))

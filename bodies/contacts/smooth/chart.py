@@ -17,9 +17,9 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core, support_by
-from ...vectors import Vector3, cross, over, plus, size_of, times
+from ...vectors import Vector3, cross, divided, norm, plus, scaled
 from ..features.frames import tangent_of
-from .smooth_core import RADIUS, Axes, Norm, longest, unit
+from .smooth_core import RADIUS, Axes, SemiAxes, largest_semi_axis, unit
 from .tangent_plane import (
     Symmetric,
     along,
@@ -45,8 +45,8 @@ def _part(one: float, two: float, power: float) -> tuple[float, float, float]:
     larger, smaller = max(abs(one), abs(two)), min(abs(one), abs(two))
     if larger == 0.0:
         return 1.0, 0.0, 0.0
-    norm = larger * (1.0 + (smaller / larger) ** power) ** (1.0 / power)
-    return one / norm, two / norm, norm
+    length = larger * (1.0 + (smaller / larger) ** power) ** (1.0 / power)
+    return one / length, two / length, length
 
 
 @compiled
@@ -55,7 +55,7 @@ def _dual(one: float, power: float) -> float:
 
 
 @compiled
-def start_of(core: Norm, n: Vector3) -> Vector3:
+def start_of(core: SemiAxes, n: Vector3) -> Vector3:
     """Return the chart's vector w (see the module) at the core's surface point with the outward unit normal n."""
     a, b, c, p, q = core
     if p == 2.0 and q == 2.0:
@@ -71,7 +71,7 @@ def start_of(core: Norm, n: Vector3) -> Vector3:
 
 
 @compiled
-def chart_of(core: Norm, length: float, w: Vector3) -> Chart:
+def chart_of(core: SemiAxes, length: float, w: Vector3) -> Chart:
     """Return the surface at the vector w of any length, without the radius; ``length`` is L [m].
 
     Of an ellipsoid, which may be flat or a point, w is the normal.
@@ -101,8 +101,8 @@ def chart_of(core: Norm, length: float, w: Vector3) -> Chart:
         lean, rise, d_lean, d_rise, round_n = away, high, dl, dh, 1.0
     point, w = (a * out * sx, b * out * sy, c * up), (away * ux, away * uy, high)
     normal = lean * nx / a, lean * ny / b, rise / c
-    size = size_of(normal)
-    normal = over(normal, size)
+    size = norm(normal)
+    normal = divided(normal, size)
     first = tangent_of(normal)
     second = cross(normal, first)
     # the point's and the normal's derivatives along both tangents: round the section, then along
@@ -150,11 +150,11 @@ def write_chart(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3)
     The normal is in the axes of the core.  The matrices are slide [1/m] and turn [1].  The geometry block ``out`` must
     already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
-    norm, size = (core[0], core[1], core[2], core[3], core[4]), longest(core)
-    _, _, first, second, slide, turn, _, _, _ = chart_of(norm, size, start_of(norm, normal))
+    length, size = (core[0], core[1], core[2], core[3], core[4]), largest_semi_axis(core)
+    _, _, first, second, slide, turn, _, _, _ = chart_of(length, size, start_of(length, normal))
     t, u = tangents_in(axes, out)
     c = from_tangents(t, u, first, second)
     slide = turned_matrix(c, slide)
     # with a radius r the turn grows by r times the slide
-    turn = plus(turned_matrix(c, turn), times(core[RADIUS], slide))
-    write_matrices(out, side, plus(slide, times(_FLATTEST / size, turn)), turn)
+    turn = plus(turned_matrix(c, turn), scaled(core[RADIUS], slide))
+    write_matrices(out, side, plus(slide, scaled(_FLATTEST / size, turn)), turn)

@@ -11,10 +11,10 @@ import math
 
 from nonsmooth.compiled import compiled
 
-from ...vectors import Vector3, dot, minus, opposite, plus, times
+from ...vectors import Vector3, dot, minus, opposite, plus, scaled
 from .chart import chart_of, start_of
 from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
-from .smooth_core import Answer, Axes, Norm, back, forth, longest, spread, unit
+from .smooth_core import Axes, NearestPoint, SemiAxes, largest_semi_axis, rotated, rotated_back, spread, unit
 from .tangent_plane import Symmetric, along, by_symmetric, determinant, from_tangents, in_plane, solved, turned_matrix
 
 _STEPS = 40
@@ -24,7 +24,9 @@ _LONGEST = 0.3
 
 
 @compiled
-def meet_in_charts(first: Norm, second: Norm, turn: Axes, place: Vector3, start: Vector3, parts: int) -> Answer:
+def meet_in_charts(
+    first: SemiAxes, second: SemiAxes, turn: Axes, place: Vector3, start: Vector3, parts: int
+) -> NearestPoint:
     """Return the gap of two cores [m], the point on the first core and its outward normal.
 
     Point and normal are in the axes of the first core, from its centre.  The gap is nan if no solution was found.
@@ -54,7 +56,7 @@ def meet_in_charts(first: Norm, second: Norm, turn: Axes, place: Vector3, start:
 
 
 @compiled
-def _between(core: Norm, part: float) -> Norm:
+def _between(core: SemiAxes, part: float) -> SemiAxes:
     """Return a core interpolated between the ellipsoid of equal semi-axes (``part`` 0) and ``core`` (``part`` 1).
 
     The reciprocal powers 1 / p and 1 / q vary linearly with ``part``.
@@ -64,28 +66,28 @@ def _between(core: Norm, part: float) -> Norm:
 
 
 @compiled
-def _climb(first: Norm, second: Norm, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _climb(first: SemiAxes, second: SemiAxes, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the largest gap of two cores over all directions [m], the first core's point and normal there.
 
     Newton's method starts at the support points of the cores, along the unit normal ``start`` and against it.  The
     other arguments are those of :func:`meet_in_charts`.  The gap is nan if no solution was found.
     """
-    extent_a, extent_b = longest(first), longest(second)
+    extent_a, extent_b = largest_semi_axis(first), largest_semi_axis(second)
     size, weight = spread(place) + extent_a + extent_b, max(extent_a, extent_b)
     if min(extent_a, extent_b) > 0.0:
         weight = min(extent_a, extent_b)
-    w, o = start_of(first, start), start_of(second, back(turn, opposite(start)))
+    w, o = start_of(first, start), start_of(second, rotated_back(turn, opposite(start)))
     last_w, last_o, step_w, step_o = w, o, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     merit, before, halvings = math.inf, math.inf, 0
     for _ in range(_STEPS):
         p, n, t, u, s_a, u_a, w, along_w, beside_w = chart_of(first, weight, w)
         q, m, t_b, u_b, s_b, turn_b, o, along_o, beside_o = chart_of(second, weight, o)
-        q, m, t_b, u_b = forth(turn, q), forth(turn, m), forth(turn, t_b), forth(turn, u_b)
+        q, m, t_b, u_b = rotated(turn, q), rotated(turn, m), rotated(turn, t_b), rotated(turn, u_b)
         d = minus(plus(place, q), p)
         (r1, r2), (v1, v2), facing = in_plane(t, u, d), in_plane(t, u, m), dot(n, m)
         found = misfit(r1, r2, v1, v2, facing, weight)
         if found > merit and halvings < _HALVINGS and found > (CLOSE * size) ** 2:
-            halvings, step_w, step_o = halvings + 1, times(0.5, step_w), times(0.5, step_o)
+            halvings, step_w, step_o = halvings + 1, scaled(0.5, step_w), scaled(0.5, step_o)
         else:
             if halvings >= _HALVINGS or found != found:
                 return math.nan, p, n
@@ -95,7 +97,7 @@ def _climb(first: Norm, second: Norm, turn: Axes, place: Vector3, start: Vector3
             c = from_tangents(t, u, t_b, u_b)
             (s11, s12, s22), (t11, t12, t22) = turned_matrix(c, s_b), turned_matrix(c, turn_b)
             # U_A + g S_A, and M = S_B (U_A + g S_A) - (n . m) U_B S_A
-            a11, a12, a22 = plus(u_a, times(g, s_a))
+            a11, a12, a22 = plus(u_a, scaled(g, s_a))
             m11, m12, m21, m22 = by_symmetric((s11, s12, s12, s22), (a11, a12, a22))
             b11, b12, b21, b22 = by_symmetric((t11, t12, t12, t22), s_a)
             matrix = m11 - facing * b11, m12 - facing * b12, m21 - facing * b21, m22 - facing * b22

@@ -15,10 +15,10 @@ import math
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core, support_of
-from ...vectors import Vector3, ahead, cross, dot, minus, plus, size_of, times
+from ...vectors import Vector3, cross, dot, minus, norm, plus, plus_scaled, scaled
 from ..features.frames import tangent_of
 from .newton import CLOSE, RIGHT, ROUND_OFF, has_ended
-from .smooth_core import Axes, back, bend, facing_point, longest, spread, unit
+from .smooth_core import Axes, bend, facing_point, largest_semi_axis, rotated_back, spread, unit
 from .tangent_plane import along, in_plane
 
 _STEPS = 100
@@ -49,11 +49,11 @@ def climb(
         Start of n, of any length; as a rule along the line of centres.
     """
     free = axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0
-    n = ahead(start, -dot(start, axis), axis)
-    if size_of(n) <= CLOSE * spread(start):
+    n = plus_scaled(start, -dot(start, axis), axis)
+    if norm(n) <= CLOSE * spread(start):
         n = tangent_of(axis)
     n = unit(n)
-    size = spread(place) + longest(first) + longest(second)
+    size = spread(place) + largest_semi_axis(first) + largest_semi_axis(second)
     g, before, halvings = -math.inf, math.inf, 0
     # direction and step of the last iteration
     last, step = n, (0.0, 0.0, 0.0)
@@ -63,17 +63,17 @@ def climb(
         d = minus(q, p)
         found = dot(n, d)
         if found < g - _SEEN * size and halvings < _HALVINGS:
-            halvings, step = halvings + 1, times(0.5, step)
+            halvings, step = halvings + 1, scaled(0.5, step)
         else:
             g, halvings, last = found, 0, n
             t, u = (tangent_of(n), axis) if free else (cross(axis, n), axis)
             if free:
                 u = cross(n, t)
             r, s = in_plane(t, u, d)
-            v = back(turn, t)
+            v = rotated_back(turn, t)
             tt, tu, uu = bend(a, t, t) + bend(b, v, v) + g, 0.0, size
             if free:
-                w = back(turn, u)
+                w = rotated_back(turn, u)
                 tu, uu = bend(a, t, u) + bend(b, v, w), bend(a, u, u) + bend(b, w, w) + g
             else:
                 s = 0.0

@@ -14,13 +14,13 @@ from __future__ import annotations
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import OF_FUNCTION, Core, gauge_of
-from ...vectors import Vector3, ahead, dot, minus, opposite, vector_at
+from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
 from .dual_newton import climb
-from .smooth_core import POINT, Answer, Axes, back, longest, spread
+from .smooth_core import POINT, Axes, NearestPoint, largest_semi_axis, rotated_back, spread
 
 
 @compiled
-def no_shorter_way(first: Core, second: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
+def no_shorter_way(first: Core, second: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
     """Return True if inscribed balls prove that no translation shorter than the overlap separates the cores.
 
     Parameters
@@ -32,10 +32,10 @@ def no_shorter_way(first: Core, second: Core, turn: Axes, place: Vector3, found:
         its centre.
     """
     g, q, n = found
-    radius = _ball_in(first, -g, ahead(q, -g, n), n)
+    radius = _ball_in(first, -g, plus_scaled(q, -g, n), n)
     if radius >= -g:
         return True
-    point, normal = back(turn, minus(q, place)), back(turn, opposite(n))
+    point, normal = rotated_back(turn, minus(q, place)), rotated_back(turn, opposite(n))
     return bool(radius + _ball_in(second, -g, point, normal) >= -g)
 
 
@@ -53,7 +53,7 @@ def _ball_in(core: Core, most: float, point: Vector3, normal: Vector3) -> float:
     # the function is r^j + |z / c|^j, with r^k = |x / a|^k + |y / b|^k.  First: bounds of |x / a|^k, |y / b|^k and
     # |z / c| in a cube that contains the ball of radius `most`, and bounds of the parts s and t of x and y in r^k
     j, k = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
-    x, y, z = ahead(point, -most, normal)
+    x, y, z = plus_scaled(point, -most, normal)
     x, y, z = abs(x), abs(y), abs(z)
     low_x, low_y, low_z = (max(x - most, 0.0) / a) ** k, (max(y - most, 0.0) / b) ** k, max(z - most, 0.0) / c
     high_x, high_y, high_z = ((x + most) / a) ** k, ((y + most) / b) ** k, (z + most) / c
@@ -82,7 +82,7 @@ def gauge(core: Core, point: Vector3) -> float:
     """
     if core[3] != OF_FUNCTION:
         return float(gauge_of(core, point))
-    size, none = longest(core), (0.0, 0.0, 0.0)
+    size, none = largest_semi_axis(core), (0.0, 0.0, 0.0)
     if spread(point) <= 1e-9 * size:
         return 0.0
     same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)

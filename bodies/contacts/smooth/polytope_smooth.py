@@ -28,7 +28,7 @@ from ...shapes.polyhedron import Polyhedron
 from ...shapes.polytope import Polytope
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import Core, is_round
-from ...vectors import Vector3, ahead, cross, dot, minus, over, plus, size_of, times, vector_at
+from ...vectors import Vector3, cross, divided, dot, minus, norm, plus, plus_scaled, scaled, vector_at
 from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world
 from ..features.writing import write_flat, write_principal, write_round
 from .inscribed import gauge
@@ -37,14 +37,14 @@ from .smooth_core import (
     CENTER,
     POINT,
     RADIUS,
-    Answer,
     Axes,
+    NearestPoint,
     axes_in_world,
     axes_of,
-    back,
-    between_axes,
     facing_point,
-    longest,
+    largest_semi_axis,
+    relative_rotation,
+    rotated_back,
     spread,
 )
 from .smooth_newton import widest_from, write_smooth
@@ -149,8 +149,8 @@ def _edge(hull: Floats, i: int) -> tuple[Vector3, float]:
     """Return the unit vector from the first to the second vertex of an edge, and its length."""
     at = int(hull[EDGES]) + EDGE * i
     e = minus(_vertex(hull, int(hull[at + 1])), _vertex(hull, int(hull[at])))
-    length = size_of(e)
-    return over(e, length), length
+    length = norm(e)
+    return divided(e, length), length
 
 
 @compiled
@@ -175,7 +175,7 @@ def _exit(hull: Floats, face: int, near: float, here: Vector3, there: Vector3) -
     for i in range(count):
         v, w = _vertex(hull, int(hull[loop + 2 * i])), _vertex(hull, int(hull[loop + 2 * ((i + 1) % count)]))
         e = minus(w, v)
-        outward = over(cross(e, n), size_of(e))
+        outward = divided(cross(e, n), norm(e))
         before, after = dot(minus(here, v), outward), dot(minus(there, v), outward)
         if after > near and after > before:
             part = max(-before, 0.0) / (after - before)
@@ -185,7 +185,7 @@ def _exit(hull: Floats, face: int, near: float, here: Vector3, there: Vector3) -
 
 
 @compiled
-def _over_face(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int) -> Answer:
+def _over_face(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int) -> NearestPoint:
     """Return the gap between the plane of a face and the smooth body [m], the body's point [m] and the normal."""
     at = int(hull[FACES]) + FACE * number
     n = vector_at(hull, at)
@@ -207,7 +207,7 @@ def _best_face(hull: Floats, core: Core, turn: Axes, place: Vector3) -> int:
 @compiled
 def _look_at_face(hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, number: int, way: Vector3) -> Stop:
     g, p, n = _over_face(hull, core, turn, place, number)
-    edge = _exit(hull, number, near, way, ahead(p, -g, n))
+    edge = _exit(hull, number, near, way, plus_scaled(p, -g, n))
     return g, n, _HERE if edge < 0 else _EDGE, edge, way
 
 
@@ -230,7 +230,7 @@ def _look_at_edge(
             into = into if i == 0 else -into
             if into > most:
                 side, most = face, into
-    return g, n, _HERE if side < 0 else _FACE, side, ahead(v, s, e)
+    return g, n, _HERE if side < 0 else _FACE, side, plus_scaled(v, s, e)
 
 
 @compiled
@@ -252,7 +252,7 @@ def _middle(hull: Floats, face: int) -> Vector3:
     loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
     middle = 0.0, 0.0, 0.0
     for i in range(count):
-        middle = plus(middle, over(_vertex(hull, int(hull[loop + 2 * i])), count))
+        middle = plus(middle, divided(_vertex(hull, int(hull[loop + 2 * i])), count))
     return middle
 
 
@@ -278,7 +278,7 @@ def _nearest(hull: Floats, core: Core, turn: Axes, place: Vector3) -> Nearest:
     """
     n_edges, n_faces = int(hull[COUNTS + 1]), int(hull[COUNTS + 2])
     way = _vertex(hull, 0)
-    size = spread(place) + longest(core) + abs(way[0]) + abs(way[1]) + abs(way[2])
+    size = spread(place) + largest_semi_axis(core) + abs(way[0]) + abs(way[1]) + abs(way[2])
     near = _ON_BORDER * size
     kind, number = _EDGE, 0
     if n_faces > 0:
@@ -297,7 +297,7 @@ def _nearest(hull: Floats, core: Core, turn: Axes, place: Vector3) -> Nearest:
         if after == _HERE and dot(n, minus(place, way)) > 0.0:
             # if the polytope's point lies in the smooth body (gauge below 1), the overlap is proved
             p, _ = facing_point(core, turn, place, n)
-            if gauge(core, back(turn, minus(ahead(p, -g, n), place))) < 1.0:
+            if gauge(core, rotated_back(turn, minus(plus_scaled(p, -g, n), place))) < 1.0:
                 return stop
             best = stop
         if g != g or after == _HERE:
@@ -309,7 +309,7 @@ def _nearest(hull: Floats, core: Core, turn: Axes, place: Vector3) -> Nearest:
         v, (e, length) = _vertex(hull, 0), _edge(hull, 0)
         found, s = along_segment(core, turn, minus(place, v), e, length)
         number = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
-        on_segment = found[0], found[2], number, ahead(v, s, e)
+        on_segment = found[0], found[2], number, plus_scaled(v, s, e)
         if found[0] >= 0.0:
             return on_segment
     of_all: Nearest = _best_of_all(hull, core, turn, place, near)
@@ -341,7 +341,7 @@ def _deep_segment(hull: Floats, core: Core, turn: Axes, place: Vector3, size: fl
     u = cross(e, t)
     for i in range(_ROUND):
         c, s = math.cos(2.0 * math.pi * i / _ROUND), math.sin(2.0 * math.pi * i / _ROUND)
-        begin = plus(times(c, t), times(s, u))
+        begin = plus(scaled(c, t), scaled(s, u))
         g, n, after, _, way = _look_at_edge(hull, core, turn, place, _ON_BORDER * size, 0, begin)
         if after == _HERE and g == g and not g <= best[0]:
             best = g, n, _feature(hull, _EDGE, 0), way
@@ -385,7 +385,7 @@ def _begin(hull: Floats, kind: int, number: int, place: Vector3) -> Vector3:
     else:
         for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
             _, sign, e = _edge_from(hull, number, i)
-            outward = ahead(outward, -sign, e)
+            outward = plus_scaled(outward, -sign, e)
     return outward
 
 
@@ -403,13 +403,13 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     (:func:`bodies.shapes.smooth.core_numbers`).  The gap is nan if no nearest feature was found.
     """
     axes_b = axes_in_world(b, second)
-    place, turn = point_in_body(a, point_in_world(b, vector_at(second, CENTER))), between_axes(axes_of(a), axes_b)
+    place, turn = point_in_body(a, point_in_world(b, vector_at(second, CENTER))), relative_rotation(axes_of(a), axes_b)
     g, n, feature, base = _nearest(first, second, turn, place)
     p, _ = facing_point(second, turn, place, n)
     n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
     if feature >= n_faces and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the polytope's point
-        p = ahead(base, g, n)
+        p = plus_scaled(base, g, n)
     write_smooth(a, out, g - first[RADIUS] - second[RADIUS], second, axes_b, turn, place, n, p)
     out[FEATURE] = feature
     if feature < n_faces:

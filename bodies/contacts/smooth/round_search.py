@@ -19,10 +19,10 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core, support_of
-from ...vectors import Vector3, ahead, dot, minus, plus
+from ...vectors import Vector3, dot, minus, plus, plus_scaled
 from .bracket import bracket, narrowed, next_place
 from .inscribed import gauge
-from .smooth_core import POINT, Answer, Axes, back, facing_point, longest, spread
+from .smooth_core import POINT, Axes, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
 from .smooth_newton import widest_of_round
 from .smooth_starts import Start, gap_along, settle, starts_of, uphill
 from .tangent_plane import bends_in_plane, determinant, solved
@@ -56,7 +56,7 @@ _NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
 ``_STEEPEST``: angle between normal and axis at which the method gives up [rad].
 """
 
-Look: TypeAlias = tuple[float, Answer]
+Look: TypeAlias = tuple[float, NearestPoint]
 """Derivative of the distance by the arc length of the circle [1], and a stop.
 
 A stop is the gap between one point of the circle and the body [m], the body's nearest point to it, and the normal.
@@ -73,7 +73,7 @@ def _look(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, an
 
 
 @compiled
-def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3) -> Answer:
+def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3) -> NearestPoint:
     """Return gap, smooth body's point and normal at the least distance of a circle from the body.
 
     The centre of the circle is the origin, its axis the third axis.  The normal points out of its disc.  The gap is nan
@@ -93,7 +93,7 @@ def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: fl
         The search starts at the direction of its part in the plane of the circle, of any length.
     """
     begin = math.atan2(start[1], start[0])
-    none: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    none: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     look = _look(point, core, turn, place, radius, begin)
     slope, reached = look
     # downhill from the start; if that fails, in every interval of the circle
@@ -124,9 +124,9 @@ def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: fl
 
 
 @compiled
-def _is_outward(found: Answer) -> bool:
+def _is_outward(found: NearestPoint) -> bool:
     g, p, n = found
-    x, y, _ = ahead(p, -g, n)
+    x, y, _ = plus_scaled(p, -g, n)
     return bool(x * n[0] + y * n[1] >= -_SAME * (abs(x) + abs(y)))
 
 
@@ -141,7 +141,7 @@ def _between(
     high: float,
     falling: float,
     rising: float,
-) -> Answer:
+) -> NearestPoint:
     """Return gap, smooth body's point and normal at the least distance between two angles of the circle.
 
     At the angle ``low`` the distance decreases towards ``high``, and at ``high`` towards ``low``.  ``falling`` and
@@ -165,7 +165,7 @@ def _between(
 
 
 @compiled
-def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3, up: float) -> Answer:
+def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3, up: float) -> NearestPoint:
     """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
 
     The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
@@ -175,7 +175,7 @@ def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: V
     against it if ``up`` is -1.  The gap is nan without convergence.
     """
     tilt, angle = 0.0, math.atan2(start[1], start[0])
-    size = spread(place) + longest(core) + radius
+    size = spread(place) + largest_semi_axis(core) + radius
     for _ in range(_NEWTON):
         c, s = math.cos(angle), math.sin(angle)
         sine, cosine = math.sin(tilt), math.cos(tilt)
@@ -183,7 +183,7 @@ def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: V
         p, bends = facing_point(core, turn, place, n)
         g = dot(n, p) - radius * sine
         over, beside = dot(o, p) - radius * cosine, c * p[1] - s * p[0]
-        h11, h12, h22 = bends_in_plane(bends, back(turn, o), back(turn, (-s, c, 0.0)))
+        h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, o), rotated_back(turn, (-s, c, 0.0)))
         matrix = -g - h11, cosine * beside - sine * h12, -h12, -(c * p[0] + s * p[1]) - sine * h22
         det = determinant(matrix)
         if not (matrix[0] < 0.0 and det > 0.0):
@@ -201,7 +201,7 @@ def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: V
 
 
 @compiled
-def along_segment(core: Core, turn: Axes, place: Vector3, e: Vector3, length: float) -> tuple[Answer, float]:
+def along_segment(core: Core, turn: Axes, place: Vector3, e: Vector3, length: float) -> tuple[NearestPoint, float]:
     """Return the least distance of a smooth body from a segment: (gap [m], body's point, normal), distance along it.
 
     The last number is the distance of the segment's nearest point from the start of the segment [m].  The segment goes
@@ -209,14 +209,14 @@ def along_segment(core: Core, turn: Axes, place: Vector3, e: Vector3, length: fl
     rotation from the axes of the core to those of the segment.
     """
     low, high, way = 0.0, length, 0.0
-    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     for i in range(_STEPS):
         # both ends first, then the middle of the remaining interval
         s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
-        from_point = ahead(place, -s, e)
+        from_point = plus_scaled(place, -s, e)
         g, p, n = widest_of_round(POINT, core, turn, from_point, from_point)
         rise = dot(n, e)
-        best, way = (g, ahead(p, s, e), n), s
+        best, way = (g, plus_scaled(p, s, e), n), s
         if g != g or (i == 0 and rise <= 0.0) or (i == 1 and rise >= 0.0):
             break
         if i > 1 and (abs(rise) <= _SAME or s == low or s == high):
@@ -232,7 +232,7 @@ def along_segment(core: Core, turn: Axes, place: Vector3, e: Vector3, length: fl
 
 
 @compiled
-def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, lean: Vector3) -> Answer:
+def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, lean: Vector3) -> NearestPoint:
     """Return gap, smooth body's point and normal for an overlapping circle, along the direction of the largest gap.
 
     Parameters
@@ -246,7 +246,7 @@ def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, le
     lean : tuple of float
         Radial and axial component of the unit normal at this limit, and size of both bodies [m].
     """
-    best: Answer = (math.nan, place, (0.0, 0.0, 1.0))
+    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     for start in starts_of(circle, core, turn, place):
         top = uphill(circle, core, turn, place, start, _TOP)
         found = widest_of_round(circle, core, turn, place, top[1])
@@ -268,8 +268,8 @@ def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, le
                 continue
             found = _along(circle, (limit, n))
         if not found[0] <= best[0]:
-            found, astray = _facing(circle, core, turn, place, found)
-            if astray <= _OVER * lean[2]:
+            found, off_cone = _facing(circle, core, turn, place, found)
+            if off_cone <= _OVER * lean[2]:
                 best = found
     return best
 
@@ -281,17 +281,17 @@ def _leans_so(n: Vector3, up: float, lean: Vector3) -> bool:
 
 
 @compiled
-def _along(circle: Core, top: Start) -> Answer:
+def _along(circle: Core, top: Start) -> NearestPoint:
     """Return gap, body's point and normal for a maximum ``top`` of the gap: the gap and its direction n.
 
     The body's point is the circle's farthest point along n, moved by the gap along n.
     """
     g, n = top
-    return g, ahead(support_of(circle, n)[1], g, n), n
+    return g, plus_scaled(support_of(circle, n)[1], g, n), n
 
 
 @compiled
-def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: Answer) -> tuple[Answer, float]:
+def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> tuple[NearestPoint, float]:
     """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
 
     Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
@@ -299,13 +299,13 @@ def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: Answer)
     search along the circle finds its point p for which p + gap normal is nearest to the surface of the body.
     """
     g, p, n = found
-    extent, radius = longest(core), circle[0]
-    best: Answer = found
+    extent, radius = largest_semi_axis(core), circle[0]
+    best: NearestPoint = found
     least = _over(core, turn, place, p)
     if radius == 0.0 or not least > _SAME:
         return best, least * extent
     q, _ = facing_point(core, turn, place, n)
-    q, c = ahead(q, -g, n), ahead(p, -g, n)
+    q, c = plus_scaled(q, -g, n), plus_scaled(p, -g, n)
     # search an arc about the circle's point nearest to the body's support point; it includes the present point
     middle = math.atan2(q[1], q[0])
     is_off_axis = c[0] * c[0] + c[1] * c[1] > 0.0
@@ -337,4 +337,4 @@ def _over_rim(radius: float, angle: float, g: float, n: Vector3) -> Vector3:
 @compiled
 def _over(core: Core, turn: Axes, place: Vector3, point: Vector3) -> float:
     """Return abs(gauge - 1) of a point: 0 on the surface of the core, where :func:`gauge` is 1, larger off it."""
-    return float(abs(gauge(core, back(turn, minus(point, place))) - 1.0))
+    return float(abs(gauge(core, rotated_back(turn, minus(point, place))) - 1.0))

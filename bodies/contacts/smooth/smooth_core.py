@@ -1,9 +1,9 @@
 """Cores of smooth bodies and their axes, for contacts.
 
 A smooth body is a core with a smooth support function, rounded by a radius.  The core is the tuple of
-:func:`bodies.shapes.smooth.core_numbers`.  Where a search takes two cores, ``turn`` is the rotation from the axes of
-the second core to those of the first, and ``place`` is the second core's centre from the first's [m], in the axes of
-the first.
+:func:`bodies.shapes.smooth.core_numbers`.  Where a search takes two cores, ``turn`` converts components along the
+axes of the second core to components along those of the first, and ``place`` is the second core's centre from the
+first's [m], in the axes of the first.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Bends, Core, support_of
-from ...vectors import Vector3, opposite, over, plus, size_of, vector_at
+from ...vectors import Vector3, divided, norm, opposite, plus, vector_at
 from ..features.frames import vector_in_world
 
 Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
-"""A rotation, row by row."""
-Norm: TypeAlias = tuple[float, float, float, float, float]
+"""A rotation, row by row.  Its columns are the axes that it turns the coordinate axes to."""
+SemiAxes: TypeAlias = tuple[float, float, float, float, float]
 """Three semi-axes [m] and two powers of a core; a core whose semi-axes are 0 is a point."""
-Answer: TypeAlias = tuple[float, Vector3, Vector3]
+NearestPoint: TypeAlias = tuple[float, Vector3, Vector3]
 """Gap [m], point [m] and unit normal, the result of a search; the gap is nan if the search failed."""
 
 RADIUS, CENTER = 5, 6
@@ -34,7 +34,7 @@ POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 @compiled
 def unit(v: Vector3) -> Vector3:
     """Return a vector divided by its length."""
-    return over(v, size_of(v))
+    return divided(v, norm(v))
 
 
 @compiled
@@ -44,8 +44,8 @@ def spread(v: Vector3) -> float:
 
 
 @compiled
-def longest(core: Core) -> float:
-    """Return the largest semi-axis of a core [m]."""
+def largest_semi_axis(core: Core) -> float:
+    """Return the largest semi-axis of a core [m], 0 for a point."""
     return max(core[0], core[1], core[2])
 
 
@@ -81,7 +81,7 @@ def unit_axes_in_world(frame: Floats, core: Core) -> Axes:
     have the length L^2.
     """
     x, y, z, u, v, w, r, s, t = axes_in_world(frame, core)
-    part = 1.0 / size_of((x, y, z))
+    part = 1.0 / norm((x, y, z))
     return part * x, part * y, part * z, part * u, part * v, part * w, part * r, part * s, part * t
 
 
@@ -93,9 +93,16 @@ def axes_of(frame: Floats) -> Axes:
 
 
 @compiled
-def between_axes(a: Axes, b: Axes) -> Axes:
-    """Return the rotation from the axes b to the axes a."""
-    x, y, z = back(a, (b[0], b[3], b[6])), back(a, (b[1], b[4], b[7])), back(a, (b[2], b[5], b[8]))
+def relative_rotation(a: Axes, b: Axes) -> Axes:
+    """Return a^T b: it converts components along the axes b to components along the axes a.
+
+    The columns of a and b are axes in the world.
+    """
+    x, y, z = (
+        rotated_back(a, (b[0], b[3], b[6])),
+        rotated_back(a, (b[1], b[4], b[7])),
+        rotated_back(a, (b[2], b[5], b[8])),
+    )
     return by_columns(x, y, z)
 
 
@@ -106,7 +113,7 @@ def inverse(turn: Axes) -> Axes:
 
 
 @compiled
-def forth(axes: Axes, v: Vector3) -> Vector3:
+def rotated(axes: Axes, v: Vector3) -> Vector3:
     """Return a vector turned by a rotation."""
     x, y, z = v
     return (
@@ -117,7 +124,7 @@ def forth(axes: Axes, v: Vector3) -> Vector3:
 
 
 @compiled
-def back(axes: Axes, v: Vector3) -> Vector3:
+def rotated_back(axes: Axes, v: Vector3) -> Vector3:
     """Return a vector turned by the inverse of a rotation."""
     x, y, z = v
     return (
@@ -133,5 +140,5 @@ def facing_point(core: Core, turn: Axes, place: Vector3, n: Vector3) -> tuple[Ve
 
     Point and n are in the axes of the first core; the second derivative is in those of the second [m].
     """
-    _, p, h = support_of(core, back(turn, opposite(n)))
-    return plus(place, forth(turn, p)), h
+    _, p, h = support_of(core, rotated_back(turn, opposite(n)))
+    return plus(place, rotated(turn, p)), h

@@ -15,7 +15,7 @@ from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core, gauge_of, is_boxy, is_mixed, is_round, support_of
-from ...vectors import Vector3, ahead, dot, minus, opposite, over, plus, put, size_of, times
+from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled, write_vector
 from ..features.frames import point_in_world, vector_in_world, write_tangent
 from .boxy_line import across_line
 from .boxy_newton import climb_boxy, write_boxy
@@ -24,7 +24,19 @@ from .chart import write_chart
 from .chart_newton import meet_in_charts
 from .dual_newton import climb
 from .inscribed import gauge, no_shorter_way
-from .smooth_core import POINT, RADIUS, Answer, Axes, Norm, back, facing_point, forth, inverse, spread, unit
+from .smooth_core import (
+    POINT,
+    RADIUS,
+    Axes,
+    NearestPoint,
+    SemiAxes,
+    facing_point,
+    inverse,
+    rotated,
+    rotated_back,
+    spread,
+    unit,
+)
 from .smooth_starts import gap_along, settle, starts_of, uphill
 from .tangent_plane import bends_in_plane, tangents_in, write_matrices
 
@@ -77,7 +89,7 @@ _ON_SURFACE = 1e-12
 
 
 @compiled
-def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
+def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> NearestPoint:
     """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
 
     The gap is the largest one over all directions [m].  If it is positive, it is the only maximum.  A negative gap is
@@ -134,7 +146,7 @@ def _axis(turn: Axes, number: int) -> Vector3:
     """Return one of the twelve directions along the axes of both bodies."""
     i, sign = number % 3, 1.0 if number < 6 else -1.0
     e = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
-    return forth(turn, e) if number % 6 >= 3 else e
+    return rotated(turn, e) if number % 6 >= 3 else e
 
 
 @compiled
@@ -144,7 +156,7 @@ def _is_thin(first: Core, second: Core) -> bool:
 
 
 @compiled
-def _share_a_point(first: Core, second: Core, turn: Axes, place: Vector3, found: Answer) -> bool:
+def _share_a_point(first: Core, second: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
     """Return whether a common point of both bodies is found, which confirms the overlap of a solution.
 
     Candidates are the two points of the solution, points between them, and the line of centres.
@@ -154,12 +166,15 @@ def _share_a_point(first: Core, second: Core, turn: Axes, place: Vector3, found:
         return True
     for i in range(_SAMPLES + 1):
         # from the first body's point to the second's
-        p = ahead(q, -(g * (1.0 - i / _SAMPLES)), n)
-        if gauge(second, back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE and gauge(first, p) <= 1.0 + _ON_SURFACE:
+        p = plus_scaled(q, -(g * (1.0 - i / _SAMPLES)), n)
+        if (
+            gauge(second, rotated_back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE
+            and gauge(first, p) <= 1.0 + _ON_SURFACE
+        ):
             return True
     # on the line of centres, each body covers the part 1 / gauge of its length, from the body's own centre: the bodies
     # overlap if these parts together are longer than the line
-    one, two = gauge_of(first, place), gauge_of(second, back(turn, opposite(place)))
+    one, two = gauge_of(first, place), gauge_of(second, rotated_back(turn, opposite(place)))
     return bool(1.0 / max(one, _NOWHERE) + 1.0 / max(two, _NOWHERE) >= 1.0)
 
 
@@ -171,13 +186,13 @@ def _thickness(first: Core, second: Core) -> float:
 
 
 @compiled
-def _ellipsoid_of(core: Core) -> Norm:
+def _ellipsoid_of(core: Core) -> SemiAxes:
     """Return the ellipsoid with the semi-axes of a core."""
     return core[0], core[1], core[2], 2.0, 2.0
 
 
 @compiled
-def _first_look(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer:
+def _first_look(first: Core, second: Core, turn: Axes, place: Vector3) -> NearestPoint:
     """Return the largest gap over all directions, second core's point and normal; search from the line of centres."""
     if not (is_mixed(first) or is_mixed(second)):
         return _from_start(first, second, turn, place, place)
@@ -190,7 +205,7 @@ def _first_look(first: Core, second: Core, turn: Axes, place: Vector3) -> Answer
 
 
 @compiled
-def _from_start(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from_start(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``."""
     if is_mixed(first) or is_mixed(second):
         return _by_parts(first, second, turn, place, start, 0)
@@ -200,12 +215,12 @@ def _from_start(first: Core, second: Core, turn: Axes, place: Vector3, start: Ve
         else:
             g, p, n = climb_boxy(first, second, turn, place, start)
         # p is the point of the first core
-        return g, ahead(p, g, n), n
+        return g, plus_scaled(p, g, n), n
     return widest_of_round(first, second, turn, place, start)
 
 
 @compiled
-def _in_charts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _in_charts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the largest gap over all directions [m], second core's point and normal, if a core is mixed.
 
     A mixed core has one power below 2 and one above, so that it has flat and sharp places.  The search starts with the
@@ -238,7 +253,7 @@ def _in_charts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vec
 
 
 @compiled
-def _by_parts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, parts: int) -> Answer:
+def _by_parts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, parts: int) -> NearestPoint:
     """Return gap, second core's point and normal; the search starts in the direction ``start``.
 
     If it fails, it is repeated with ellipsoids whose powers are changed in ``parts`` steps from 2 to the cores' own.
@@ -246,11 +261,11 @@ def _by_parts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vect
     one = first[0], first[1], first[2], first[3], first[4]
     two = second[0], second[1], second[2], second[3], second[4]
     g, p, n = meet_in_charts(one, two, turn, place, start, parts)
-    return g, ahead(p, g, n), n
+    return g, plus_scaled(p, g, n), n
 
 
 @compiled
-def widest_of_round(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def widest_of_round(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
 
     The first core is round; it may be a point or a circle.  The second core is of any kind.
@@ -269,36 +284,36 @@ def widest_of_round(first: Core, second: Core, turn: Axes, place: Vector3, start
 
 
 @compiled
-def _from_boxy(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from_boxy(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
 
     The second core is boxy: the unknown of Newton's method is the point of its surface.
     """
-    to_first, begin = back(turn, opposite(place)), back(turn, opposite(start))
+    to_first, begin = rotated_back(turn, opposite(place)), rotated_back(turn, opposite(start))
     g, p, n = climb_boxy(second, first, inverse(turn), to_first, begin)
-    return g, plus(place, forth(turn, p)), forth(turn, opposite(n))
+    return g, plus(place, rotated(turn, p)), rotated(turn, opposite(n))
 
 
 @compiled
-def _by_cuts(point: Core, core: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _by_cuts(point: Core, core: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return gap, point and normal of a core and a point outside of it, for searches in which Newton's method fails.
 
     Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
     small distance.  The ellipsoid method needs no curvatures.
     """
     n = unit(start)
-    if gauge(core, back(turn, opposite(place))) <= 1.0:
+    if gauge(core, rotated_back(turn, opposite(place))) <= 1.0:
         return math.nan, place, n
     top = uphill(point, core, turn, place, (gap_along(point, core, turn, place, n), n), _NEARBY)
     g, n = settle(point, core, turn, place, top)
-    p = times(g, n)
-    if not (g > 0.0 and abs(gauge(core, back(turn, minus(p, place))) - 1.0) <= _ON_SURFACE):
+    p = scaled(g, n)
+    if not (g > 0.0 and abs(gauge(core, rotated_back(turn, minus(p, place))) - 1.0) <= _ON_SURFACE):
         g = math.nan
-    return g, times(g, n), n
+    return g, scaled(g, n), n
 
 
 @compiled
-def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the gap of two boxy cores (with flat places) [m], the first core's point and the normal.
 
     The search starts with the contact normal for which the second core is replaced by an ellipsoid.  If the search
@@ -308,9 +323,9 @@ def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3)
     found = _from(first, second, turn, place, n)
     if g == g and found[0] == found[0]:
         return found
-    to_first, begin = back(turn, opposite(place)), back(turn, opposite(start))
+    to_first, begin = rotated_back(turn, opposite(place)), rotated_back(turn, opposite(start))
     g, _, n = climb_boxy(second, _ellipsoid_of(first), inverse(turn), to_first, begin)
-    found = _from(first, second, turn, place, forth(turn, opposite(n)))
+    found = _from(first, second, turn, place, rotated(turn, opposite(n)))
     if g == g and found[0] == found[0]:
         return found
     found = _from(first, second, turn, place, start)
@@ -320,19 +335,19 @@ def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3)
 
 
 @compiled
-def _from(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> Answer:
+def _from(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
     """Return the gap of two boxy cores [m], the first core's point and the normal.
 
     Newton's method starts at the support points of the first core along ``start``, and of the second against it.
     """
     n = unit(start)
     _, p, _ = support_of(first, n)
-    _, q, _ = support_of(second, back(turn, opposite(n)))
-    return meet(first, second, turn, place, p, forth(turn, q))
+    _, q, _ = support_of(second, rotated_back(turn, opposite(n)))
+    return meet(first, second, turn, place, p, rotated(turn, q))
 
 
 @compiled
-def widest_from(hull: Core, core: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
+def widest_from(hull: Core, core: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> NearestPoint:
     """Return the gap between the origin and a core of any kind [m], the core's point and the normal.
 
     If ``axis`` is not zero, the gap is measured from the line through the origin along this unit vector.  ``place`` is
@@ -345,11 +360,11 @@ def widest_from(hull: Core, core: Core, turn: Axes, place: Vector3, axis: Vector
         return g, p, n
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:
         return widest_of_round(POINT, core, turn, place, start)
-    n = ahead(start, -dot(start, axis), axis)
-    length = size_of(n)
+    n = plus_scaled(start, -dot(start, axis), axis)
+    length = norm(n)
     if length == 0.0:
         return math.nan, place, start
-    return across_line(core, turn, place, axis, over(n, length), 1.0, 0.0, 0.0)
+    return across_line(core, turn, place, axis, divided(n, length), 1.0, 0.0, 0.0)
 
 
 @compiled
@@ -392,10 +407,10 @@ def write_smooth(
     :mod:`bodies.contacts.smooth.smooth_core`.
     """
     normal = vector_in_world(a, n)
-    point = ahead(point_in_world(a, p), -core[RADIUS], normal)
+    point = plus_scaled(point_in_world(a, p), -core[RADIUS], normal)
     out[GAP] = gap
-    put(out, NORMAL, normal)
-    put(out, POINT_B, point)
-    put(out, POINT_A, ahead(point, -gap, normal))
+    write_vector(out, NORMAL, normal)
+    write_vector(out, POINT_B, point)
+    write_vector(out, POINT_A, plus_scaled(point, -gap, normal))
     write_tangent(a, out)
-    write_surface(out, SIDE_B, core, axes, back(turn, opposite(n)), back(turn, minus(p, place)))
+    write_surface(out, SIDE_B, core, axes, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, place)))

@@ -11,9 +11,9 @@ from nonsmooth.types import Floats
 
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import OF_FUNCTION
-from ...vectors import ahead, minus, opposite, plus, put, vector_at
+from ...vectors import minus, opposite, plus, plus_scaled, vector_at, write_vector
 from ..features.frames import point_in_world, write_tangent
-from .smooth_core import CENTER, RADIUS, back, between_axes, forth, unit_axes_in_world
+from .smooth_core import CENTER, RADIUS, relative_rotation, rotated, rotated_back, unit_axes_in_world
 from .smooth_newton import widest, write_surface
 
 
@@ -24,17 +24,17 @@ def evaluate_smooth_smooth(a: Floats, b: Floats, out: Floats, first: Floats, sec
     """
     axes_a, axes_b = unit_axes_in_world(a, first), unit_axes_in_world(b, second)
     center = point_in_world(a, vector_at(first, CENTER))
-    place = back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
-    turn = between_axes(axes_a, axes_b)
+    place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
+    turn = relative_rotation(axes_a, axes_b)
     g, q, n = widest(first, second, turn, place)
-    p, normal = ahead(q, -g, n), forth(axes_a, n)
+    p, normal = plus_scaled(q, -g, n), rotated(axes_a, n)
     out[GAP] = g - first[RADIUS] - second[RADIUS]
-    put(out, NORMAL, normal)
-    put(out, POINT_A, ahead(plus(center, forth(axes_a, p)), first[RADIUS], normal))
-    put(out, POINT_B, ahead(plus(center, forth(axes_a, q)), -second[RADIUS], normal))
+    write_vector(out, NORMAL, normal)
+    write_vector(out, POINT_A, plus_scaled(plus(center, rotated(axes_a, p)), first[RADIUS], normal))
+    write_vector(out, POINT_B, plus_scaled(plus(center, rotated(axes_a, q)), -second[RADIUS], normal))
     write_tangent(a, out)
     write_surface(out, SIDE_A, first, axes_a, n, p)
-    write_surface(out, SIDE_B, second, axes_b, back(turn, opposite(n)), back(turn, minus(q, place)))
+    write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(q, place)))
 
 
 @final

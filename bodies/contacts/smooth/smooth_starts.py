@@ -12,9 +12,9 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core, support_of
-from ...vectors import Vector3, ahead, cross, dot, minus, opposite, over, size_of
+from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus_scaled
 from ..features.frames import tangent_of
-from .smooth_core import Axes, back, facing_point, forth, longest, spread, unit
+from .smooth_core import Axes, facing_point, largest_semi_axis, rotated, rotated_back, spread, unit
 from .tangent_plane import in_plane
 
 _LONGEST, _MOVES = 0.2, 100
@@ -33,7 +33,7 @@ Starts: TypeAlias = tuple[Start, Start, Start, Start]
 @compiled
 def gap_along(first: Core, second: Core, turn: Axes, place: Vector3, n: Vector3) -> float:
     """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
-    return float(dot(n, place) - support_of(first, n)[0] - support_of(second, back(turn, opposite(n)))[0])
+    return float(dot(n, place) - support_of(first, n)[0] - support_of(second, rotated_back(turn, opposite(n)))[0])
 
 
 @compiled
@@ -49,7 +49,7 @@ def uphill(first: Core, second: Core, turn: Axes, place: Vector3, start: Start, 
         best: Start = (g, n)
         for i in range(8):
             c, s = step * math.cos(0.25 * math.pi * i), step * math.sin(0.25 * math.pi * i)
-            m = unit(ahead(ahead(n, c, t), s, u))
+            m = unit(plus_scaled(plus_scaled(n, c, t), s, u))
             found = gap_along(first, second, turn, place, m)
             if found > best[0]:
                 best = (found, m)
@@ -76,7 +76,7 @@ def starts_of(first: Core, second: Core, turn: Axes, place: Vector3) -> Starts:
             continue
         n = unit((way // 9 - 1.0, way // 3 % 3 - 1.0, way % 3 - 1.0))
         if i >= 27:
-            n = forth(turn, n)
+            n = rotated(turn, n)
         kept = _with(kept, (gap_along(first, second, turn, place, n), n))
     return kept
 
@@ -123,18 +123,18 @@ def _cut_round(circle: Core, core: Core, turn: Axes, place: Vector3, start: Star
     _, n = start
     t = tangent_of(n)
     u = cross(n, t)
-    size = spread(place) + longest(core) + circle[0]
+    size = spread(place) + largest_semi_axis(core) + circle[0]
     i, j, e11, e12, e22 = 0.0, 0.0, _WIDE * _WIDE, 0.0, _WIDE * _WIDE
     for _ in range(_CUTS):
-        m = ahead(ahead(n, i, t), j, u)
-        length = size_of(m)
-        m = over(m, length)
+        m = plus_scaled(plus_scaled(n, i, t), j, u)
+        length = norm(m)
+        m = divided(m, length)
         q, _ = facing_point(core, turn, place, m)
         d = minus(q, support_of(circle, m)[1])
         g = dot(m, d)
         if g > best[0]:
             best = g, m
-        r, s = in_plane(t, u, over(ahead(d, -g, m), length))
+        r, s = in_plane(t, u, divided(plus_scaled(d, -g, m), length))
         k, h = e11 * r + e12 * s, e12 * r + e22 * s
         most = r * k + s * h
         if not most > (_HIGHER * size) ** 2:

@@ -9,8 +9,8 @@ from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Bends
-from ...vectors import Vector3, cross, dot, plus, times, vector_at
-from .smooth_core import Axes, back, bend
+from ...vectors import Vector3, cross, dot, plus, scaled, vector_at
+from .smooth_core import Axes, bend, rotated_back
 
 Pair: TypeAlias = tuple[float, float]
 """Components of a vector of a tangent plane along its two tangents."""
@@ -29,7 +29,7 @@ def in_plane(t: Vector3, u: Vector3, v: Vector3) -> Pair:
 @compiled
 def along(v: Pair, t: Vector3, u: Vector3) -> Vector3:
     """Return the vector with these components along two tangents."""
-    return plus(times(v[0], t), times(v[1], u))
+    return plus(scaled(v[0], t), scaled(v[1], u))
 
 
 @compiled
@@ -73,7 +73,7 @@ def turned_matrix(c: Matrix, s: Symmetric) -> Symmetric:
 def tangents_in(axes: Axes, out: Floats) -> tuple[Vector3, Vector3]:
     """Return both tangents of a geometry block, which holds normal and first tangent, in the axes of a core."""
     t = vector_at(out, TANGENT)
-    return back(axes, t), back(axes, cross(vector_at(out, NORMAL), t))
+    return rotated_back(axes, t), rotated_back(axes, cross(vector_at(out, NORMAL), t))
 
 
 @compiled

@@ -5,9 +5,9 @@ from __future__ import annotations
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, cross, minus, over, put, size_of, times, vector_at
+from ...vectors import Vector3, cross, divided, minus, norm, scaled, vector_at, write_vector
 from ..features.bounds import squared_distance_of_segments
-from ..features.edge_crossing import ASTRAY, edge_astray
+from ..features.edge_crossing import CONE_MARGIN, sine_off_cone
 from ..features.frames import vector_in_body, vector_in_world
 from .surface_near import Near, seen_from
 from .surface_search import ON_EDGE, feature_of, member_of, node_at
@@ -38,14 +38,14 @@ def _passes_box(surface: Floats, at: int, start: Vector3, way: Vector3, reach: f
 def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, turn: float) -> bool:
     """Return whether the normals of two edges face each other, or may do so after a rotation by ``turn`` [rad]."""
     n = cross(vector_in_world(a, vector_at(surface_a, one + 3)), vector_in_world(b, vector_at(surface_b, two + 3)))
-    sine = size_of(n)
+    sine = norm(n)
     if sine <= _ALONG:
         return True
-    n = over(n, sine)
-    ahead = max(edge_astray(a, surface_a, one, 1.0, n), edge_astray(b, surface_b, two, -1.0, n))
-    behind = max(edge_astray(a, surface_a, one, -1.0, n), edge_astray(b, surface_b, two, 1.0, n))
+    n = divided(n, sine)
+    ahead = max(sine_off_cone(a, surface_a, one, 1.0, n), sine_off_cone(b, surface_b, two, -1.0, n))
+    behind = max(sine_off_cone(a, surface_a, one, -1.0, n), sine_off_cone(b, surface_b, two, 1.0, n))
     # a rotation by `turn` turns the normals of an edge by `turn`, the common normal of both by at most 2 turn / sine
-    return bool(min(ahead, behind) <= ASTRAY + turn * (1.0 + 2.0 / sine))
+    return bool(min(ahead, behind) <= CONE_MARGIN + turn * (1.0 + 2.0 / sine))
 
 
 @compiled
@@ -74,7 +74,7 @@ def edges_across(
     node = 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
-        if not _passes_box(surface, at, start, times(q, f), reach):
+        if not _passes_box(surface, at, start, scaled(q, f), reach):
             node = int(surface[at + 6])
             continue
         for m in range(int(surface[at + 8])):
@@ -84,7 +84,7 @@ def edges_across(
             e, p = vector_at(surface, one + 3), surface[one + 6]
             square = squared_distance_of_segments(minus(start, vector_at(surface, one)), e, p, f, q)
             if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
-                put(out, 1 + 3 * n, (kind, float(own), number))
+                write_vector(out, 1 + 3 * n, (kind, float(own), number))
                 n += 1
         node += 1
     return n

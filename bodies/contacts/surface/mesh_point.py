@@ -15,7 +15,7 @@ from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball
 from ...shapes.point import Point
 from ...shapes.triangle_mesh import TriangleMesh
-from ...vectors import Vector3, minus, put, times, vector_at
+from ...vectors import Vector3, minus, scaled, vector_at, write_vector
 from ..features.frames import point_in_world, vector_in_world, write_tangent
 from ..features.writing import gap_at_distance, write_flat, write_round
 from .surface_search import FAR, face_at
@@ -61,11 +61,11 @@ def write_over(
     if radius > 0.0:
         gap = gap_at_distance(gap, past, radius)
     sign = 1.0 - 2.0 * swap
-    normal = vector_in_world(other, times(sign, vector_at(surface, face_at(surface, face))))
+    normal = vector_in_world(other, scaled(sign, vector_at(surface, face_at(surface, face))))
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
-    put(out, NORMAL, normal)
-    put(out, near, minus(point_in_world(own, place), times(sign * radius, normal)))
-    put(out, far, minus(vector_at(out, near), times(sign * gap, normal)))
+    write_vector(out, NORMAL, normal)
+    write_vector(out, near, minus(point_in_world(own, place), scaled(sign * radius, normal)))
+    write_vector(out, far, minus(vector_at(out, near), scaled(sign * gap, normal)))
     write_tangent(a, out)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
     write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)

@@ -11,7 +11,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, minus, over, put, vector_at
+from ...vectors import Vector3, divided, minus, vector_at, write_vector
 from ..features.frames import point_in_body, point_in_world, vector_in_world
 from ..features.swept_vertex import END, NEAR, past_star
 from ..features.writing import place_sphere, write_flat, write_principal, write_round
@@ -29,7 +29,7 @@ def out_of_surface(frame: Floats, surface: Floats, found: Found, past: float, po
     distance, _, kind, number, px, py, pz = found
     n = vector_at(surface, face_at(surface, number))
     if not (kind == ON_FACE and (past <= 0.0 or distance == 0.0)):
-        n = over(minus(point, (px, py, pz)), distance)
+        n = divided(minus(point, (px, py, pz)), distance)
     return vector_in_world(frame, n)
 
 
@@ -80,7 +80,7 @@ def write_ball(
     if n_star > 0.0 and kind != ON_FACE:
         beyond = past_star(b, star, n_star, distance, n, size)
         past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
-    put(out, NORMAL, n)
+    write_vector(out, NORMAL, n)
     if past > 0.0:
         apart = max(distance - radius, 0.0)
         distance = math.sqrt(apart * apart + past * past) + radius

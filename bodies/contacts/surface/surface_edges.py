@@ -8,7 +8,7 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, put, vector_at
+from ...vectors import Vector3, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import PARALLEL, Crossing, cross_edges, least_sine
 from ..features.frames import point_in_body, write_tangent
 from ..features.polytope_tables import ALONG, INTO_FIRST, LENGTH
@@ -48,7 +48,7 @@ def past_surface(
     in the world [m].
     """
     start, along = vector_at(edges, at), vector_at(edges, at + ALONG)
-    first, second = ahead(start, -beyond[0], along), ahead(start, edges[at + LENGTH] + beyond[1], along)
+    first, second = plus_scaled(start, -beyond[0], along), plus_scaled(start, edges[at + LENGTH] + beyond[1], along)
     ends = seen_from(frame, other, first), seen_from(frame, other, second)
     into = block_at(edges, at + INTO_FIRST)
     return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point)))
@@ -66,9 +66,9 @@ def write_edges(a: Floats, out: Floats, crossing: Crossing, past: float, radius:
     if past > 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
-    put(out, NORMAL, n)
-    put(out, POINT_A, p)
-    put(out, POINT_B, ahead(p, gap, n))
+    write_vector(out, NORMAL, n)
+    write_vector(out, POINT_A, p)
+    write_vector(out, POINT_B, plus_scaled(p, gap, n))
     write_tangent(a, out)
     write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, 0.0)
     write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, radius)

@@ -7,8 +7,8 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, dot, minus, put, size_of, vector_at
-from ..features.edge_crossing import ASTRAY
+from ...vectors import Vector3, dot, minus, norm, plus_scaled, vector_at, write_vector
+from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import point_in_body, point_in_world
 from .surface_search import ON_FACE, box_square, face_at, feature_of, in_triangle, member_of, node_at, patch_of
 from .surface_tables import N_NODES
@@ -72,7 +72,7 @@ def _add_patch(patch: float, kind: float, third: float, first: int, out: Floats,
     for known in range(first, n):
         if out[2 + 3 * known] == patch:
             return n
-    put(out, 1 + 3 * n, (kind, patch, third))
+    write_vector(out, 1 + 3 * n, (kind, patch, third))
     return n + 1
 
 
@@ -124,8 +124,8 @@ def is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, a
     The node is at index ``at`` of the other body's numbers ``parts``; ``surface`` belongs to the body ``frame``.
     """
     diagonal = minus(vector_at(parts, at + 3), vector_at(parts, at))
-    middle = seen_from(frame, other, ahead(vector_at(parts, at), 0.5, diagonal))
-    return bool(_is_near(surface, middle, 0.5 * size_of(diagonal) + reach))
+    middle = seen_from(frame, other, plus_scaled(vector_at(parts, at), 0.5, diagonal))
+    return bool(_is_near(surface, middle, 0.5 * norm(diagonal) + reach))
 
 
 @compiled
@@ -147,7 +147,7 @@ def patches_under(
     """Append the patches of faces that a vertex of the other body may soon touch.
 
     Return the number of candidates after that.  A face may be touched if it is within ``reach`` [m] of the vertex, and
-    if a rotation by ``turn`` [rad] can turn all edges of the vertex out of the face (within ``ASTRAY``).  ``place`` is
+    if a rotation by ``turn`` [rad] can turn all edges of the vertex out of the face (within ``CONE_MARGIN``).  ``place`` is
     the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other arguments are those
     of :func:`patches_near`.
     """
@@ -165,7 +165,10 @@ def patches_under(
             f = face_at(surface, face)
             px, py, pz, _ = in_triangle(surface, t, point)
             apart = minus(point, (px, py, pz))
-            if dot(apart, apart) <= reach * reach and leaning(frame, other, surface, f, n_star, star) <= ASTRAY + turn:
+            if (
+                dot(apart, apart) <= reach * reach
+                and leaning(frame, other, surface, f, n_star, star) <= CONE_MARGIN + turn
+            ):
                 n = _add_patch(surface[f + 4], kind, third, first, out, n)
         node += 1
     return n

@@ -15,7 +15,7 @@ from nonsmooth.types import Floats
 from ...meshes.features import Features, features_of
 from ...meshes.patches import patches_for_ball
 from ...shapes.polytope import Polytope
-from ...vectors import ahead
+from ...vectors import plus_scaled
 from ..features.bounds import edges_bound
 from ..features.writing import NO_CANDIDATE, write_apart
 from .edges_near import edges_across
@@ -80,7 +80,7 @@ def _write_crossing(
     p, _, _, n, gap, _, past = crossing
     if gap < 0.0 and past <= 0.0:
         past = max(past, past_surface(b, a, surface_b, surface_a, one, beyond_ends(surface_a, one), -gap, p))
-        q = ahead(p, gap, n)
+        q = plus_scaled(p, gap, n)
         past = max(past, past_surface(a, b, surface_a, surface_b, two, beyond_ends(surface_b, two), -gap, q))
     write_edges(a, out, crossing, past, 0.0)
 

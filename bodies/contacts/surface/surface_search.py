@@ -8,7 +8,7 @@ from typing import TypeAlias
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, ahead, dot, minus, plus, times, vector_at
+from ...vectors import Vector3, dot, minus, plus, plus_scaled, scaled, vector_at
 from ..features.vertex_face import REACH
 from .surface_tables import (
     BITS,
@@ -159,15 +159,15 @@ def in_triangle(surface: Floats, triangle: int, point: Vector3) -> tuple[float, 
         return *plus(a, c), 6
     vc = d1 * d4 - d3 * d2
     if vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
-        return *ahead(a, d1 / (d1 - d3), b), 1
+        return *plus_scaled(a, d1 / (d1 - d3), b), 1
     vb = d5 * d2 - d1 * d6
     if vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
-        return *ahead(a, d2 / (d2 - d6), c), 3
+        return *plus_scaled(a, d2 / (d2 - d6), c), 3
     va = d3 * d6 - d5 * d4
     if va <= 0.0 and d4 >= d3 and d5 >= d6:
         w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
-        return *ahead(plus(a, b), w, minus(c, b)), 2
-    return *ahead(ahead(a, vb / (va + vb + vc), b), vc / (va + vb + vc), c), 0
+        return *plus_scaled(plus(a, b), w, minus(c, b)), 2
+    return *plus_scaled(plus_scaled(a, vb / (va + vb + vc), b), vc / (va + vb + vc), c), 0
 
 
 @compiled
@@ -243,7 +243,7 @@ def past_edge(surface: Floats, edge: int, point: Vector3) -> tuple[float, Vector
     w, along = minus(point, vector_at(surface, edge)), vector_at(surface, edge + 3)
     s = dot(w, along)
     past = max(-s, s - surface[edge + 6])
-    w = minus(w, times(min(max(s, 0.0), surface[edge + 6]), along))
+    w = minus(w, scaled(min(max(s, 0.0), surface[edge + 6]), along))
     past = max(past, max(dot(w, vector_at(surface, edge + 7)), dot(w, vector_at(surface, edge + 10))))
     return past, minus(point, w)
 
@@ -300,7 +300,7 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
                 if over <= margin and height < 0.0 and -height < under:
                     under, under_past, under_face = -height, ends - margin, which
                 if over <= margin and height >= 0.0:
-                    beyond, p = max(ends, -surface[SIZE]), minus(point, times(height, vector_at(surface, f)))
+                    beyond, p = max(ends, -surface[SIZE]), minus(point, scaled(height, vector_at(surface, f)))
                 else:
                     px, py, pz, _ = in_triangle(surface, row, point)
                     beyond, p = max(over, -height + 2.0 * margin), (px, py, pz)
@@ -318,5 +318,5 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
         node += 1
     if under_face >= 0 and under * under < best and depth_inside(surface, point) > 0.0:
         normal = vector_at(surface, face_at(surface, under_face))
-        return -under, under_past, ON_FACE, under_face, *ahead(point, under, normal)
+        return -under, under_past, ON_FACE, under_face, *plus_scaled(point, under, normal)
     return distance, past, kind, number, *nearest

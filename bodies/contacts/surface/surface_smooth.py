@@ -16,11 +16,11 @@ from nonsmooth.engine.memory.blocks import PAST_END, SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import OF_FUNCTION, Core, is_round, support_of
-from ...vectors import Vector3, dot, minus, opposite, over, plus, size_of, times, vector_at
+from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, scaled, vector_at
 from ..features.frames import point_in_body, point_in_world
 from ..features.vertex_face import REACH
 from ..smooth.boxy_line import across_line
-from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, facing_point
+from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, facing_point, relative_rotation, rotated_back
 from ..smooth.smooth_newton import widest_from, write_smooth
 from .surface_ball import write_feature
 from .surface_search import (
@@ -73,10 +73,10 @@ def _least(core: Core, turn: Axes, way: Vector3) -> float:
 
     The vector ``way`` leads from the feature's nearest point to the centre of the body.
     """
-    apart = size_of(way)
+    apart = norm(way)
     if apart == 0.0:
         return -math.inf
-    return float(apart - support_of(core, back(turn, over(opposite(way), apart)))[0] - core[RADIUS])
+    return float(apart - support_of(core, rotated_back(turn, divided(opposite(way), apart)))[0] - core[RADIUS])
 
 
 @compiled
@@ -92,9 +92,9 @@ def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -
     height = dot(n, p) - surface[f + 3]
     beyond, past = over_ends(surface, t, 0.0, p)
     if beyond > REACH * surface[SIZE]:
-        foot = minus(p, times(height, n))
+        foot = minus(p, scaled(height, n))
         x, y, z, _ = in_triangle(surface, t, foot)
-        past = size_of(minus(foot, (x, y, z)))
+        past = norm(minus(foot, (x, y, z)))
     past = max(past, -surface[SIZE])
     # if the body's centre is below the plane, the body is past the end of the face
     return height, max(past, surface[f + 3] - n[0] * center[0] - n[1] * center[1] - n[2] * center[2]), n
@@ -274,7 +274,7 @@ def write_surface_smooth(
     """
     axes_a, axes_b = axes_of(a), axes_in_world(b, second)
     center = point_in_body(a, point_in_world(b, vector_at(second, 6)))
-    turn = between_axes(axes_a, axes_b)
+    turn = relative_rotation(axes_a, axes_b)
     g, past, kind, number, n = _nearest(surface, patch, second, point, turn, center, reach)
     gap = g - second[RADIUS]
     if past > 0.0:

@@ -8,7 +8,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, minus, vector_at
-from ..features.edge_crossing import ASTRAY
+from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.overlap_corners import FLUSH
 from ..features.vertex_face import CLOSED, REACH
@@ -132,7 +132,7 @@ def past_depth(
             f = face_at(surface, face)
             deep = max(-face_height(surface, f, ends[0]), -face_height(surface, f, ends[1]))
             deep = max(deep, math.sqrt(square))
-            if deep < least_deep and leaning(frame, other, surface, f, n_star, star) <= ASTRAY:
+            if deep < least_deep and leaning(frame, other, surface, f, n_star, star) <= CONE_MARGIN:
                 least_deep = deep
         node += 1
     outside = math.sqrt(least) if side >= 0.0 else 0.0
@@ -182,7 +182,7 @@ def face_under(
             height = face_height(surface, f, (x, y, z))
             if surface[f + 4] != patch or height * height > best:
                 continue
-            lean = size * (leaning(frame, other, surface, f, n_star, star) - ASTRAY)
+            lean = size * (leaning(frame, other, surface, f, n_star, star) - CONE_MARGIN)
             over, inside, ends, square = over_face(surface, t, height, lean, margin, (x, y, z))
             if over <= 0.0 and height < 0.0 and -height < under:
                 under, under_past, under_face = -height, inside, face
