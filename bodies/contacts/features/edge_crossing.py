@@ -88,8 +88,8 @@ def cross_edges(
     The normal is perpendicular to both edges, with the sign for which it is nearer to the normals of the edges.  Edges
     without faces have no sign, so their gap is positive.  The distance past the boundary is positive if a nearest point
     is past the end of its edge by more than ``margin`` [m], if the sine of the angle between the edges is below
-    ``parallel``, or if the normal is farther than ``CONE_MARGIN`` from the normals of an edge.  The rows of the edges begin
-    at the indices ``at_a`` and ``at_b``.
+    ``parallel``, or if the normal is farther than ``CONE_MARGIN`` from the normals of an edge.  The rows of the edges
+    begin at the indices ``at_a`` and ``at_b``.
     """
     start = point_in_world(a, vector_at(edge_a, at_a))
     e, f = vector_in_world(a, vector_at(edge_a, at_a + ALONG)), vector_in_world(b, vector_at(edge_b, at_b + ALONG))

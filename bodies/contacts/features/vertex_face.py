@@ -26,9 +26,12 @@ distance past their ends.
 
 
 @compiled
-def plane_height(faces: Floats, face: int, point: Vector3) -> float:
-    """Return the height of a point over the plane of a face [m], in the frame of the face's body."""
-    return float(dot(vector_at(faces, face), point) - faces[face + 3])
+def plane_height(faces: Floats, row: int, point: Vector3) -> float:
+    """Return the height of a point over the plane of a face [m], positive outside of the body.
+
+    ``point`` is in the axes of the body [m].  The row of the face begins at index ``row`` of ``faces``.
+    """
+    return float(dot(vector_at(faces, row), point) - faces[row + 3])
 
 
 @compiled

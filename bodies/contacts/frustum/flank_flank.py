@@ -38,38 +38,47 @@ def _line(frustum: Floats, center: Vector3, axis: Vector3, n: Vector3) -> tuple[
 
 
 def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, size: float) -> None:
-    """Write the geometry block of the sides of two frustums that cross; both are without feet."""
+    """Write the geometry block of the crossing of the sides of two frustums, which must have no feet.
+
+    The common normal n of both sides has a fixed angle to each axis.  This leaves two mirror images of n; bodies apart
+    are separated along the one with the larger gap.  On each side the points with the normal n are a straight line.
+    The contact points are those at which both lines cross.  If no such normal exists, or the lines are nearly parallel,
+    there is no crossing: the middle of a line is written, past the end of the features by ``size``, the size of the
+    bodies [m].
+    """
     axis_a, axis_b = axis_in_world(a, first), axis_in_world(b, second)
     center_a, center_b = center_in_world(a, first), center_in_world(b, second)
-    # n = one a + two e + part c, with unit vectors c along a x b and e = c x a. The sines of the sides give n . a and
-    # -n . b, and |n| = 1 gives the part
+    # n = n_a a + n_e e + n_c c, with the axis a, and unit vectors c along a x b and e = c x a. The sines of the sides
+    # give n . a and -n . b, and |n| = 1 gives n_c
     c, sine = _across_both(axis_a, axis_b)
-    e, one = cross(c, axis_a), first[SIN]
-    two = (-second[SIN] - dot(axis_a, axis_b) * one) / sine if sine > 0.0 else 0.0
-    rest = 1.0 - one * one - two * two
-    part = math.sqrt(max(rest, 0.0))
+    e, n_a = cross(c, axis_a), first[SIN]
+    n_e = (-second[SIN] - dot(axis_a, axis_b) * n_a) / sine if sine > 0.0 else 0.0
+    n_c_squared = 1.0 - n_a * n_a - n_e * n_e
+    n_c = math.sqrt(max(n_c_squared, 0.0))
     gap, n = -math.inf, (1.0, 0.0, 0.0)
-    reach_a = first[COS] * first[0] + first[SIN] * first[LOW]
-    reach_b = second[COS] * second[0] + second[SIN] * second[LOW]
+    # support functions of the infinite cones of both sides, along n and -n
+    support_a = first[COS] * first[0] + first[SIN] * first[LOW]
+    support_b = second[COS] * second[0] + second[SIN] * second[LOW]
     for sign in (-1.0, 1.0):
-        t = plus_scaled(plus(scaled(one, axis_a), scaled(two, e)), sign * part, c)
-        t = divided(t, norm(t))
-        found = dot(t, minus(center_b, center_a)) - reach_a - reach_b
-        if found > gap:
-            gap, n = found, t
+        candidate = plus_scaled(plus(scaled(n_a, axis_a), scaled(n_e, e)), sign * n_c, c)
+        candidate = divided(candidate, norm(candidate))
+        separation = dot(candidate, minus(center_b, center_a)) - support_a - support_b
+        if separation > gap:
+            gap, n = separation, candidate
     p, u = _line(first, center_a, axis_a, n)
     q, v = _line(second, center_b, axis_b, opposite(n))
     w, crossing = minus(q, p), dot(n, cross(u, v))
-    s, t_b, over_end = 0.5 * first[SIDE], 0.5 * second[SIDE], size
+    # distances of the contact points along the lines, from their lower ends
+    s, t, over_end = 0.5 * first[SIDE], 0.5 * second[SIDE], size
     round_radius = first[0] + second[0] + first[SWEEP] + second[SWEEP]
-    if rest >= 0.0 and abs(crossing) > least_round_sine(round_radius, size):
-        s, t_b = dot(n, cross(w, v)) / crossing, dot(n, cross(w, u)) / crossing
-        over_end = max(max(-s, s - first[SIDE]), max(-t_b, t_b - second[SIDE]))
+    if n_c_squared >= 0.0 and abs(crossing) > least_round_sine(round_radius, size):
+        s, t = dot(n, cross(w, v)) / crossing, dot(n, cross(w, u)) / crossing
+        over_end = max(max(-s, s - first[SIDE]), max(-t, t - second[SIDE]))
         # the distance along n of the points that cross: an error of n hardly changes it
-        gap = dot(n, plus_scaled(plus_scaled(w, t_b, v), -s, u))
+        gap = dot(n, plus_scaled(plus_scaled(w, t, v), -s, u))
     p = plus_scaled(p, s, u)
     q = plus_scaled(p, gap, n)
-    away_a, away_b = first[0] - first[SIN] * s, second[0] - second[SIN] * t_b
+    away_a, away_b = first[0] - first[SIN] * s, second[0] - second[SIN] * t
     past = max(past_border(over_end, 0.0, size), past_depth(a, first, b, second, gap, size))
     write_two(a, out, 0.0, first, second, gap, past, n, p)
     write_side(out, 0.0, first, FLANK, axis_a, minus(p, center_a), n, max(away_a, 0.0))

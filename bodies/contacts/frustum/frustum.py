@@ -202,22 +202,22 @@ def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vec
 
 
 @compiled
-def separation_by(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
-    """Return the largest separation of two frustums along directions of the second [m].
+def separation_by_second(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
+    """Return the largest separation of two frustums along normals of the second one's surface [m].
 
-    They are its axis, the opposite of it, the part across the axis of the line from the first centre to the second, and
-    the normal of its side there.
+    It is a lower bound of their separation, which may be larger along another direction.  The normals are those of both
+    caps, and that of the side where the side faces the first centre.  All directions lead from the first frustum to the
+    second, so they point into the second one.
     """
     axis = axis_in_world(b, second)
-    _, _, sideways = across(minus(center_in_world(b, second), center_in_world(a, first)), axis)
+    _, _, radial = across(minus(center_in_world(b, second), center_in_world(a, first)), axis)
     best = separation_along(a, first, b, second, axis)
     best = max(best, separation_along(a, first, b, second, opposite(axis)))
-    best = max(best, separation_along(a, first, b, second, sideways))
-    # the normal of a cylinder's side is the part across the axis
+    best = max(best, separation_along(a, first, b, second, radial))
+    # the radial direction is the normal of a cylinder's side, not of a cone's
     if second[SIN] != 0.0:
-        best = max(
-            best, separation_along(a, first, b, second, plus_scaled(scaled(second[COS], sideways), -second[SIN], axis))
-        )
+        inward = plus_scaled(scaled(second[COS], radial), -second[SIN], axis)
+        best = max(best, separation_along(a, first, b, second, inward))
     return float(best)
 
 
@@ -279,8 +279,8 @@ _WAYS = 12
 """Number of unit vectors that stand for edges of an apex (down the side of the cone) or of a foot (along the cap).
 
 An apex or a foot is treated as a corner with these edges, evenly spaced around the axis.  A face can touch it only if
-no edge points into the face steeper than :data:`bodies.contacts.features.edge_crossing.CONE_MARGIN`.  The steepest of 12
-edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all directions.
+no edge points into the face steeper than :data:`bodies.contacts.features.edge_crossing.CONE_MARGIN`.  The steepest of
+12 edges along a cap has at least cos(15 deg) = 0.966 of the largest sine over all directions.
 """
 
 

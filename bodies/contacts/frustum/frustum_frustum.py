@@ -32,7 +32,7 @@ from .frustum import (
     rims_and_tips,
     rims_of,
     separation_along,
-    separation_by,
+    separation_by_second,
     set_back,
 )
 from .frustum_writing import past_depth, past_disc, write_side, write_two
@@ -99,7 +99,7 @@ def evaluate_rim_over_cap(
         past = max(past, past_depth(own, first, other, second, gap + foot, size))
         if gap < 0.0:
             # of the body with the cap another part may separate the bodies better
-            best = separation_by(own, first, other, second)
+            best = separation_by_second(own, first, other, second)
             past = max(past, best - separation_along(own, first, other, second, n) - REACH * size)
     write_two(a, out, swap, first, second, gap, past, n, p)
     write_side(out, swap, first, LOW_RIM, axis, outward, n, radius)

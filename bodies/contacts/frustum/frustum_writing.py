@@ -26,7 +26,7 @@ from .frustum import (
     center_in_world,
     nearest_part,
     on_axis_in_world,
-    separation_by,
+    separation_by_second,
     separation_over_caps,
     separation_over_faces,
     write_part,
@@ -47,12 +47,12 @@ def past_border(over: float, off_cone: float, size: float) -> float:
 def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, size: float) -> float:
     """Return a length [m] that is positive if two cores overlap by less than -``gap`` along another direction.
 
-    The directions are those of :func:`bodies.contacts.frustum.frustum.separation_by`.  If the cores do not overlap, the
-    length is negative.
+    The directions are those of :func:`bodies.contacts.frustum.frustum.separation_by_second`.  If the cores do not
+    overlap, the length is negative.
     """
     if gap >= -REACH * size:
         return -size
-    best = max(separation_by(a, first, b, second), separation_by(b, second, a, first))
+    best = max(separation_by_second(a, first, b, second), separation_by_second(b, second, a, first))
     return float(best - gap - REACH * size)
 
 

@@ -11,6 +11,7 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import HIGH, SWEEP
 from ...vectors import dot, minus, opposite, plus_scaled, vector_at
 from ..features.frames import point_in_body
+from ..features.polytope_tables import ALONG, LENGTH
 from ..features.swept_vertex import END, NEAR, OPEN
 from ..features.writing import write_round
 from ..frustum.apex_swept import past_apex
@@ -30,14 +31,28 @@ def _within(surface: Floats, found: Found) -> float:
     if kind != ON_EDGE:
         return math.inf
     e = int(surface[EDGES]) + EDGE * number
-    along = dot(minus((x, y, z), vector_at(surface, e)), vector_at(surface, e + 3))
-    return float(min(along, surface[e + 6] - along))
+    along = dot(minus((x, y, z), vector_at(surface, e)), vector_at(surface, e + ALONG))
+    return float(min(along, surface[e + LENGTH] - along))
 
 
 def evaluate_apex_over_patch(
     a: Floats, b: Floats, out: Floats, first: Floats, surface: Floats, patch: float, size: float
 ) -> None:
-    """Write the geometry block of the round apex of a cone and the nearest face or edge of one patch of a mesh."""
+    """Write the geometry block of the round apex of a cone and the nearest face or edge of one patch of a mesh.
+
+    A corner has a contact of its own.  The search has no limit, because each patch has one contact with the apex.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of both bodies, and the geometry block.
+    first : Floats
+        Dimensions of the cone (:func:`bodies.shapes.frustum.frustum_numbers`).
+    surface, patch : Floats, float
+        Tables of the mesh (:mod:`bodies.contacts.surface.surface_tables`), and number of the patch.
+    size : float
+        Size of the bodies [m].
+    """
     write_apex(a, b, out, first, surface, patch, size, FAR)
 
 

@@ -12,12 +12,13 @@ from ...shapes.frustum import LOW, SIDE, SIN, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import across, point_in_body, vector_in_body
+from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.vertex_face import CLOSED
 from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from ..frustum.frustum_polyhedron import has_part, normal_of_part, over_part
 from ..frustum.frustum_writing import off_cone_of_rim
 from ..surface.surface_search import in_triangle, steepest
-from ..surface.surface_tables import CORNER, CORNERS, FACE, FACES
+from ..surface.surface_tables import CORNER, CORNERS, FACE, FACE_NUMBER, FACES
 from .surface_rim import lowest_on_rim
 
 FrustumPose: TypeAlias = tuple[Vector3, Vector3]
@@ -88,7 +89,7 @@ def rim_is_near(
         Distance from the frustum's core up to which features are near [m], and largest relative rotation of the bodies
         until the next search [rad].
     """
-    t, n = triangle, opposite(vector_at(surface, int(surface[FACES]) + FACE * int(surface[triangle + 9])))
+    t, n = triangle, opposite(vector_at(surface, int(surface[FACES]) + FACE * int(surface[triangle + FACE_NUMBER])))
     lowest, radial, off_cone = _lowest(frustum, upper, pose, n)
     if off_cone > CONE_MARGIN + turn:
         return False
@@ -131,8 +132,9 @@ def _edge_comes_near(
 @compiled
 def edge_normal(surface: Floats, edge: int) -> tuple[Vector3, float]:
     """Return the unit vector opposite to the mean normal of an edge's two faces, and half of the angle between them."""
-    along = vector_at(surface, edge + 3)
-    left, right = cross(along, vector_at(surface, edge + 7)), cross(vector_at(surface, edge + 10), along)
+    along = vector_at(surface, edge + ALONG)
+    left = cross(along, vector_at(surface, edge + INTO_FIRST))
+    right = cross(vector_at(surface, edge + INTO_SECOND), along)
     n = plus(left, right)
     length = norm(n)
     if length <= _SHARP:
@@ -150,7 +152,7 @@ def edge_is_near(
     through the frustum may touch each part that the frustum has, at any angle between the normals, because the bodies
     overlap.
     """
-    start, along, length = vector_at(surface, edge), vector_at(surface, edge + 3), surface[edge + 6]
+    start, along, length = vector_at(surface, edge), vector_at(surface, edge + ALONG), surface[edge + LENGTH]
     has_upper = frustum[SIDE] > 0.0 and frustum[1] > 0.0
     if not _edge_comes_near(frustum, pose, start, along, length, reach):
         return False, False, False

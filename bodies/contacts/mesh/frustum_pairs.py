@@ -23,15 +23,22 @@ from ..surface.surface_search import edge_at
 from ..surface.surface_tables import (
     CORNER,
     CORNERS,
+    FACE_NUMBER,
+    FIRST_MEMBER,
     MEMBERS,
     N_EDGES,
+    N_MEMBERS,
     N_NODES,
+    N_STAR,
     N_TRIANGLES,
     NODE,
     NODES,
+    SKIP,
+    STAR,
     STARS,
     TRIANGLE,
     TRIANGLES,
+    UPPER,
     star_lengths,
     surface_numbers,
 )
@@ -115,7 +122,7 @@ def _member_near(
         t = int(surface[TRIANGLES]) + TRIANGLE * member
         for upper in range(2 if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else 1):
             if rim_is_near(surface, t, frustum, upper, pose, reach, turn):
-                n = _add_face(surface[t + 9], float(upper), out, n, most)
+                n = _add_face(surface[t + FACE_NUMBER], float(upper), out, n, most)
         return n
     if member < n_triangles + n_edges:
         e = member - n_triangles
@@ -160,12 +167,12 @@ def find_near_frustum(
     while node < int(surface[N_NODES]) and n <= limit:
         at = int(surface[NODES]) + NODE * node
         corner = vector_at(surface, at)
-        diagonal = minus(vector_at(surface, at + 3), corner)
+        diagonal = minus(vector_at(surface, at + UPPER), corner)
         if from_core(frustum, pose, plus_scaled(corner, 0.5, diagonal)) > sweep + reach + 0.5 * norm(diagonal):
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        members = int(surface[MEMBERS]) + int(surface[at + 7])
-        for i in range(int(surface[at + 8])):
+        members = int(surface[MEMBERS]) + int(surface[at + FIRST_MEMBER])
+        for i in range(int(surface[at + N_MEMBERS])):
             n = _member_near(
                 surface, int(surface[members + i]), frustum, pose, sweep + reach, turn, size, out, n, limit
             )
@@ -227,14 +234,14 @@ def evaluate_frustum_and_candidate(
         c = int(surface[CORNERS]) + CORNER * i
         corner, n, star = (
             block_at(surface, c),
-            surface[c + 5],
-            block_at(surface, int(surface[STARS]) + int(surface[c + 4])),
+            surface[c + N_STAR],
+            block_at(surface, int(surface[STARS]) + int(surface[c + STAR])),
         )
         if frustum[SWEEP] > 0.0:
             write_rounded_vertex(a, b, out, frustum, 0.0, corner, n, star, size)
         else:
             # only a disc uses the lengths of the edges at its corner; for other frustums the table is a single 0
-            own = block_at(lengths, int(surface[c + 4]) // 3 if frustum[SIDE] == 0.0 else 0)
+            own = block_at(lengths, int(surface[c + STAR]) // 3 if frustum[SIDE] == 0.0 else 0)
             write_corner(a, b, out, frustum, corner, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
         write_across_side(a, b, out, frustum, block_at(surface, edge_at(surface, i)), surface, size)

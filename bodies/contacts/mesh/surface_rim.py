@@ -20,13 +20,18 @@ from ..frustum.frustum_writing import off_cone_of_rim, write_contact
 from ..surface.surface_search import box_square, depth_inside, face_height, has_patch
 from ..surface.surface_tables import (
     FACE,
+    FACE_NUMBER,
+    FACE_PATCH,
     FACES,
+    FIRST_MEMBER,
     MEMBERS,
+    N_MEMBERS,
     N_NODES,
     N_TRIANGLES,
     NODE,
     NODES,
     SIZE,
+    SKIP,
     TRIANGLE,
     TRIANGLES,
 )
@@ -106,16 +111,16 @@ def rim_under(
         at = nodes + NODE * node
         apart_at_least = math.sqrt(box_square(surface, at, center)) - radius
         if apart_at_least > math.sqrt(best) or not has_patch(surface, at, patch):
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
+        for i in range(int(surface[at + N_MEMBERS])):
+            member = int(surface[members + int(surface[at + FIRST_MEMBER]) + i])
             if member >= n_triangles:
                 continue
             t = int(surface[TRIANGLES]) + TRIANGLE * member
-            face = int(surface[t + 9])
+            face = int(surface[t + FACE_NUMBER])
             f = int(surface[FACES]) + FACE * face
-            if surface[f + 4] != patch:
+            if surface[f + FACE_PATCH] != patch:
                 continue
             axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, f)), axis, otherwise)
             p = plus_scaled(center, radius, outward)
@@ -156,12 +161,12 @@ def rim_over(
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node
         if box_square(surface, at, point) > best:
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
-            member = int(surface[members + int(surface[at + 7]) + i])
+        for i in range(int(surface[at + N_MEMBERS])):
+            member = int(surface[members + int(surface[at + FIRST_MEMBER]) + i])
             t = int(surface[TRIANGLES]) + TRIANGLE * member
-            if member >= n_triangles or int(surface[t + 9]) != face:
+            if member >= n_triangles or int(surface[t + FACE_NUMBER]) != face:
                 continue
             over, inside, ends, square = over_face(surface, t, height, lean, REACH * size, point)
             if over <= 0.0 and height < 0.0 and -height < under:

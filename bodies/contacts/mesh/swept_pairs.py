@@ -38,7 +38,7 @@ from ..surface.surface_search import (
     node_at,
     steepest,
 )
-from ..surface.surface_tables import N_NODES, part_names, surface_numbers
+from ..surface.surface_tables import N_MEMBERS, N_NODES, SKIP, UPPER, part_names, surface_numbers
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
 """Kinds of candidates, the first of a candidate's three numbers; the numbers of its features follow.
@@ -59,12 +59,12 @@ def corners_over(a: Floats, b: Floats, surface: Floats, core: Floats, near: Near
     (reach, turn, most), sweep, node = near, core[SWEEP], 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
-        half = scaled(0.5, minus(vector_at(surface, at + 3), vector_at(surface, at)))
+        half = scaled(0.5, minus(vector_at(surface, at + UPPER), vector_at(surface, at)))
         found = nearest_of_core(core, seen_from(b, a, plus(vector_at(surface, at), half)))
         if found[1] > sweep + reach + norm(half):
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
+        for i in range(int(surface[at + N_MEMBERS])):
             what, corner, c = feature_of(surface, member_of(surface, at, i))
             if what != ON_CORNER or n > most:
                 continue

@@ -125,9 +125,15 @@ def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: fl
 
 @compiled
 def _is_outward(found: NearestPoint) -> bool:
-    g, p, n = found
-    x, y, _ = plus_scaled(p, -g, n)
-    return bool(x * n[0] + y * n[1] >= -_SAME * (abs(x) + abs(y)))
+    """Return whether the normal at the circle's point leads away from the circle's axis, up to round-off.
+
+    ``found`` is in the axes of the circle, which is about the z axis: gap [m], point of the smooth core [m], and unit
+    normal from the circle to this point.  A circle with an inward normal is a local minimum of the distance, but of a
+    body that the circle surrounds: the disc in the circle passes through it.
+    """
+    gap, point, normal = found
+    x, y, _ = plus_scaled(point, -gap, normal)
+    return bool(x * normal[0] + y * normal[1] >= -_SAME * (abs(x) + abs(y)))
 
 
 @compiled
@@ -301,7 +307,7 @@ def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: Nearest
     g, p, n = found
     extent, radius = largest_semi_axis(core), circle[0]
     best: NearestPoint = found
-    least = _over(core, turn, place, p)
+    least = _off_surface(core, turn, place, p)
     if radius == 0.0 or not least > _SAME:
         return best, least * extent
     q, _ = facing_point(core, turn, place, n)
@@ -314,7 +320,7 @@ def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: Nearest
     for _ in range(_STEPS):
         one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
         point_one, point_two = _over_rim(radius, one, g, n), _over_rim(radius, two, g, n)
-        first, second = _over(core, turn, place, point_one), _over(core, turn, place, point_two)
+        first, second = _off_surface(core, turn, place, point_one), _off_surface(core, turn, place, point_two)
         if first < least:
             least, best = first, (g, point_one, n)
         if second < least:
@@ -335,6 +341,9 @@ def _over_rim(radius: float, angle: float, g: float, n: Vector3) -> Vector3:
 
 
 @compiled
-def _over(core: Core, turn: Axes, place: Vector3, point: Vector3) -> float:
-    """Return abs(gauge - 1) of a point: 0 on the surface of the core, where :func:`gauge` is 1, larger off it."""
+def _off_surface(core: Core, turn: Axes, place: Vector3, point: Vector3) -> float:
+    """Return abs(gauge - 1) of a point [1], a residual: 0 on the surface of the core, positive inside and outside.
+
+    ``point`` is in the axes of the circle [m].  The gauge has a closed form, which the distance has not.
+    """
     return float(abs(gauge(core, rotated_back(turn, minus(point, place))) - 1.0))

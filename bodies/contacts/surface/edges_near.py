@@ -9,9 +9,10 @@ from ...vectors import Vector3, cross, divided, minus, norm, scaled, vector_at, 
 from ..features.bounds import squared_distance_of_segments
 from ..features.edge_crossing import CONE_MARGIN, sine_off_cone
 from ..features.frames import vector_in_body, vector_in_world
+from ..features.polytope_tables import ALONG, LENGTH
 from .surface_near import Near, seen_from
 from .surface_search import ON_EDGE, feature_of, member_of, node_at
-from .surface_tables import N_NODES
+from .surface_tables import N_MEMBERS, N_NODES, SKIP
 
 _ALONG = 1e-3
 """Sine of the angle between two edges below which their common normal is too inexact to exclude the pair."""
@@ -35,17 +36,21 @@ def _passes_box(surface: Floats, at: int, start: Vector3, way: Vector3, reach: f
 
 
 @compiled
-def _may_cross(a: Floats, b: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, turn: float) -> bool:
-    """Return whether the normals of two edges face each other, or may do so after a rotation by ``turn`` [rad]."""
-    n = cross(vector_in_world(a, vector_at(surface_a, one + 3)), vector_in_world(b, vector_at(surface_b, two + 3)))
+def _may_cross(a: Floats, b: Floats, surface_a: Floats, row_a: int, edges: Floats, row_b: int, turn: float) -> bool:
+    """Return whether the normals of two edges face each other, or may do so after a rotation by ``turn`` [rad].
+
+    The rows of the edges begin at the indices ``row_a`` and ``row_b``.
+    """
+    e = vector_in_world(a, vector_at(surface_a, row_a + ALONG))
+    n = cross(e, vector_in_world(b, vector_at(edges, row_b + ALONG)))
     sine = norm(n)
     if sine <= _ALONG:
         return True
     n = divided(n, sine)
-    ahead = max(sine_off_cone(a, surface_a, one, 1.0, n), sine_off_cone(b, surface_b, two, -1.0, n))
-    behind = max(sine_off_cone(a, surface_a, one, -1.0, n), sine_off_cone(b, surface_b, two, 1.0, n))
+    along = max(sine_off_cone(a, surface_a, row_a, 1.0, n), sine_off_cone(b, edges, row_b, -1.0, n))
+    opposed = max(sine_off_cone(a, surface_a, row_a, -1.0, n), sine_off_cone(b, edges, row_b, 1.0, n))
     # a rotation by `turn` turns the normals of an edge by `turn`, the common normal of both by at most 2 turn / sine
-    return bool(min(ahead, behind) <= CONE_MARGIN + turn * (1.0 + 2.0 / sine))
+    return bool(min(along, opposed) <= CONE_MARGIN + turn * (1.0 + 2.0 / sine))
 
 
 @compiled
@@ -54,37 +59,53 @@ def edges_across(
     b: Floats,
     surface: Floats,
     edges: Floats,
-    two: int,
-    number: float,
+    row_b: int,
+    edge_b: float,
     near: Near,
     kind: float,
     out: Floats,
     n: int,
 ) -> int:
-    """Append candidates: pairs of an edge of the first body's surface and one near edge of the second body.
+    """Append the edges of the first body's surface that are near one edge of the second body; return the new number.
 
-    Return the number of candidates after that.  The row of the second body's edge begins at index ``two`` of ``edges``;
-    ``number`` is the number of this edge, the third number of each candidate; ``kind`` is the first number.  ``out``
-    holds ``n`` candidates.
+    A candidate is three numbers: ``kind``, edge of the first body, edge of the second body.  ``out`` holds ``n``
+    candidates, after one number for their count.  The search ends at one candidate more than ``near`` allows; this one
+    tells that there are too many.
+
+    Parameters
+    ----------
+    a, b : Floats
+        Frame blocks of both bodies.
+    surface : Floats
+        Tables of the first body (:mod:`bodies.contacts.surface.surface_tables`).
+    edges, row_b, edge_b : Floats, int, float
+        Table with the row of the second body's edge, the index at which it begins, and the number of the edge.
+    near : tuple
+        Largest distance [m], largest rotation until the next search [rad], largest number of candidates.
+    kind : float
+        First number of each candidate.
+    out, n : Floats, int
+        Candidates so far, and their number.
     """
     reach, turn, most = near
-    start = seen_from(a, b, vector_at(edges, two))
-    f = vector_in_body(a, vector_in_world(b, vector_at(edges, two + 3)))
-    q = edges[two + 6]
+    start = seen_from(a, b, vector_at(edges, row_b))
+    f = vector_in_body(a, vector_in_world(b, vector_at(edges, row_b + ALONG)))
+    q = edges[row_b + LENGTH]
     node = 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
         if not _passes_box(surface, at, start, scaled(q, f), reach):
-            node = int(surface[at + 6])
+            # nothing in the subtree of this box is near
+            node = int(surface[at + SKIP])
             continue
-        for m in range(int(surface[at + 8])):
-            what, own, one = feature_of(surface, member_of(surface, at, m))
-            if what != ON_EDGE or n > most:
+        for m in range(int(surface[at + N_MEMBERS])):
+            feature_kind, edge_a, row_a = feature_of(surface, member_of(surface, at, m))
+            if feature_kind != ON_EDGE or n > most:
                 continue
-            e, p = vector_at(surface, one + 3), surface[one + 6]
-            square = squared_distance_of_segments(minus(start, vector_at(surface, one)), e, p, f, q)
-            if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
-                write_vector(out, 1 + 3 * n, (kind, float(own), number))
+            e, p = vector_at(surface, row_a + ALONG), surface[row_a + LENGTH]
+            square = squared_distance_of_segments(minus(start, vector_at(surface, row_a)), e, p, f, q)
+            if square <= reach * reach and _may_cross(a, b, surface, row_a, edges, row_b, turn):
+                write_vector(out, 1 + 3 * n, (kind, float(edge_a), edge_b))
                 n += 1
         node += 1
     return n

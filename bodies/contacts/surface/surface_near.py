@@ -11,7 +11,7 @@ from ...vectors import Vector3, dot, minus, norm, plus_scaled, vector_at, write_
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import point_in_body, point_in_world
 from .surface_search import ON_FACE, box_square, face_at, feature_of, in_triangle, member_of, node_at, patch_of
-from .surface_tables import N_NODES
+from .surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SKIP, UPPER
 from .surface_vertex import leaning
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
@@ -54,8 +54,8 @@ def _is_near(surface: Floats, point: Vector3, reach: float) -> bool:
     while node < int(surface[N_NODES]):
         at = node_at(surface, node)
         if box_square(surface, at, point) > reach * reach:
-            node = int(surface[at + 6])
-        elif surface[at + 8] > 0.0:
+            node = int(surface[at + SKIP])
+        elif surface[at + N_MEMBERS] > 0.0:
             return True
         else:
             node += 1
@@ -108,9 +108,9 @@ def patches_near(
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
         if box_square(surface, at, point) > reach * reach:
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
+        for i in range(int(surface[at + N_MEMBERS])):
             if n <= most:
                 n = _add_patch(patch_of(surface, member_of(surface, at, i)), kind, third, first, out, n)
         node += 1
@@ -123,7 +123,7 @@ def is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, a
 
     The node is at index ``at`` of the other body's numbers ``parts``; ``surface`` belongs to the body ``frame``.
     """
-    diagonal = minus(vector_at(parts, at + 3), vector_at(parts, at))
+    diagonal = minus(vector_at(parts, at + UPPER), vector_at(parts, at))
     middle = seen_from(frame, other, plus_scaled(vector_at(parts, at), 0.5, diagonal))
     return bool(_is_near(surface, middle, 0.5 * norm(diagonal) + reach))
 
@@ -147,18 +147,18 @@ def patches_under(
     """Append the patches of faces that a vertex of the other body may soon touch.
 
     Return the number of candidates after that.  A face may be touched if it is within ``reach`` [m] of the vertex, and
-    if a rotation by ``turn`` [rad] can turn all edges of the vertex out of the face (within ``CONE_MARGIN``).  ``place`` is
-    the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other arguments are those
-    of :func:`patches_near`.
+    if a rotation by ``turn`` [rad] can turn all edges of the vertex out of the face (within ``CONE_MARGIN``).
+    ``place`` is the vertex in the frame of its body [m], ``star`` holds unit vectors along its edges.  The other
+    arguments are those of :func:`patches_near`.
     """
     point = seen_from(frame, other, place)
     first, node = n, 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
         if box_square(surface, at, point) > reach * reach:
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
+        for i in range(int(surface[at + N_MEMBERS])):
             what, face, t = feature_of(surface, member_of(surface, at, i))
             if what != ON_FACE or n > most:
                 continue
@@ -169,6 +169,6 @@ def patches_under(
                 dot(apart, apart) <= reach * reach
                 and leaning(frame, other, surface, f, n_star, star) <= CONE_MARGIN + turn
             ):
-                n = _add_patch(surface[f + 4], kind, third, first, out, n)
+                n = _add_patch(surface[f + FACE_PATCH], kind, third, first, out, n)
         node += 1
     return n

@@ -23,7 +23,7 @@ from .mesh_point import write_over
 from .surface_edges import crossing_of, past_surface, write_edges
 from .surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND, Near, is_node_near, patches_under
 from .surface_search import FAR, ON_CORNER, ON_EDGE, beyond_ends, corner_at, edge_at, feature_of, member_of, node_at
-from .surface_tables import N_NODES, surface_numbers
+from .surface_tables import N_MEMBERS, N_NODES, SKIP, surface_numbers
 
 MOST_NEAR = 256
 """Largest number of pairs of features of two bodies that may be near each other at a time."""
@@ -42,9 +42,9 @@ def _features_near(
     while node < int(parts[N_NODES]) and n <= most:
         at = node_at(parts, node)
         if not is_node_near(frame, other, surface, parts, at, reach):
-            node = int(parts[at + 6])
+            node = int(parts[at + SKIP])
             continue
-        for i in range(int(parts[at + 8])):
+        for i in range(int(parts[at + N_MEMBERS])):
             what, number, row = feature_of(parts, member_of(parts, at, i))
             third = float(number)
             if what == ON_EDGE and kind == EDGE_ACROSS:
@@ -73,15 +73,19 @@ def find_near_features(
 
 @compiled
 def _write_crossing(
-    a: Floats, b: Floats, out: Floats, surface_a: Floats, one: int, surface_b: Floats, two: int, size: float
+    a: Floats, b: Floats, out: Floats, surface_a: Floats, row_a: int, surface_b: Floats, row_b: int, size: float
 ) -> None:
-    """Write the geometry block of two edges that cross; their rows begin at the indices ``one`` and ``two``."""
-    crossing = crossing_of(a, b, surface_a, one, surface_b, two, 0.0, size)
+    """Write the geometry block of two sharp edges that cross; their rows begin at the indices ``row_a`` and ``row_b``.
+
+    Edges that overlap between their ends touch only if no face of the other body is less deep below either edge: else
+    that face is the contact, and this one is past its end.  ``size`` is the size of the bodies [m].
+    """
+    crossing = crossing_of(a, b, surface_a, row_a, surface_b, row_b, 0.0, size)
     p, _, _, n, gap, _, past = crossing
     if gap < 0.0 and past <= 0.0:
-        past = max(past, past_surface(b, a, surface_b, surface_a, one, beyond_ends(surface_a, one), -gap, p))
+        past = max(past, past_surface(b, a, surface_b, surface_a, row_a, beyond_ends(surface_a, row_a), -gap, p))
         q = plus_scaled(p, gap, n)
-        past = max(past, past_surface(a, b, surface_a, surface_b, two, beyond_ends(surface_b, two), -gap, q))
+        past = max(past, past_surface(a, b, surface_a, surface_b, row_b, beyond_ends(surface_b, row_b), -gap, q))
     write_edges(a, out, crossing, past, 0.0)
 
 

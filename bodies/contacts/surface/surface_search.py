@@ -9,25 +9,40 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, minus, plus, plus_scaled, scaled, vector_at
+from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.vertex_face import REACH
 from .surface_tables import (
     BITS,
+    BORDERS,
     CONCAVE,
     CORNER,
+    CORNER_PATCH,
     CORNERS,
     EDGE,
+    EDGE_PATCH,
+    EDGE_PLANES,
     EDGES,
+    EXTENSIONS,
     FACE,
+    FACE_NUMBER,
+    FACE_PATCH,
     FACES,
+    FIRST_MEMBER,
     INSIDE,
     MEMBERS,
     N_EDGES,
+    N_MEMBERS,
     N_NODES,
     N_PATCHES,
+    N_STAR,
     N_TRIANGLES,
     NODE,
     NODES,
+    OFFSET,
+    PATCH_BITS,
     SIZE,
+    SKIP,
+    STAR,
     STARS,
     TRIANGLE,
     TRIANGLES,
@@ -51,7 +66,7 @@ def node_at(surface: Floats, node: int) -> int:
 @compiled
 def member_of(surface: Floats, at: int, i: int) -> int:
     """Return the number of member ``i`` of the leaf at index ``at``: a triangle, else a convex edge, else a corner."""
-    return int(surface[int(surface[MEMBERS]) + int(surface[at + 7]) + i])
+    return int(surface[int(surface[MEMBERS]) + int(surface[at + FIRST_MEMBER]) + i])
 
 
 @compiled
@@ -68,8 +83,8 @@ def edge_at(surface: Floats, edge: int) -> int:
 
 @compiled
 def beyond_ends(surface: Floats, edge: int) -> tuple[float, float]:
-    """Return by how much the body goes on past the ends of the edge whose row begins at the index ``edge`` [m]."""
-    return surface[edge + 14], surface[edge + 15]
+    """Return by how much the body extends past the ends of the edge whose row begins at the index ``edge`` [m]."""
+    return surface[edge + EXTENSIONS], surface[edge + EXTENSIONS + 1]
 
 
 @compiled
@@ -78,7 +93,7 @@ def feature_of(surface: Floats, member: int) -> tuple[int, int, int]:
     edge = member - int(surface[N_TRIANGLES])
     if edge < 0:
         t = int(surface[TRIANGLES]) + TRIANGLE * member
-        return ON_FACE, int(surface[t + 9]), t
+        return ON_FACE, int(surface[t + FACE_NUMBER]), t
     corner = edge - int(surface[N_EDGES])
     if corner < 0:
         return ON_EDGE, edge, edge_at(surface, edge)
@@ -89,14 +104,16 @@ def feature_of(surface: Floats, member: int) -> tuple[int, int, int]:
 def patch_of(surface: Floats, member: int) -> float:
     """Return the number of the patch to which a member belongs."""
     kind, number, at = feature_of(surface, member)
-    return float(surface[face_at(surface, number) + 4 if kind == ON_FACE else at + 13 if kind == ON_EDGE else at + 3])
+    if kind == ON_FACE:
+        return float(surface[face_at(surface, number) + FACE_PATCH])
+    return float(surface[at + (EDGE_PATCH if kind == ON_EDGE else CORNER_PATCH)])
 
 
 @compiled
 def corner_at(surface: Floats, corner: int) -> tuple[Vector3, float, Floats]:
     """Return the place of a corner [m], the number of its edges, and the unit vectors along them."""
     c = int(surface[CORNERS]) + CORNER * corner
-    return vector_at(surface, c), surface[c + 5], block_at(surface, int(surface[STARS]) + int(surface[c + 4]))
+    return vector_at(surface, c), surface[c + N_STAR], block_at(surface, int(surface[STARS]) + int(surface[c + STAR]))
 
 
 @compiled
@@ -112,30 +129,32 @@ def box_square(surface: Floats, at: int, point: Vector3) -> float:
 @compiled
 def face_height(surface: Floats, face: int, point: Vector3) -> float:
     """Return the height of a point over the plane of the face whose row begins at index ``face`` [m]."""
-    return float(dot(vector_at(surface, face), point) - surface[face + 3])
+    return float(dot(vector_at(surface, face), point) - surface[face + OFFSET])
 
 
 @compiled
-def over_ends(surface: Floats, triangle: int, height: float, point: Vector3) -> tuple[float, float]:
-    """Return two distances of a point past edges of a triangle [m]; negative if the point is inside of them.
+def past_edges(surface: Floats, triangle: int, height: float, point: Vector3) -> tuple[float, float]:
+    """Return two distances of a point past edges of a triangle [m]; negative if the point is inside of all of them.
 
     The first is the largest distance past any of the three edges.  The second is the largest one past the edges on the
-    border of the triangle's face; -inf if there are none.  Both are measured in the plane of the triangle.  Below the
-    plane a face does not end at a concave edge: a point inside of the body near an inner corner is below both faces.
+    border of the triangle's face.  Both are measured in the plane of the triangle, and are -inf if no edge counts.
+    Below the plane a face does not end at a concave edge: a point inside of the body near an inner corner is below both
+    faces.
 
-    ``height`` is the height of the point over the plane [m].
+    ``height`` is the height of the point over the plane [m], ``point`` is in the axes of the surface [m].  The row of
+    the triangle begins at index ``triangle``.
     """
-    over, ends = -math.inf, -math.inf
+    past_any, past_border = -math.inf, -math.inf
     for i in range(3):
-        border = surface[triangle + 22 + i]
+        border = surface[triangle + BORDERS + i]
         if height < 0.0 and border == CONCAVE:
             continue
-        e = triangle + 10 + 4 * i
-        out = dot(vector_at(surface, e), point) - surface[e + 3]
-        over = max(over, out)
+        plane = triangle + EDGE_PLANES + 4 * i
+        past = dot(vector_at(surface, plane), point) - surface[plane + 3]
+        past_any = max(past_any, past)
         if border != INSIDE:
-            ends = max(ends, out)
-    return over, ends
+            past_border = max(past_border, past)
+    return past_any, past_border
 
 
 @compiled
@@ -173,7 +192,7 @@ def in_triangle(surface: Floats, triangle: int, point: Vector3) -> tuple[float, 
 @compiled
 def has_patch(surface: Floats, at: int, patch: float) -> bool:
     """Return whether the tree node at index ``at`` may hold features of a patch, of any patch if ``patch`` < 0."""
-    return patch < 0.0 or surface[N_PATCHES] > BITS or (int(surface[at + 9]) >> int(patch)) & 1 == 1
+    return patch < 0.0 or surface[N_PATCHES] > BITS or (int(surface[at + PATCH_BITS]) >> int(patch)) & 1 == 1
 
 
 @compiled
@@ -204,7 +223,7 @@ def outward_of(surface: Floats, face: int, triangle: int, point: Vector3) -> tup
     """
     qx, qy, qz, region = in_triangle(surface, triangle, point)
     apart = minus(point, (qx, qy, qz))
-    n = triangle + 22 + 3 * region if region > 0 else face_at(surface, face)
+    n = triangle + BORDERS + 3 * region if region > 0 else face_at(surface, face)
     return dot(apart, apart), dot(apart, vector_at(surface, n))
 
 
@@ -217,9 +236,9 @@ def signed_distance(surface: Floats, point: Vector3) -> float:
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
         if node >= 0 and box_square(surface, at, point) > least:
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
+        for i in range(int(surface[at + N_MEMBERS])):
             what, face, t = feature_of(surface, member_of(surface, at, i))
             if what == ON_FACE:
                 square, outward = outward_of(surface, face, t, point)
@@ -240,11 +259,11 @@ def depth_inside(surface: Floats, point: Vector3) -> float:
 @compiled
 def past_edge(surface: Floats, edge: int, point: Vector3) -> tuple[float, Vector3]:
     """Return how far a point is past the points and normals of an edge [m], and the edge's point nearest to it."""
-    w, along = minus(point, vector_at(surface, edge)), vector_at(surface, edge + 3)
+    w, along = minus(point, vector_at(surface, edge)), vector_at(surface, edge + ALONG)
     s = dot(w, along)
-    past = max(-s, s - surface[edge + 6])
-    w = minus(w, scaled(min(max(s, 0.0), surface[edge + 6]), along))
-    past = max(past, max(dot(w, vector_at(surface, edge + 7)), dot(w, vector_at(surface, edge + 10))))
+    past = max(-s, s - surface[edge + LENGTH])
+    w = minus(w, scaled(min(max(s, 0.0), surface[edge + LENGTH]), along))
+    past = max(past, max(dot(w, vector_at(surface, edge + INTO_FIRST)), dot(w, vector_at(surface, edge + INTO_SECOND))))
     return past, minus(point, w)
 
 
@@ -257,8 +276,8 @@ def past_corner(surface: Floats, corner: int, point: Vector3) -> float:
 @compiled
 def steepest(surface: Floats, corner: int, n: Vector3) -> float:
     """Return the largest component of n along an edge of a corner, in the axes of the surface."""
-    most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
-    for i in range(int(surface[corner + 5])):
+    most, star = -math.inf, int(surface[STARS]) + int(surface[corner + STAR])
+    for i in range(int(surface[corner + N_STAR])):
         most = max(most, dot(n, vector_at(surface, star + 3 * i)))
     return most
 
@@ -284,9 +303,9 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
         if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, point) > best + same):
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
+        for i in range(int(surface[at + N_MEMBERS])):
             member = member_of(surface, at, i)
             what, which, row = feature_of(surface, member)
             if patch_of(surface, member) != patch:
@@ -296,14 +315,14 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
                 height = face_height(surface, f, point)
                 if height * height > best + same:
                     continue
-                over, ends = over_ends(surface, row, height, point)
-                if over <= margin and height < 0.0 and -height < under:
-                    under, under_past, under_face = -height, ends - margin, which
-                if over <= margin and height >= 0.0:
-                    beyond, p = max(ends, -surface[SIZE]), minus(point, scaled(height, vector_at(surface, f)))
+                past_any, past_border = past_edges(surface, row, height, point)
+                if past_any <= margin and height < 0.0 and -height < under:
+                    under, under_past, under_face = -height, past_border - margin, which
+                if past_any <= margin and height >= 0.0:
+                    beyond, p = max(past_border, -surface[SIZE]), minus(point, scaled(height, vector_at(surface, f)))
                 else:
                     px, py, pz, _ = in_triangle(surface, row, point)
-                    beyond, p = max(over, -height + 2.0 * margin), (px, py, pz)
+                    beyond, p = max(past_any, -height + 2.0 * margin), (px, py, pz)
             elif what == ON_EDGE:
                 beyond, p = past_edge(surface, row, point)
             else:

@@ -18,6 +18,7 @@ from nonsmooth.types import Floats
 from ...shapes.support_function import OF_FUNCTION, Core, is_round, support_of
 from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, scaled, vector_at
 from ..features.frames import point_in_body, point_in_world
+from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.vertex_face import REACH
 from ..smooth.boxy_line import across_line
 from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, facing_point, relative_rotation, rotated_back
@@ -37,18 +38,33 @@ from .surface_search import (
     member_of,
     nearest_in_patch,
     node_at,
-    over_ends,
     past_edge,
+    past_edges,
     patch_of,
     steepest,
 )
-from .surface_tables import N_EDGES, N_NODES, N_PATCHES, N_TRIANGLES, SIZE
+from .surface_tables import (
+    FACE_NUMBER,
+    N_EDGES,
+    N_MEMBERS,
+    N_NODES,
+    N_PATCHES,
+    N_TRIANGLES,
+    OFFSET,
+    SIZE,
+    SKIP,
+    UPPER,
+)
 
 _SAME = 1e-15
 """Difference of two distances that is round-off, relative to the size of the bodies."""
-Aim: TypeAlias = tuple[Vector3, float]
-"""Supporting plane of the smooth body, below it: unit normal, and the plane's distance from the origin along it [m]."""
-Reached: TypeAlias = tuple[float, float, Vector3]
+SupportPlane: TypeAlias = tuple[Vector3, float]
+"""Supporting plane below the smooth body: unit normal towards the body, offset from the origin along it [m].
+
+The body lies above the plane, so a point at a height h below it is at least h from the body.  A plane at -inf excludes
+nothing.
+"""
+FeatureDistance: TypeAlias = tuple[float, float, Vector3]
 """Distance of the core from a feature [m], distance past the end of the contact [m], unit normal to the core.
 
 The distance of the core is nan if the search failed.
@@ -80,45 +96,49 @@ def _least(core: Core, turn: Axes, way: Vector3) -> float:
 
 
 @compiled
-def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -> Reached:
-    """Return how the core reaches the plane of a triangle.
+def _on_face(surface: Floats, t: int, core: Core, turn: Axes, center: Vector3) -> FeatureDistance:
+    """Evaluate the core and the plane of a triangle, whose row begins at index ``t``.
 
     The distance past the end is positive if the core's nearest point to the plane is past the border of the triangle's
     face, or if the centre of the body is below the plane.
     """
-    f = face_at(surface, int(surface[t + 9]))
+    f = face_at(surface, int(surface[t + FACE_NUMBER]))
     n = vector_at(surface, f)
     p = facing_point(core, turn, center, n)[0]
-    height = dot(n, p) - surface[f + 3]
-    beyond, past = over_ends(surface, t, 0.0, p)
+    height = dot(n, p) - surface[f + OFFSET]
+    beyond, past = past_edges(surface, t, 0.0, p)
     if beyond > REACH * surface[SIZE]:
         foot = minus(p, scaled(height, n))
         x, y, z, _ = in_triangle(surface, t, foot)
         past = norm(minus(foot, (x, y, z)))
     past = max(past, -surface[SIZE])
     # if the body's centre is below the plane, the body is past the end of the face
-    return height, max(past, surface[f + 3] - n[0] * center[0] - n[1] * center[1] - n[2] * center[2]), n
+    return height, max(past, surface[f + OFFSET] - n[0] * center[0] - n[1] * center[1] - n[2] * center[2]), n
 
 
 @compiled
-def _on_edge(surface: Floats, e: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float) -> Reached:
-    """Return how the core reaches the line of an edge.
+def _on_edge(
+    surface: Floats, e: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float
+) -> FeatureDistance:
+    """Evaluate the core and the line of an edge, whose row begins at index ``e``.
 
     The distance past the end is positive if the nearest point is past an end of the edge, or if the normal, from the
     edge to the core, is not a normal of the edge.
     """
-    w, along = minus(center, vector_at(surface, e)), vector_at(surface, e + 3)
+    w, along = minus(center, vector_at(surface, e)), vector_at(surface, e + ALONG)
     g, _, n = widest_from(point, core, turn, w, along, w)
     s = dot(facing_point(core, turn, w, n)[0], along)
-    past = max(-s, s - surface[e + 6])
-    past = max(past, size * dot(n, vector_at(surface, e + 7)))
-    past = max(past, size * dot(n, vector_at(surface, e + 10)))
+    past = max(-s, s - surface[e + LENGTH])
+    past = max(past, size * dot(n, vector_at(surface, e + INTO_FIRST)))
+    past = max(past, size * dot(n, vector_at(surface, e + INTO_SECOND)))
     return g, max(past, -dot(n, w)), n
 
 
 @compiled
-def _on_corner(surface: Floats, c: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float) -> Reached:
-    """Return how the core reaches a corner.
+def _on_corner(
+    surface: Floats, c: int, core: Core, point: Core, turn: Axes, center: Vector3, size: float
+) -> FeatureDistance:
+    """Evaluate the core and a corner, whose row begins at index ``c``.
 
     The distance past the end is positive if an edge of the corner is nearer to the core than the corner itself.
     """
@@ -128,29 +148,26 @@ def _on_corner(surface: Floats, c: int, core: Core, point: Core, turn: Axes, cen
 
 
 @compiled
-def _above(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a lower bound of the smooth body's distance from the surface's point at index ``at`` [m].
-
-    It is the distance of the point below the body's supporting plane ``aim``.
-    """
-    normal, level = aim
-    return float(level - normal[0] * surface[at] - normal[1] * surface[at + 1] - normal[2] * surface[at + 2])
+def _above(surface: Floats, at: int, plane: SupportPlane) -> float:
+    """Return the height of the smooth body's supporting plane over the surface's point at index ``at`` [m]."""
+    normal, offset = plane
+    return float(offset - normal[0] * surface[at] - normal[1] * surface[at + 1] - normal[2] * surface[at + 2])
 
 
 @compiled
-def _above_box(surface: Floats, at: int, aim: Aim) -> float:
-    """Return a lower bound of the smooth body's distance from the box of a node of the surface's tree [m].
+def _above_box(surface: Floats, at: int, plane: SupportPlane) -> float:
+    """Return the height of the smooth body's supporting plane over the highest corner of a node's box [m].
 
-    It is the least distance of the box, at index ``at``, below the body's supporting plane ``aim``.
+    The row of the node begins at index ``at``.
     """
-    normal, level = aim
+    normal, offset = plane
     for i in range(3):
-        level -= normal[i] * surface[at + 3 + i if normal[i] > 0.0 else at + i]
-    return float(level)
+        offset -= normal[i] * surface[at + UPPER + i if normal[i] > 0.0 else at + i]
+    return float(offset)
 
 
 @compiled
-def _look_at(
+def _evaluate(
     surface: Floats,
     patch: float,
     member: int,
@@ -159,14 +176,13 @@ def _look_at(
     turn: Axes,
     center: Vector3,
     best: float,
-    aim: Aim,
+    plane: SupportPlane,
 ) -> tuple[float, float, Vector3, float]:
-    """Evaluate one feature of the surface: return how the core reaches it, and a lower bound of the distance [m].
+    """Evaluate the core and one feature of the surface; the last number is a lower bound of the gap [m].
 
-    The distance of the core is infinite
-    if the feature belongs to another patch or cannot be nearer than ``best`` [m]; it is nan if the search failed.
-    ``member`` is the number of the feature in the tree: triangles, then convex edges, then corners.  ``aim`` is the
-    body's supporting plane for the nearest feature so far.
+    The distance of the core is infinite if the feature belongs to another patch or cannot be nearer than ``best`` [m];
+    it is nan if the search failed.  ``member`` is the number of the feature in the tree: triangles, then convex edges,
+    then corners.  ``plane`` is the body's supporting plane for the nearest feature so far.
     """
     kind, number, at = feature_of(surface, member)
     size, excluded = _extent(core), (math.inf, 0.0, (0.0, 0.0, 1.0), -math.inf)
@@ -174,12 +190,14 @@ def _look_at(
         return excluded
     if kind == ON_FACE:
         least = face_height(surface, face_at(surface, number), center) - size
-        lowest = min(_above(surface, at, aim), min(_above(surface, at + 3, aim), _above(surface, at + 6, aim)))
+        lowest = min(_above(surface, at, plane), min(_above(surface, at + 3, plane), _above(surface, at + 6, plane)))
         if least > best or lowest > best:
             return excluded
         g, past, n = _on_face(surface, at, core, turn, center)
     elif kind == ON_EDGE:
-        least = _above(surface, at, aim) - max(surface[at + 6] * dot(aim[0], vector_at(surface, at + 3)), 0.0)
+        least = _above(surface, at, plane) - max(
+            surface[at + LENGTH] * dot(plane[0], vector_at(surface, at + ALONG)), 0.0
+        )
         if least > best:
             return excluded
         least = _least(core, turn, minus(center, past_edge(surface, at, center)[1]))
@@ -187,7 +205,7 @@ def _look_at(
             return excluded
         g, past, n = _on_edge(surface, at, core, point, turn, center, size)
     else:
-        if _above(surface, at, aim) > best:
+        if _above(surface, at, plane) > best:
             return excluded
         least = _least(core, turn, minus(center, vector_at(surface, at)))
         if least > best:
@@ -197,7 +215,7 @@ def _look_at(
 
 
 @compiled
-def _aim(surface: Floats, core: Core, turn: Axes, center: Vector3, normal: Vector3) -> Aim:
+def _support_plane(surface: Floats, core: Core, turn: Axes, center: Vector3, normal: Vector3) -> SupportPlane:
     """Return the smooth body's supporting plane across the unit vector ``normal``.
 
     The plane is raised by round-off: features in one plane then get the same bound, and none of them is excluded.
@@ -208,57 +226,65 @@ def _aim(surface: Floats, core: Core, turn: Axes, center: Vector3, normal: Vecto
 
 
 @compiled
+def _key(gap: float, past: float) -> float:
+    """Return the gap of a feature that the body may touch, else the hypotenuse of gap and distance past its end [m]."""
+    return gap if past <= 0.0 else math.sqrt(gap * gap + past * past)
+
+
+@compiled
 def _nearest(
     surface: Floats, patch: float, core: Core, point: Core, turn: Axes, center: Vector3, reach: float
 ) -> tuple[float, float, int, int, Vector3]:
     """Return distance of the core [m], distance past the end [m], kind and number of a patch's feature, and normal.
 
-    The feature is the nearest one that the body may touch: its distance past the end is not positive.  If there is no
-    such feature, it is the one with the least sqrt(gap^2 + past^2), where past is the distance past the end.  If no
-    feature is nearer than ``reach`` [m], gap and distance past the end are ``reach``.  The distance is nan if the
-    search failed for a feature that may be nearer.
+    It is the feature with the least key (:func:`_key`).  A feature that the body may touch wins over another one with
+    the same key within round-off: on the border of a face, the face wins over its edge.  The gap is the distance of the
+    core less its radius.  If no key is below ``reach`` [m], both distances are those of a gap of ``reach``.  The
+    distance of the core is nan if the search failed for a feature whose key may be less.
+
+    ``point`` is the core of a point, ``turn`` converts components along the axes of the core to those along the axes of
+    the surface, and ``center`` is the centre of the core in the axes of the surface [m].
     """
     n_triangles, size = int(surface[N_TRIANGLES]), _extent(core)
-    same = _SAME * (size + surface[SIZE])
-    best, missed, found = reach, math.inf, 0
+    round_off = _SAME * (size + surface[SIZE])
+    best_key, least_failed, found = reach, math.inf, 0
     distance, past, normal = reach + core[RADIUS], reach, (0.0, 0.0, 1.0)
-    aim: Aim = (0.0, 0.0, 0.0), -math.inf
+    plane: SupportPlane = (0.0, 0.0, 0.0), -math.inf
     # first evaluate the feature nearest to the centre, then all faces, which cost least; their distances exclude most
     # edges and corners from the search
     _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, center, reach + size)
     if kind != ON_FACE:
         found = number + n_triangles + (int(surface[N_EDGES]) if kind == ON_CORNER else 0)
-        g, beyond, n, _ = _look_at(surface, patch, found, core, point, turn, center, best, aim)
-        gap = g - core[RADIUS]
-        key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
-        if key < best:
-            best, distance, past, normal = key, g, beyond, n
-            aim = _aim(surface, core, turn, center, n)
-    for stage in range(2):
+        core_distance, beyond, n, _ = _evaluate(surface, patch, found, core, point, turn, center, best_key, plane)
+        key = _key(core_distance - core[RADIUS], beyond)
+        if key < best_key:
+            best_key, distance, past, normal = key, core_distance, beyond, n
+            plane = _support_plane(surface, core, turn, center, n)
+    for of_faces in (True, False):
         node = 0
         while node < int(surface[N_NODES]):
             at = node_at(surface, node)
-            far = math.sqrt(box_square(surface, at, center)) - size > best or _above_box(surface, at, aim) > best
-            if far or not has_patch(surface, at, patch):
-                node = int(surface[at + 6])
+            outside = math.sqrt(box_square(surface, at, center)) - size > best_key
+            if outside or _above_box(surface, at, plane) > best_key or not has_patch(surface, at, patch):
+                node = int(surface[at + SKIP])
                 continue
-            for i in range(int(surface[at + 8])):
+            for i in range(int(surface[at + N_MEMBERS])):
                 member = member_of(surface, at, i)
-                if (member < n_triangles) != (stage == 0):
+                if (member < n_triangles) != of_faces:
                     continue
-                g, beyond, n, least = _look_at(surface, patch, member, core, point, turn, center, best, aim)
-                if g != g:
-                    missed = min(missed, least)
+                core_distance, beyond, n, bound = _evaluate(
+                    surface, patch, member, core, point, turn, center, best_key, plane
+                )
+                if math.isnan(core_distance):
+                    least_failed = min(least_failed, bound)
                     continue
-                gap = g - core[RADIUS]
-                key = gap if beyond <= 0.0 else math.sqrt(gap * gap + beyond * beyond)
-                # on the border of a face, the face and its edge have the same distance within round-off: take the face
-                alike = key < best + same and beyond <= 0.0
-                if key < best - same or (alike and (past > 0.0 or member < found)):
-                    best, distance, past, found, normal = key, g, beyond, member, n
-                    aim = _aim(surface, core, turn, center, n)
+                key = _key(core_distance - core[RADIUS], beyond)
+                is_tie = key < best_key + round_off and beyond <= 0.0
+                if key < best_key - round_off or (is_tie and (past > 0.0 or member < found)):
+                    best_key, distance, past, found, normal = key, core_distance, beyond, member, n
+                    plane = _support_plane(surface, core, turn, center, n)
             node += 1
-    if not missed >= best:
+    if not least_failed >= best_key:
         distance = math.nan
     kind, number, _ = feature_of(surface, found)
     return distance, past, kind, number, normal
@@ -282,7 +308,7 @@ def write_surface_smooth(
     p = facing_point(second, turn, center, n)[0]
     if kind == ON_EDGE and not is_round(second):
         e = edge_at(surface, number)
-        start, along = vector_at(surface, e), vector_at(surface, e + 3)
+        start, along = vector_at(surface, e), vector_at(surface, e + ALONG)
         _, p, _ = across_line(second, turn, minus(center, start), along, n, 1.0, 0.0, 0.0)
         p = plus(p, start)
     # if there is one patch only, it is the whole surface, which has no end

@@ -43,7 +43,7 @@ triangle   vertices (9) [m]; number of its face; for each edge the outward norma
            (``INSIDE``, ``CONVEX``, ``CONCAVE``); outward normals, of any length, at the edges (9) and at
            the vertices (9): they give the sign of the distance of a point
 edge       first end (3) [m]; unit vector along it (3); length [m]; unit vectors from the edge into its
-           two faces (6); number of its patch; lengths by which the body goes on past the first and the
+           two faces (6); number of its patch; lengths by which the body extends past the first and the
            second end (2) [m]: 0 at a corner, else the size of the surface
 corner     position (3) [m]; number of its patch; index of the unit vectors along its edges; number of
            its edges
@@ -51,6 +51,16 @@ corner     position (3) [m]; number of its patch; index of the unit vectors alon
 
 The members of a node are the features in its box, by number: triangles first, then convex edges, then corners.
 """
+UPPER, SKIP, FIRST_MEMBER, N_MEMBERS, PATCH_BITS = 3, 6, 7, 8, 9
+"""Offsets in the row of a node: highest corner, node after its subtree, list and number of its members, its patches."""
+OFFSET, FACE_PATCH = 3, 4
+"""Offsets in the row of a face: distance of its plane from the origin, number of its patch."""
+FACE_NUMBER, EDGE_PLANES, BORDERS = 9, 10, 22
+"""Offsets in the row of a triangle: number of its face, planes at its edges, kinds of its edges."""
+EDGE_PATCH, EXTENSIONS = 13, 14
+"""Offsets in the row of an edge after those of a core's edge: number of its patch, extensions past both ends."""
+CORNER_PATCH, STAR, N_STAR = 3, 4, 5
+"""Offsets in the row of a corner: number of its patch, index and number of the unit vectors along its edges."""
 INSIDE, CONVEX, CONCAVE = 0.0, 1.0, 2.0
 """Kinds of edges of a triangle: inside of its face, or on the border of the face, where the next face bends down or up.
 """

@@ -24,9 +24,9 @@ from .surface_search import (
     member_of,
     node_at,
     outward_of,
-    over_ends,
+    past_edges,
 )
-from .surface_tables import N_NODES, SIZE
+from .surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SIZE, SKIP
 
 
 @compiled
@@ -64,7 +64,7 @@ def over_face(
     margin : float
         Distance past an edge up to which the vertex is still over the triangle [m].
     """
-    over, ends = over_ends(surface, triangle, height, point)
+    over, ends = past_edges(surface, triangle, height, point)
     over, ends = max(over - margin, lean), max(ends - margin, lean)
     past, square = ends, height * height
     if over > 0.0 or height < 0.0:
@@ -120,9 +120,9 @@ def past_depth(
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
         if node >= 0 and box_square(surface, at, point) > max(least, least_deep * least_deep):
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
+        for i in range(int(surface[at + N_MEMBERS])):
             what, face, t = feature_of(surface, member_of(surface, at, i))
             if what != ON_FACE:
                 continue
@@ -172,15 +172,15 @@ def face_under(
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
         if node >= 0 and (box_square(surface, at, (x, y, z)) > best or not has_patch(surface, at, patch)):
-            node = int(surface[at + 6])
+            node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + 8])):
+        for i in range(int(surface[at + N_MEMBERS])):
             what, face, t = feature_of(surface, member_of(surface, at, i))
             if what != ON_FACE:
                 continue
             f = face_at(surface, face)
             height = face_height(surface, f, (x, y, z))
-            if surface[f + 4] != patch or height * height > best:
+            if surface[f + FACE_PATCH] != patch or height * height > best:
                 continue
             lean = size * (leaning(frame, other, surface, f, n_star, star) - CONE_MARGIN)
             over, inside, ends, square = over_face(surface, t, height, lean, margin, (x, y, z))
