@@ -17,7 +17,7 @@ import math
 
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
-from nonsmooth.engine.bodies.kinematics import row, sliding_of
+from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
@@ -27,13 +27,14 @@ from nonsmooth.engine.delassus.islands import activate_group, group_closed, grou
 from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.coincident import closed_coincident, replace_coincident
 from nonsmooth.engine.events.record import NO_PHASES, begin_event, record_event
+from nonsmooth.engine.flow.averaging_time import leaves_features
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.memory.event_rows import CLOSING_LOSS, DRIVEN_WORK
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
-from nonsmooth.engine.native.kernel import ContactRecord, Workspace, frame_at, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import dot, length, minus
+from nonsmooth.engine.numerics.vectors import length
 
 _PART_AT_REST = 1.0 - 1e-6
 """Part of an averaging span within which a bounce is short: all contacts come to rest at its end, up to round-off."""
@@ -69,7 +70,9 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
 
     With the rate v and the acceleration -a, the condition is gap + T (v - a T) <= 0: one step of the time-stepping rule
     by which averaged forces are found. The contact closes again after 2 v / a. The next step is at most 1.5 times as
-    long, so that it does not miss that.
+    long, so that it does not miss that. The acceleration of the gap holds on the present features only: a contact point
+    that leaves them before does not come back. That of two nearly parallel cylinders runs along them at a speed that
+    has no bound.
     """
     contact = ws.contacts[c]
     rate = contact.normal_rate
@@ -79,23 +82,10 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
     ws.island.first_step = min(ws.island.first_step, 3.0 * rate / acceleration)
     # a contact that coincides with a closed one is the same contact, and does not bounce
     is_back = (rate - acceleration * time) * time <= -max(0.0, contact.gap)
-    return is_back and closed_coincident(ws, c) == NO_CONTACT and not _runs_off(ws, contact, 2.0 * rate / acceleration)
-
-
-@kernel("b1(ws, ContactRecord, f8)")
-def _runs_off(ws: Workspace, contact: ContactRecord, time: float) -> bool:
-    """True if the contact point runs past the end of its features within a ``time`` [s], faster than its bodies move.
-
-    The acceleration of the gap is then not that of a bounce. The contact point of two nearly parallel cylinders runs
-    along them at a speed that has no bound. A point that slides or rolls is not faster than slip and turning.
-    """
-    spin = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
-    radius = min(contact.support_radius_a, contact.support_radius_b)
-    sliding = sliding_of(ws, contact)
-    speed = math.sqrt(dot(sliding, sliding))
-    # without an end of its features, `past_feature` is 0
-    is_fast = contact.past_feature != 0.0 and speed > length(contact.slip) + math.sqrt(dot(spin, spin)) * radius
-    return is_fast and contact.past_feature + speed * time > 0.0
+    if not is_back or closed_coincident(ws, c) != NO_CONTACT:
+        return False
+    # features without an end have 0
+    return contact.past_feature == 0.0 or not leaves_features(ws, c, 2.0 * rate / acceleration)
 
 
 @kernel("i8(ws)")
