@@ -18,11 +18,11 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, vector_at
+from ...vectors import Vector3, cross, divided, dot, minus, opposite, plus_scaled, scaled, vector_at
 from .edge_crossing import CONE_MARGIN
 from .frames import point_in_world, vector_in_body, vector_in_world
-from .polytope_tables import FACE, LENGTH
-from .vertex_face import CLOSED, nearest_feature, past_face, plane_height
+from .polytope_tables import FACE, LENGTH, faces_of
+from .vertex_face import CLOSED, nearest_of_core, past_face, plane_height
 
 _COSINE = math.sqrt(1.0 - CONE_MARGIN * CONE_MARGIN)
 """Cosine of the largest angle between a contact normal and the normal of a face next to it."""
@@ -37,18 +37,16 @@ _FLUSH_COSINE = math.sqrt(1.0 - FLUSH * FLUSH)
 
 @compiled
 def _nearest_normal(n_faces: float, faces: Floats, n: Vector3) -> tuple[int, float]:
-    """Return the number of the face whose normal is nearest to a unit vector, and the cosine of the angle between them.
+    """Return the row of the face whose normal is nearest to a unit vector, and the cosine of the angle between them.
 
-    The unit vector n is in body axes.
+    The unit vector n is in the axes of the body with the faces.
     """
-    x, y, z = n
-    found, most = 0, -1.0
+    nearest, largest = 0, -1.0
     for i in range(int(n_faces)):
-        f = FACE * i
-        cosine = x * faces[f] + y * faces[f + 1] + z * faces[f + 2]
-        if cosine > most:
-            found, most = i, cosine
-    return found, most
+        cosine = dot(n, vector_at(faces, FACE * i))
+        if cosine > largest:
+            nearest, largest = FACE * i, cosine
+    return nearest, largest
 
 
 @compiled
@@ -57,14 +55,10 @@ def _normal_near(frame: Floats, n_faces: float, faces: Floats, n: Vector3) -> Ve
 
     Both vectors are in world axes.  The largest angle has the cosine ``_COSINE``.
     """
-    x, y, z = n
-    x, y, z = vector_in_body(frame, (x, y, z))
-    face, cosine = _nearest_normal(n_faces, faces, (x, y, z))
+    row, cosine = _nearest_normal(n_faces, faces, vector_in_body(frame, n))
     if cosine < _COSINE:
         return 0.0, 0.0, 0.0
-    f = FACE * face
-    x, y, z = vector_in_world(frame, vector_at(faces, f))
-    return x, y, z
+    return vector_in_world(frame, vector_at(faces, row))
 
 
 @compiled
@@ -91,12 +85,8 @@ def common_direction(
     n : Vector3
         Contact normal from the first body to the second, in world axes.
     """
-    x, y, z = n
-    ux, uy, uz = _normal_near(a, n_faces_a, faces_a, n)
-    vx, vy, vz = _normal_near(b, n_faces_b, faces_b, (-x, -y, -z))
-    if ux * vx + uy * vy + uz * vz > -_FLUSH_COSINE:
-        return 0.0, 0.0, 0.0
-    return ux, uy, uz
+    u, v = _normal_near(a, n_faces_a, faces_a, n), _normal_near(b, n_faces_b, faces_b, opposite(n))
+    return u if dot(u, v) <= -_FLUSH_COSINE else (0.0, 0.0, 0.0)
 
 
 @compiled
@@ -115,11 +105,7 @@ def vertex_past_corner(
     other: Floats,
     is_of_first: bool,
     direction: Vector3,
-    n_faces: float,
-    faces: Floats,
-    n_edges: float,
-    edges: Floats,
-    ends: Floats,
+    core: Floats,
     n_star: float,
     star: Floats,
     point: Vector3,
@@ -140,8 +126,8 @@ def vertex_past_corner(
         Whether the vertex belongs to the first body.
     direction : tuple of float
         Common direction from the other body to the body with the vertex, in world axes.
-    n_faces, faces, n_edges, edges, ends : float and Floats
-        Faces and edges of the core of the other body (:mod:`bodies.contacts.features.polytope_tables`).
+    core : Floats
+        Core of the other body (:func:`bodies.contacts.features.polytope_tables.core_numbers`).
     n_star, star : float and Floats
         Unit vectors along the edges of the vertex, in the axes of its body.
     point : Vector3
@@ -149,38 +135,31 @@ def vertex_past_corner(
     size : float
         Size of the larger body [m].
     """
-    x, y, z = point
+    n_faces, faces = faces_of(core)
     margin, past = CLOSED * size, math.inf
-    ux, uy, uz = vector_in_body(other, direction)
-    fx, fy, fz = ux, uy, uz
-    face, cosine = _nearest_normal(n_faces, faces, (ux, uy, uz))
+    u = vector_in_body(other, direction)
+    normal = u
+    row, cosine = _nearest_normal(n_faces, faces, u)
     if cosine >= _COSINE:
-        f = FACE * face
-        fx, fy, fz = vector_at(faces, f)
-        height = plane_height(faces, f, (x, y, z))
+        normal = vector_at(faces, row)
+        height = plane_height(faces, row, point)
         # move the vertex parallel to the face, so that its foot point becomes its projection along the direction
-        x, y, z = x + height * (fx - ux / cosine), y + height * (fy - uy / cosine), z + height * (fz - uz / cosine)
-        past = past_face(faces, n_faces, f, height, (x, y, z))
-    edge = -margin if is_of_first else margin
-    if past <= edge:
-        return past - edge, math.inf
+        point = plus_scaled(point, height, minus(normal, divided(u, cosine)))
+        past = past_face(faces, n_faces, row, height, point)
+    # the outline of the first body is enlarged: its vertices are corners only if they are inside by the margin
+    border = -margin if is_of_first else margin
+    if past <= border:
+        return past - border, math.inf
     if past <= margin:
         return past + margin, math.inf
-    _, distance, nx, ny, nz, within = nearest_feature(n_faces, faces, n_edges, edges, ends, (x, y, z))
-    along = nx * fx + ny * fy + nz * fz
-    nx, ny, nz = vector_in_world(other, (nx - along * fx, ny - along * fy, nz - along * fz))
-    nx, ny, nz = vector_in_body(own, (nx, ny, nz))
-    leads = -size
+    _, distance, x, y, z, within = nearest_of_core(core, point)
+    n = (x, y, z)
+    # the part of n in the plane of the face, from the face to the vertex
+    n = vector_in_body(own, vector_in_world(other, minus(n, scaled(dot(n, normal), normal))))
+    towards = -size
     for i in range(int(n_star)):
-        leads = max(leads, -distance * (nx * star[3 * i] + ny * star[3 * i + 1] + nz * star[3 * i + 2]))
-    return min(leads, past) - margin, within
-
-
-@compiled
-def _triple(u: Vector3, v: Vector3, w: Vector3) -> float:
-    """Return the scalar triple product u . (v x w)."""
-    x, y, z = v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]
-    return float(u[0] * x + u[1] * y + u[2] * z)
+        towards = max(towards, -distance * dot(n, vector_at(star, 3 * i)))
+    return min(towards, past) - margin, within
 
 
 @compiled
@@ -220,16 +199,15 @@ def crossing_past_corner(
     size : float
         Size of the larger body [m].
     """
-    ax, ay, az = point_in_world(a, vector_at(edges_a, at_a))
-    bx, by, bz = point_in_world(b, vector_at(edges_b, at_b))
-    sine = _triple(direction, e, f)
+    start_a, start_b = point_in_world(a, vector_at(edges_a, at_a)), point_in_world(b, vector_at(edges_b, at_b))
+    sine = dot(direction, cross(e, f))
     margin = CLOSED * size
+    # the projections of both edges are parallel
     if sine == 0.0:
         return size
     # the nearest points differ by gap n; the points whose projections coincide differ along the direction only
-    s = (p[0] - ax) * e[0] + (p[1] - ay) * e[1] + (p[2] - az) * e[2] + gap * _triple(direction, n, f) / sine
-    x, y, z = p[0] + gap * n[0] - bx, p[1] + gap * n[1] - by, p[2] + gap * n[2] - bz
-    t = x * f[0] + y * f[1] + z * f[2] + gap * _triple(direction, n, e) / sine
-    over_a, over_b = max(-s, s - edges_a[at_a + LENGTH]), max(-t, t - edges_b[at_b + LENGTH])
+    s = dot(minus(p, start_a), e) + gap * dot(direction, cross(n, f)) / sine
+    t = dot(minus(plus_scaled(p, gap, n), start_b), f) + gap * dot(direction, cross(n, e)) / sine
+    past_a, past_b = max(-s, s - edges_a[at_a + LENGTH]), max(-t, t - edges_b[at_b + LENGTH])
     # times the sine, a length along one edge becomes a distance from the line of the other edge
-    return float(max(over_a * abs(sine) - margin, over_b * abs(sine) + margin))
+    return float(max(past_a * abs(sine) - margin, past_b * abs(sine) + margin))

@@ -20,10 +20,14 @@ The others are indices of the offset at which the rows of that name begin.
 """
 FACE = 5
 """Floats in the row of a face: outward normal, distance of its plane from the origin [m], depth of the body [m]."""
+OFFSET = 3
+"""Offset in the row of a face: distance of its plane from the origin."""
 EDGE = 13
 """Floats in the row of an edge: first end [m], unit vector, length [m], unit vectors into its first and second face."""
 VERTEX = 5
 """Floats in the row of a vertex: position [m], number of its edges, index of the unit vectors along them."""
+N_STAR, STAR = 3, 4
+"""Offsets in the row of a vertex: number of its edges, index of the unit vectors along them."""
 START, ALONG, LENGTH, INTO_FIRST, INTO_SECOND = 0, 3, 6, 7, 10
 """Offsets in the row of an edge: first end, unit vector, length, unit vector into the first face, into the second."""
 
@@ -66,13 +70,13 @@ def part_names(polytope: Polytope) -> list[str]:
 
 @compiled
 def faces_of(core: Floats) -> tuple[float, Floats]:
-    """Return the number of the faces of a core, and their rows."""
+    """Return the number of the faces of a core, a whole number as a float, and the block with their rows."""
     return core[N_FACES], block_at(core, int(core[FACES]))
 
 
 @compiled
 def edges_of(core: Floats) -> tuple[float, Floats]:
-    """Return the number of the edges of a core, and their rows."""
+    """Return the number of the edges of a core, a whole number as a float, and the block with their rows."""
     return core[N_EDGES], block_at(core, int(core[EDGES]))
 
 
@@ -91,9 +95,9 @@ def vertex_at(core: Floats, vertex: float) -> int:
 def edge_rows(polytope: Polytope) -> list[Numbers]:
     """Return the row of each edge (:data:`EDGE`); a segment has no faces, so its unit vectors into the faces are 0."""
     vertices, edges = np.array(polytope.vertices), np.array(polytope.edges, dtype=int).reshape(-1, 4)
-    start, way = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
-    length = np.linalg.norm(way, axis=1, keepdims=True)
-    along, inward = way / length, np.zeros((2, len(edges), 3))
+    start, side = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
+    length = np.linalg.norm(side, axis=1, keepdims=True)
+    along, inward = side / length, np.zeros((2, len(edges), 3))
     of_faces = edges[:, 2] >= 0
     if np.any(of_faces):
         normals = np.array(polytope.planes)[edges[of_faces, 2:], :3]
@@ -113,8 +117,9 @@ def star_of(polytope: Polytope, vertex: int) -> Numbers:
     points, star = np.array(polytope.vertices), []
     for one, two, *_ in polytope.edges:
         if vertex in (one, two):
-            way = points[one] + points[two] - 2.0 * points[vertex]
-            star += (way / np.linalg.norm(way)).tolist()
+            # one of both ends is the vertex itself
+            side = points[one] + points[two] - 2.0 * points[vertex]
+            star += (side / np.linalg.norm(side)).tolist()
     return tuple(star)
 
 

@@ -21,8 +21,9 @@ from .polytope_tables import (
     ALONG,
     EDGE,
     EDGES,
-    ENDS,
     N_FACES,
+    N_STAR,
+    STAR,
     SWEEP,
     core_numbers,
     edges_of,
@@ -53,13 +54,12 @@ The sphere about the vertex is a part of its body, so that its gap is always an 
 def past_star(frame: Floats, star: Floats, n_star: float, distance: float, n: Vector3, size: float) -> float:
     """Return the distance of a contact past a vertex [m], less the tolerance ``2 END size``; negative if it is valid.
 
-    The nearest point of the other body's core is at ``distance`` [m] from the vertex, against the normal (nx, ny, nz).
+    The nearest point of the other body's core is at ``distance`` [m] from the vertex, against the normal n.
     The distance past the vertex is the largest coordinate of this point along an edge of the vertex, measured from
     the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the other
     core the result is negative.
     """
-    nx, ny, nz = n
-    n, past = vector_in_body(frame, (nx, ny, nz)), -size
+    n, past = vector_in_body(frame, n), -size
     for i in range(int(n_star) if distance > 0.0 else 0):
         past = max(past, -distance * dot(n, vector_at(star, 3 * i)))
     return past - 2.0 * END * size
@@ -186,21 +186,10 @@ def write_vertex(
         first, second = (own_faces, faces_of(core)) if swap == 1.0 else (faces_of(core), own_faces)
         u = common_direction(a, b, *first, *second, scaled(sign, n))
         if dot(u, u) > 0.0:
-            ends = block_at(core, int(core[ENDS]))
-            beyond, within = vertex_past_corner(
-                own_frame,
-                other,
-                swap == 1.0,
-                scaled(sign, u),
-                *faces_of(core),
-                *edges_of(core),
-                ends,
-                n_star,
-                star,
-                point,
-                size,
+            past_corner, within = vertex_past_corner(
+                own_frame, other, swap == 1.0, scaled(sign, u), core, n_star, star, point, size
             )
-            past = (1.0 - part) * past + part * beyond
+            past = (1.0 - part) * past + part * past_corner
         elif _is_along_side(own_frame, other, core, number, n_star, star):
             # a side along a side touches with both ends, also if it tilts
             past = (1.0 - part) * past - part * size
@@ -213,8 +202,8 @@ def evaluate_vertex_over_swept(
 ) -> None:
     """Write the geometry block of a vertex of a core over another core; arguments as in :func:`write_vertex`."""
     v = vertex_at(own, vertex)
-    place, star = vector_at(own, v), block_at(own, int(own[v + 4]))
-    write_vertex(a, b, out, swap, core, faces_of(own), place, own[v + 3], star, own[SWEEP], size)
+    place, star = vector_at(own, v), block_at(own, int(own[v + STAR]))
+    write_vertex(a, b, out, swap, core, faces_of(own), place, own[v + N_STAR], star, own[SWEEP], size)
 
 
 def bound_of_vertex(
@@ -258,7 +247,7 @@ def write_swept(
     if edge < 0:
         write_flat(out, side)
     elif edge < int(n_edges):
-        e = EDGE * edge
-        write_principal(out, side, vector_in_world(frame, vector_at(edges, e + 3)), 0.0, 1.0, 1.0, radius)
+        along = vector_in_world(frame, vector_at(edges, EDGE * edge + ALONG))
+        write_principal(out, side, along, 0.0, 1.0, 1.0, radius)
     else:
         write_round(out, side, radius)

@@ -123,12 +123,11 @@ def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, n: Vect
     """Write gap, axes and witness points of two rounded bodies, from the nearest points of their cores.
 
     On entry, the witness points in ``out`` are the nearest points of the cores.  If the cores touch, these points give
-    no normal, and (nx, ny, nz) is taken: it must be perpendicular to both cores.
+    no normal, and ``n`` is taken: it must be perpendicular to both cores.
     """
-    nx, ny, nz = n
     p, q = vector_at(out, POINT_A), vector_at(out, POINT_B)
     distance = norm(minus(q, p))
-    n = divided(minus(q, p), distance) if distance > 0.0 else (nx, ny, nz)
+    n = divided(minus(q, p), distance) if distance > 0.0 else n
     out[GAP] = distance - radius_a - radius_b
     write_vector(out, NORMAL, n)
     write_vector(out, POINT_A, plus_scaled(p, radius_a, n))
