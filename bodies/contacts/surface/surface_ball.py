@@ -13,6 +13,7 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, divided, minus, vector_at, write_vector
 from ..features.frames import point_in_body, point_in_world, vector_in_world
+from ..features.polytope_tables import ALONG
 from ..features.swept_vertex import END, NEAR, past_star
 from ..features.writing import place_sphere, write_flat, write_principal, write_round
 from .surface_search import ON_EDGE, ON_FACE, Found, edge_at, face_at, nearest_in_patch
@@ -43,7 +44,7 @@ def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: 
     if kind == ON_FACE:
         write_flat(out, side)
     elif kind == ON_EDGE:
-        along = vector_in_world(frame, vector_at(surface, edge_at(surface, number) + 3))
+        along = vector_in_world(frame, vector_at(surface, edge_at(surface, number) + ALONG))
         write_principal(out, side, along, 0.0, 1.0, 1.0, 0.0)
         out[FEATURE] += surface[N_FACES]
     else:
@@ -65,21 +66,23 @@ def write_ball(
     size: float,
     reach: float,
 ) -> None:
-    """Write the geometry block of a ball about a ``place`` of the second body and a patch of the first body.
+    """Write the geometry block of a ball about a ``place`` of the second body [m] and a patch of the first body.
 
-    Features of the patch are searched up to the distance ``reach`` from the ball's centre [m].
+    Features of the patch are searched up to the distance ``reach`` from the ball's centre [m].  A ball about a vertex
+    has its ``n_star`` edges: ``star`` holds unit vectors along them, in the axes of the second body.  ``radius`` is
+    that of the ball, ``size`` that of the bodies [m].
     """
     center = point_in_world(b, place)
-    x, y, z = point_in_body(a, center)
-    found = nearest_in_patch(surface, patch, (x, y, z), reach)
+    in_surface = point_in_body(a, center)
+    found = nearest_in_patch(surface, patch, in_surface, reach)
     distance, kind, number = found[0], found[2], found[3]
     # if there is one patch only, it is the whole surface: the contact point can never be past its end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
-    n = out_of_surface(a, surface, found, past, (x, y, z))
+    n = out_of_surface(a, surface, found, past, in_surface)
     # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
     if n_star > 0.0 and kind != ON_FACE:
-        beyond = past_star(b, star, n_star, distance, n, size)
-        past = max(past, min(beyond, -END * size) if distance - radius > NEAR * size else beyond)
+        past_vertex = past_star(b, star, n_star, distance, n, size)
+        past = max(past, min(past_vertex, -END * size) if distance - radius > NEAR * size else past_vertex)
     write_vector(out, NORMAL, n)
     if past > 0.0:
         apart = max(distance - radius, 0.0)

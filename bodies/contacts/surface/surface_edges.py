@@ -36,21 +36,22 @@ def past_surface(
     other: Floats,
     surface: Floats,
     edges: Floats,
-    at: int,
-    beyond: tuple[float, float],
+    row: int,
+    extensions: tuple[float, float],
     depth: float,
     point: Vector3,
 ) -> float:
     """Return how far an edge of the other body is from an overlap of this depth with a surface [m].
 
-    See :func:`bodies.contacts.surface.surface_vertex.past_depth`.  The row of the edge begins at the index ``at`` of
-    ``edges``; its body goes on past its ends by the lengths ``beyond`` [m].  ``point`` is the nearest point of the edge
-    in the world [m].
+    See :func:`bodies.contacts.surface.surface_vertex.past_depth`.  The row of the edge begins at the index ``row`` of
+    ``edges``; its body extends past its ends by the lengths ``extensions`` [m].  ``point`` is the nearest point of the
+    edge in the world [m].
     """
-    start, along = vector_at(edges, at), vector_at(edges, at + ALONG)
-    first, second = plus_scaled(start, -beyond[0], along), plus_scaled(start, edges[at + LENGTH] + beyond[1], along)
+    start, along, length = vector_at(edges, row), vector_at(edges, row + ALONG), edges[row + LENGTH]
+    first = plus_scaled(start, -extensions[0], along)
+    second = plus_scaled(start, length + extensions[1], along)
     ends = seen_from(frame, other, first), seen_from(frame, other, second)
-    into = block_at(edges, at + INTO_FIRST)
+    into = block_at(edges, row + INTO_FIRST)
     return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point)))
 
 

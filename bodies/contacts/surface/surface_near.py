@@ -12,7 +12,7 @@ from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import point_in_body, point_in_world
 from .surface_search import ON_FACE, box_square, face_at, feature_of, in_triangle, member_of, node_at, patch_of
 from .surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SKIP, UPPER
-from .surface_vertex import leaning
+from .surface_vertex import descent
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
 """Kinds of candidates, the first of a candidate's three numbers.
@@ -165,10 +165,8 @@ def patches_under(
             f = face_at(surface, face)
             px, py, pz, _ = in_triangle(surface, t, point)
             apart = minus(point, (px, py, pz))
-            if (
-                dot(apart, apart) <= reach * reach
-                and leaning(frame, other, surface, f, n_star, star) <= CONE_MARGIN + turn
-            ):
+            is_close = dot(apart, apart) <= reach * reach
+            if is_close and descent(frame, other, surface, f, n_star, star) <= CONE_MARGIN + turn:
                 n = _add_patch(surface[f + FACE_PATCH], kind, third, first, out, n)
         node += 1
     return n

@@ -62,8 +62,8 @@ def find_near_features(
     """Write near pairs to ``out`` as candidates: corners of b over patches of a, those of a over b, and two edges.
 
     At most ``most`` + 1 candidates are written, one more than there are contacts.  On entry ``out[0]`` is the largest
-    distance of a pair [m], on return the number of candidates.  The largest relative
-    rotation of the bodies until the next search is ``turning`` [rad/m] times this distance.
+    distance of a pair [m], on return the number of candidates.  The largest relative rotation of the bodies until the
+    next search is ``turning`` [rad/m] times this distance.
     """
     near = out[0], turning * out[0], int(most)
     n = _features_near(a, b, surface_a, surface_b, near, OVER_FIRST, out, 0)

@@ -199,16 +199,18 @@ def has_patch(surface: Floats, at: int, patch: float) -> bool:
 def first_leaf(surface: Floats, patch: float, point: Vector3) -> int:
     """Return the number of the tree node in which the search for a patch's nearest feature starts: a leaf.
 
-    The leaf may hold features of ``patch`` (of any patch if it is negative).  The leaf's box is near the point
-    ``point``, so that the distance found there excludes most other leaves.
+    The leaf may hold features of ``patch`` (of any patch if it is negative).  Its box is near the ``point``, so that
+    the distance found there excludes most other leaves.
     """
     node = 0
-    while surface[node_at(surface, node) + 8] == 0.0:
+    while surface[node_at(surface, node) + N_MEMBERS] == 0.0:
+        # the left subtree follows its parent, the right one follows the left
         left = node + 1
-        right = int(surface[node_at(surface, left) + 6])
-        one, two = node_at(surface, left), node_at(surface, right)
-        nearer = box_square(surface, one, point) <= box_square(surface, two, point)
-        node = left if has_patch(surface, one, patch) and (nearer or not has_patch(surface, two, patch)) else right
+        right = int(surface[node_at(surface, left) + SKIP])
+        row_left, row_right = node_at(surface, left), node_at(surface, right)
+        is_nearer = box_square(surface, row_left, point) <= box_square(surface, row_right, point)
+        takes_left = has_patch(surface, row_left, patch) and (is_nearer or not has_patch(surface, row_right, patch))
+        node = left if takes_left else right
     return node
 
 
@@ -284,7 +286,7 @@ def steepest(surface: Floats, corner: int, n: Vector3) -> float:
 
 @compiled
 def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float) -> Found:
-    """Return the nearest feature of a patch that a ball about the point point may touch.
+    """Return the nearest feature of a patch that a ball about a ``point``, in the axes of the surface, may touch.
 
     A ball may touch a feature if no neighbouring point of the surface is nearer: the distance past the feature's end is
     then not positive.  If the ball may touch no feature, the result is the feature with the least sum of two squares,
@@ -294,15 +296,17 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
     """
     x, y, z = point
     margin = REACH * surface[SIZE]
-    same = 4.0 * margin * margin
+    # squared distances that are equal within the margins of two features
+    tie = 4.0 * margin * margin
     best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
     nearest = x, y, z - reach
-    under, under_past, under_face = math.inf, 0.0, -1
+    # the least deep face above the point, if the point is inside of the body
+    depth, depth_past, depth_face = math.inf, 0.0, -1
     first = first_leaf(surface, patch, point)
     node = -1
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, point) > best + same):
+        if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, point) > best + tie):
             node = int(surface[at + SKIP])
             continue
         for i in range(int(surface[at + N_MEMBERS])):
@@ -313,29 +317,30 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
             if what == ON_FACE:
                 f = face_at(surface, which)
                 height = face_height(surface, f, point)
-                if height * height > best + same:
+                if height * height > best + tie:
                     continue
                 past_any, past_border = past_edges(surface, row, height, point)
-                if past_any <= margin and height < 0.0 and -height < under:
-                    under, under_past, under_face = -height, past_border - margin, which
+                if past_any <= margin and height < 0.0 and -height < depth:
+                    depth, depth_past, depth_face = -height, past_border - margin, which
                 if past_any <= margin and height >= 0.0:
-                    beyond, p = max(past_border, -surface[SIZE]), minus(point, scaled(height, vector_at(surface, f)))
+                    foot = minus(point, scaled(height, vector_at(surface, f)))
+                    past_end, p = max(past_border, -surface[SIZE]), foot
                 else:
                     px, py, pz, _ = in_triangle(surface, row, point)
-                    beyond, p = max(past_any, -height + 2.0 * margin), (px, py, pz)
+                    past_end, p = max(past_any, -height + 2.0 * margin), (px, py, pz)
             elif what == ON_EDGE:
-                beyond, p = past_edge(surface, row, point)
+                past_end, p = past_edge(surface, row, point)
             else:
-                beyond, p = past_corner(surface, row, point), vector_at(surface, row)
-            beyond -= margin
+                past_end, p = past_corner(surface, row, point), vector_at(surface, row)
+            past_end -= margin
             apart = minus(point, p)
             square = dot(apart, apart)
-            key = square + max(beyond, 0.0) * max(beyond, 0.0)
-            alike = key < best + same and beyond <= 0.0
-            if key < best - same or (alike and (past > 0.0 or what < kind)):
-                best, distance, past, kind, number, nearest = key, square**0.5, beyond, what, which, p
+            key = square + max(past_end, 0.0) * max(past_end, 0.0)
+            is_tie = key < best + tie and past_end <= 0.0
+            if key < best - tie or (is_tie and (past > 0.0 or what < kind)):
+                best, distance, past, kind, number, nearest = key, square**0.5, past_end, what, which, p
         node += 1
-    if under_face >= 0 and under * under < best and depth_inside(surface, point) > 0.0:
-        normal = vector_at(surface, face_at(surface, under_face))
-        return -under, under_past, ON_FACE, under_face, *plus_scaled(point, under, normal)
+    if depth_face >= 0 and depth * depth < best and depth_inside(surface, point) > 0.0:
+        normal = vector_at(surface, face_at(surface, depth_face))
+        return -depth, depth_past, ON_FACE, depth_face, *plus_scaled(point, depth, normal)
     return distance, past, kind, number, *nearest

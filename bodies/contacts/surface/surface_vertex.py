@@ -30,13 +30,13 @@ from .surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SIZE, SKIP
 
 
 @compiled
-def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: float, star: Floats) -> float:
+def descent(frame: Floats, other: Floats, surface: Floats, row: int, n_star: float, star: Floats) -> float:
     """Return the sine of the angle at which the steepest edge of the other body's vertex descends below a face.
 
-    It is negative if all edges ascend from the face.  The vertex has ``n_star`` edges; ``star`` holds unit vectors
-    along them.
+    It is negative if all edges ascend from the face, whose row begins at index ``row``.  The vertex has ``n_star``
+    edges; ``star`` holds unit vectors along them, in the axes of the other body.
     """
-    n = vector_in_body(other, vector_in_world(frame, vector_at(surface, face)))
+    n = vector_in_body(other, vector_in_world(frame, vector_at(surface, row)))
     down = -1.0
     for i in range(int(n_star)):
         down = max(down, -dot(n, vector_at(star, 3 * i)))
@@ -45,9 +45,9 @@ def leaning(frame: Floats, other: Floats, surface: Floats, face: int, n_star: fl
 
 @compiled
 def over_face(
-    surface: Floats, triangle: int, height: float, lean: float, margin: float, point: Vector3
+    surface: Floats, triangle: int, height: float, least: float, margin: float, point: Vector3
 ) -> tuple[float, float, float, float]:
-    """Return four numbers for a vertex, ``point``, and a triangle of the surface.
+    """Return four numbers for a vertex and a triangle of the surface.
 
     1. Distance past the edges of the triangle [m].
     2. Distance past those of its edges that are on the border of its face [m].
@@ -57,23 +57,27 @@ def over_face(
 
     Parameters
     ----------
+    surface, triangle : Floats, int
+        The surface, and the index at which the row of the triangle begins.
     height : float
         Height of the vertex over the plane of the triangle [m].
-    lean : float
+    least : float
         Least value of the three distances [m]: positive if an edge of the vertex descends too steeply below the face.
     margin : float
         Distance past an edge up to which the vertex is still over the triangle [m].
+    point : tuple of float
+        The vertex in the axes of the surface [m].
     """
-    over, ends = past_edges(surface, triangle, height, point)
-    over, ends = max(over - margin, lean), max(ends - margin, lean)
-    past, square = ends, height * height
-    if over > 0.0 or height < 0.0:
+    past_any, past_border = past_edges(surface, triangle, height, point)
+    past_any, past_border = max(past_any - margin, least), max(past_border - margin, least)
+    past, square = past_border, height * height
+    if past_any > 0.0 or height < 0.0:
         qx, qy, qz, _ = in_triangle(surface, triangle, point)
         apart = minus(point, (qx, qy, qz))
         square = dot(apart, apart)
-        out = square - height * height if height > 0.0 else square
-        past = max(math.sqrt(max(out, 0.0)) - margin, over)
-    return over, ends, past, square
+        past_square = square - height * height if height > 0.0 else square
+        past = max(math.sqrt(max(past_square, 0.0)) - margin, past_any)
+    return past_any, past_border, past, square
 
 
 @compiled
@@ -130,9 +134,10 @@ def past_depth(
             if square < least:
                 least, side = square, outward
             f = face_at(surface, face)
+            # a face counts as deep as its nearer points and the deeper end of the feature
             deep = max(-face_height(surface, f, ends[0]), -face_height(surface, f, ends[1]))
             deep = max(deep, math.sqrt(square))
-            if deep < least_deep and leaning(frame, other, surface, f, n_star, star) <= CONE_MARGIN:
+            if deep < least_deep and descent(frame, other, surface, f, n_star, star) <= CONE_MARGIN:
                 least_deep = deep
         node += 1
     outside = math.sqrt(least) if side >= 0.0 else 0.0
@@ -152,26 +157,25 @@ def face_under(
 ) -> tuple[int, float, float]:
     """Return face, gap and distance past the end [m] for a vertex of the other body and a patch in ``frame``.
 
-    ``place`` is the vertex in the frame of its body [m].
-
     The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
     face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face that it
-    may touch.  If the vertex may not touch the face, the gap is positive.
+    may touch.  If the vertex may not touch the face, the gap is positive.  If no face is within ``reach`` [m], gap and
+    distance past the end are ``reach``.
 
-    ``star`` holds unit vectors along the vertex's edges.  If no face is within ``reach`` [m],
-    gap and distance past the end are ``reach``.
+    ``place`` is the vertex in the axes of its body [m]; ``star`` holds unit vectors along its ``n_star`` edges.
     """
-    x, y, z = point_in_body(frame, point_in_world(other, place))
+    point = point_in_body(frame, point_in_world(other, place))
     size = surface[SIZE]
     # a point by itself has no edges beside it
     margin = (CLOSED if n_star > 0.0 else REACH) * size
     best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
-    under, under_past, under_face = math.inf, 0.0, -1
-    first = first_leaf(surface, patch, (x, y, z))
+    # the least deep face above the vertex, if it is inside of the body
+    depth, depth_past, depth_face = math.inf, 0.0, -1
+    first = first_leaf(surface, patch, point)
     node = -1
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and (box_square(surface, at, (x, y, z)) > best or not has_patch(surface, at, patch)):
+        if node >= 0 and (box_square(surface, at, point) > best or not has_patch(surface, at, patch)):
             node = int(surface[at + SKIP])
             continue
         for i in range(int(surface[at + N_MEMBERS])):
@@ -179,19 +183,18 @@ def face_under(
             if what != ON_FACE:
                 continue
             f = face_at(surface, face)
-            height = face_height(surface, f, (x, y, z))
+            height = face_height(surface, f, point)
             if surface[f + FACE_PATCH] != patch or height * height > best:
                 continue
-            lean = size * (leaning(frame, other, surface, f, n_star, star) - CONE_MARGIN)
-            over, inside, ends, square = over_face(surface, t, height, lean, margin, (x, y, z))
-            if over <= 0.0 and height < 0.0 and -height < under:
-                under, under_past, under_face = -height, inside, face
-            key = square + max(ends, 0.0) * max(ends, 0.0)
+            least = size * (descent(frame, other, surface, f, n_star, star) - CONE_MARGIN)
+            past_any, past_border, past_part, square = over_face(surface, t, height, least, margin, point)
+            if past_any <= 0.0 and height < 0.0 and -height < depth:
+                depth, depth_past, depth_face = -height, past_border, face
+            key = square + max(past_part, 0.0) * max(past_part, 0.0)
             if key < best:
-                best, height_best, apart, past, found = key, height, math.sqrt(square), ends, face
+                best, height_best, apart, past, found = key, height, math.sqrt(square), past_part, face
         node += 1
-    is_above = under_face >= 0 and under * under < best
-    point = x, y, z
-    if is_above and past_depth(frame, other, surface, n_star, star, (point, point), under, point) <= 0.0:
-        return under_face, -under, under_past
+    is_below = depth_face >= 0 and depth * depth < best
+    if is_below and past_depth(frame, other, surface, n_star, star, (point, point), depth, point) <= 0.0:
+        return depth_face, -depth, depth_past
     return found, height_best if past <= 0.0 else math.hypot(apart, past), past
