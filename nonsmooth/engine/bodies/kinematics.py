@@ -378,7 +378,7 @@ def evaluate_jacobian(ws: Workspace, c: int) -> None:
 
 
 @kernel("v3(F, i8, v3, v3, v3)")
-def _acceleration(floats: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
+def acceleration_at(floats: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
     """Derivative of the velocity of the body at its witness point, while the body's velocities are constant [m/s^2].
 
     It is c + b x r + omega x (omega x r + slide), with r = point - origin. The point slides relative to the frame at
@@ -425,8 +425,8 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
     motion = _witness_motion(ws, contact, t1, t2, slip)
     # accelerations of the witness points, second minus first, as the turning bodies carry the sliding points
     acceleration = minus(
-        _acceleration(ws.floats, contact.frame_b, contact.point_b, scaled(motion.w1, t1), scaled(motion.w2, t2)),
-        _acceleration(ws.floats, contact.frame_a, contact.point_a, scaled(motion.u1, t1), scaled(motion.u2, t2)),
+        acceleration_at(ws.floats, contact.frame_b, contact.point_b, scaled(motion.w1, t1), scaled(motion.w2, t2)),
+        acceleration_at(ws.floats, contact.frame_a, contact.point_a, scaled(motion.u1, t1), scaled(motion.u2, t2)),
     )
     # the axes turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
     n1, n2 = turn_1 + motion.nu1, turn_2 + motion.nu2

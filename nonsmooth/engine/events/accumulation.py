@@ -17,7 +17,7 @@ import math
 
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
-from nonsmooth.engine.bodies.kinematics import row
+from nonsmooth.engine.bodies.kinematics import acceleration_at, row, sliding_of
 from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
@@ -27,14 +27,13 @@ from nonsmooth.engine.delassus.islands import activate_group, group_closed, grou
 from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.coincident import closed_coincident, replace_coincident
 from nonsmooth.engine.events.record import NO_PHASES, begin_event, record_event
-from nonsmooth.engine.flow.averaging_time import leaves_features
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.memory.event_rows import CLOSING_LOSS, DRIVEN_WORK
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
-from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
+from nonsmooth.engine.native.kernel import ContactRecord, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import dot, length, minus
 
 _PART_AT_REST = 1.0 - 1e-6
 """Part of an averaging span within which a bounce is short: all contacts come to rest at its end, up to round-off."""
@@ -70,9 +69,7 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
 
     With the rate v and the acceleration -a, the condition is gap + T (v - a T) <= 0: one step of the time-stepping rule
     by which averaged forces are found. The contact closes again after 2 v / a. The next step is at most 1.5 times as
-    long, so that it does not miss that. The acceleration of the gap holds on the present features only: a contact point
-    that leaves them before does not come back. That of two nearly parallel cylinders runs along them at a speed that
-    has no bound.
+    long, so that it does not miss that.
     """
     contact = ws.contacts[c]
     rate = contact.normal_rate
@@ -80,12 +77,42 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
     if rate <= ws.tolerance.velocity or acceleration <= 0.0:
         return False
     ws.island.first_step = min(ws.island.first_step, 3.0 * rate / acceleration)
+    acceleration = _approach_of_bodies(ws, contact)
     # a contact that coincides with a closed one is the same contact, and does not bounce
     is_back = (rate - acceleration * time) * time <= -max(0.0, contact.gap)
-    if not is_back or closed_coincident(ws, c) != NO_CONTACT:
-        return False
+    return is_back and closed_coincident(ws, c) == NO_CONTACT
+
+
+@kernel("b1(ws, ContactRecord)")
+def _runs(ws: Workspace, contact: ContactRecord) -> bool:
+    """True if the contact point runs along features with an end, faster than the bodies move there.
+
+    That of two nearly parallel cylinders that turn has no bound of its speed. A point that slides or rolls is not
+    faster than slip and turning together.
+    """
+    spin = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
+    radius, sliding = min(contact.support_radius_a, contact.support_radius_b), sliding_of(ws, contact)
+    speed = length(contact.slip) + math.sqrt(dot(spin, spin)) * radius
     # features without an end have 0
-    return contact.past_feature == 0.0 or not leaves_features(ws, c, 2.0 * rate / acceleration)
+    return contact.past_feature != 0.0 and math.sqrt(dot(sliding, sliding)) > speed
+
+
+@kernel("f8(ws, ContactRecord)")
+def _approach_of_bodies(ws: Workspace, contact: ContactRecord) -> float:
+    """Acceleration with which a contact approaches without contact forces [m/s^2], which an accumulation needs.
+
+    A contact point that runs along its bodies turns their normal, which adds to the acceleration of the gap. Such
+    bounces do not accumulate, as the next one is elsewhere. Then at most the acceleration of the bodies at the contact
+    point counts.
+    """
+    by_forces = row(ws, contact.index, NORMAL_ROW, ws.island.du.start)
+    approach = -(contact.bias[0] + by_forces)
+    if not _runs(ws, contact):
+        return approach
+    fixed = 0.0, 0.0, 0.0
+    of_first = acceleration_at(ws.floats, contact.frame_a, contact.point_a, fixed, fixed)
+    of_second = acceleration_at(ws.floats, contact.frame_b, contact.point_b, fixed, fixed)
+    return min(approach, -(dot(contact.axis_n, minus(of_second, of_first)) + by_forces))
 
 
 @kernel("i8(ws)")
@@ -215,7 +242,7 @@ def slow_speed(ws: Workspace) -> float:
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         time = min(time, contact.contact_time)
-        largest = max(largest, -(contact.bias[0] + row(ws, active.contact, NORMAL_ROW, ws.island.du.start)))
+        largest = max(largest, _approach_of_bodies(ws, contact))
     return float(largest * time)
 
 

@@ -43,23 +43,18 @@ def _normalise(ws: Workspace) -> None:
             ws.floats[q + i] /= size
 
 
-@kernel("i8(ws, f8)")
-def _free_change(ws: Workspace, time: float) -> int:
-    """Write the change of the velocities in a ``time`` [s] without contact forces; return its place in ``y_guess``."""
-    change = ws.step.y_guess.start + ws.model.n_q
-    for i in range(ws.model.n_u):
-        ws.floats[change + i] = time * ws.island.du[i]
-    return change
-
-
 @kernel("void(ws, f8)")
 def _extrapolate(ws: Workspace, time: float) -> None:
-    """Evaluate the bodies after a ``time`` [s], with the change of their velocities that is in ``y_guess``.
+    """Evaluate the bodies and the gaps of the active contacts after a ``time`` [s] under their impulses in ``forces``.
 
     The positions are of second order: they follow from the mean of the velocities at both ends of that time.
-    ``y_stage`` is overwritten.
+    ``y_guess`` and ``y_stage`` are overwritten.
     """
+    # the change of the velocities is in y_guess, the extrapolated state in y_stage
     change, velocities = ws.step.y_guess.start + ws.model.n_q, ws.step.y_stage.start + ws.model.n_q
+    for i in range(ws.model.n_u):
+        ws.floats[change + i] = time * ws.island.du[i]
+    add_response(ws, ws.problem.forces.start, change)
     for i in range(ws.model.n_y):
         ws.step.y_stage[i] = ws.island.y[i]
     for i in range(ws.model.n_u):
@@ -73,23 +68,8 @@ def _extrapolate(ws: Workspace, time: float) -> None:
             ws.step.y_stage[body.q + i] += time * rates[i]
     _normalise(ws)
     evaluate_bodies(ws, ws.island.time + time, ws.step.y_stage.start)
-
-
-@kernel("b1(ws, i8, f8)")
-def leaves_features(ws: Workspace, c: int, time: float) -> bool:
-    """True if the point of contact ``c`` is past the end of its features after a ``time`` [s] without contact forces.
-
-    Accelerations without contact forces must be written. Afterwards bodies and contact are evaluated at the present
-    state again.
-    """
-    _free_change(ws, time)
-    _extrapolate(ws, time)
-    evaluate_geometry(ws, c)
-    leaves = ws.contacts[c].past_feature > ws.tolerance.gap
-    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-    copy_inner_states(ws, ws.island.y.start)
-    evaluate_contact(ws, c, rows=3)
-    return leaves
+    for active in ws.actives:
+        evaluate_geometry(ws, active.contact)
 
 
 @kernel("f8(ws)")
@@ -123,11 +103,9 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
     work = _allowed_work(ws)
     for active in ws.actives:
         active.gap_after = gap_after(ws, active.index, time)
-    add_response(ws, ws.problem.forces.start, _free_change(ws, time))
     _extrapolate(ws, time)
     worst = 0.0
     for active in ws.actives:
-        evaluate_geometry(ws, active.contact)
         contact = ws.contacts[active.contact]
         if not contact.is_compliant and active.normal_force > 0.0 and contact.past_feature <= 0.0:
             # the normal force is an impulse here
