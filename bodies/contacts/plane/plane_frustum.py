@@ -51,6 +51,8 @@ def evaluate_rim_over_plane(
     n, along_axis = axis_of(a, 2), vector_in_world(b, vector_at(axis, 0))
     along, sine, radial = across(opposite(n), along_axis)
     distance, protrusion, is_crown = radius, 0.0, sine < crown
+    # the crown is a cap of a sphere of radius R = radius / crown: its lowest point is at R sine from the axis; it
+    # protrudes by the difference of the cosines times R, here without cancellation
     if is_crown:
         distance *= sine / crown
         sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)

@@ -67,9 +67,9 @@ def past_if_convex(
 ) -> float:
     """Return the distance past the boundary of two edges of convex cores that cross [m].
 
-    The cores overlap by their largest separation along any normal, so that the edges touch only if their own normal has
-    it.  Edges whose gap is below zero do not face each other if the cores overlap less along the normal of a face.  If
-    both nearest points are outside of the other core, the normals of all pairs of edges count, too.
+    The separation of convex cores is the largest one over all normals.  So edges with a gap below zero do not face each
+    other if the separation along the normal of a face is larger.  If both nearest points are outside of the other core,
+    the common normals of all pairs of edges count, too.
 
     Flush edges do not face each other if a face separates the cores as well as their common normal: then the vertices
     over the face touch.  Edges are flush if they are so nearly parallel that the ends of the shorter edge are within
@@ -98,6 +98,7 @@ def past_if_convex(
     if past <= margin and (gap < -margin or is_flush):
         separation = max(separation_of_faces(a, b, core_a, core_b), separation_of_faces(b, a, core_b, core_a))
         if is_flush and separation >= gap - margin:
+            # positive: the vertices over the face touch instead
             past = max(past, margin - ends_apart)
         height = min(height_over(b, *faces_of(core_b), p), height_over(a, *faces_of(core_a), plus_scaled(p, gap, n)))
         if gap < -margin and height > margin:

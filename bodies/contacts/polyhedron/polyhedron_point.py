@@ -36,7 +36,7 @@ def evaluate_vertex_over_faces(
     write_vector(out, NORMAL, vector_in_world(other, scaled(sign, normal)))
     write_vector(out, near, place)
     write_vector(out, far, minus(place, scaled(sign * gap, vector_at(out, NORMAL))))
-    # a tangent that is fixed to the body of the face: no spin of the other body turns it
+    # the tangent, like the normal, is fixed to the body of the face
     write_vector(out, TANGENT, vector_in_world(other, tangent_of(normal)))
     write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, 0.0)

@@ -56,6 +56,7 @@ def evaluate_capsule_sphere(a: Floats, b: Floats, out: Floats, first: Floats, ra
     nearest = _clamped(along, half)
     write_vector(out, POINT_B, point)
     write_vector(out, POINT_A, plus_scaled(middle, nearest, axis))
+    # the normal, if the centre of the sphere is on the axis: any vector across the axis
     x, y, z = tangent_of(axis)
     join_cores(a, out, radius_a, radius, (x, y, z))
     if nearest == along:

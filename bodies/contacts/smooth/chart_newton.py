@@ -124,17 +124,13 @@ def _climb(first: SemiAxes, second: SemiAxes, turn: Axes, center: Vector3, start
 
 
 @compiled
-def _is_least(g: float, slide_a: Symmetric, turn_a: Symmetric, slide_b: Symmetric, turn_b: Symmetric) -> bool:
+def _is_least(g: float, s_a: Symmetric, u_a: Symmetric, s_b: Symmetric, u_b: Symmetric) -> bool:
     """Return whether H_A + H_B + g has a trace below 0: then the gap g [m] is no maximum.
 
     This is so where the second body is farthest from a point.  The trace of H = U S^-1 is that of U times the adjugate
-    of S, over the determinant of S.  All is multiplied by both determinants, which are 0 at flat places.  Slide is S
-    and turn is U of either body.
+    of S, over the determinant of S.  All is multiplied by both determinants, which are 0 at flat places.
     """
-    flat_a, flat_b = (
-        slide_a[0] * slide_a[2] - slide_a[1] * slide_a[1],
-        slide_b[0] * slide_b[2] - slide_b[1] * slide_b[1],
-    )
-    bent_a = turn_a[0] * slide_a[2] + turn_a[2] * slide_a[0] - 2.0 * turn_a[1] * slide_a[1]
-    bent_b = turn_b[0] * slide_b[2] + turn_b[2] * slide_b[0] - 2.0 * turn_b[1] * slide_b[1]
+    flat_a, flat_b = (s_a[0] * s_a[2] - s_a[1] * s_a[1], s_b[0] * s_b[2] - s_b[1] * s_b[1])
+    bent_a = u_a[0] * s_a[2] + u_a[2] * s_a[0] - 2.0 * u_a[1] * s_a[1]
+    bent_b = u_b[0] * s_b[2] + u_b[2] * s_b[0] - 2.0 * u_b[1] * s_b[1]
     return bool(flat_b * bent_a + flat_a * bent_b + 2.0 * g * flat_a * flat_b < 0.0)

@@ -80,29 +80,25 @@ def climb(
             else:
                 s = 0.0
             residual = math.sqrt(r * r + s * s)
-            # eigenvalues low <= high, and the angle of the vector of high
+            # eigenvalues low <= high, the angle of the vector of high, and r along both vectors
             middle, half = 0.5 * (tt + uu), 0.5 * (tt - uu)
             half_difference = math.sqrt(half * half + tu * tu)
             low, high = middle - half_difference, middle + half_difference
             angle = 0.5 * math.atan2(tu, half)
             cosine, sine = math.cos(angle), math.sin(angle)
-            along_high, along_low = cosine * r + sine * s, cosine * s - sine * r
+            r_high, r_low = cosine * r + sine * s, cosine * s - sine * r
             if has_ended(residual, last_residual, size):
                 if residual > RIGHT * size:
                     return math.nan, n
                 if low >= -CLOSE * size:
                     return g, n
                 # a stationary point that is not a maximum: leave it along the direction in which g grows most
-                along_high, along_low, last_residual = 0.0, _SADDLE, math.inf
+                r_high, r_low, last_residual = 0.0, _SADDLE, math.inf
             else:
                 # by absolute values, so that the step increases g
                 least = ROUND_OFF * size
-                along_high, along_low, last_residual = (
-                    along_high / max(abs(high), least),
-                    along_low / max(abs(low), least),
-                    residual,
-                )
-            r, s = cosine * along_high - sine * along_low, sine * along_high + cosine * along_low
+                r_high, r_low, last_residual = (r_high / max(abs(high), least), r_low / max(abs(low), least), residual)
+            r, s = cosine * r_high - sine * r_low, sine * r_high + cosine * r_low
             length = math.sqrt(r * r + s * s)
             if length > _WIDEST:
                 r, s = r * _WIDEST / length, s * _WIDEST / length

@@ -127,10 +127,9 @@ _ROUND = 8
 """Number of directions about a segment from which Newton's method starts, if the segment is deep in the body."""
 
 Stop: TypeAlias = tuple[float, Vector3, int, int, Vector3]
-"""A stop: gap [m], normal, kind and number of the feature on which the walk continues, and a vector.
+"""A stop: gap [m], normal, kind and number of the feature on which the walk continues, and a point.
 
-If the walk ends here, the vector is a point of the feature [m]; else it is the start of the next search, if it needs
-one: a point of a face [m].
+The point [m] is one of the feature, if the walk ends, or the start on the next feature, if this is a face.
 """
 Nearest: TypeAlias = tuple[float, Vector3, int, Vector3]
 """Gap of the cores [m], normal, number of the polytope's nearest feature and a point of this feature [m].
@@ -260,8 +259,7 @@ def _stop_on_edge(
 def _stop_on_vertex(hull: Floats, core: Core, turn: Axes, center: Vector3, number: int, start: Vector3) -> Stop:
     """Return the stop on a vertex, from the normal ``start``; the other arguments are those of :func:`_stop_on`.
 
-    If the normal leads along an edge, the distance decreases there.  The walk continues on the edge with the largest
-    slope.
+    If the normal leads along an edge, the distance decreases there: the walk continues on the steepest such edge.
     """
     v = _vertex(hull, number)
     g, _, n = widest_from(hull, core, turn, minus(center, v), (0.0, 0.0, 0.0), start)
@@ -292,7 +290,7 @@ def _stop_on(
     """Return the stop on the feature of a ``kind`` with a ``number``: the minimum over its plane or line, or its point.
 
     ``start`` is a point of a face [m], or the normal with which the search on an edge or a vertex starts, of any
-    length. ``margin`` is the distance past the border of a feature that is round-off [m].  All vectors are in the axes
+    length.  ``margin`` is the distance past the border of a feature that is round-off [m].  All vectors are in the axes
     of the polytope ``hull``; ``turn`` and ``center`` are those of :mod:`bodies.contacts.smooth.smooth_core`.
     """
     if kind == _FACE:
@@ -308,9 +306,9 @@ def _stop_on(
 def _nearest(hull: Floats, core: Core, turn: Axes, center: Vector3) -> Nearest:
     """Return gap, normal, nearest feature and point of a polytope and a smooth body.
 
-    It is the final stop of the walk, if this stop is valid: its overlap is below ``_SHALLOW``, or is proved.  Otherwise
-    the trial of all features decides.  Of a segment, the search along the segment is tried before it.  ``center`` is
-    the centre of the smooth body's core in the axes of the polytope [m].
+    It is the final stop of the walk, if its overlap is below ``_SHALLOW`` or proved.  Otherwise it is the stop with the
+    largest gap, of this one and those of all features.  If a search along a segment finds a gap that is not negative,
+    this is the result.  ``center`` is the centre of the smooth body's core in the axes of the polytope [m].
     """
     n_edges, n_faces = int(hull[N_EDGES]), int(hull[N_FACES])
     start = _vertex(hull, 0)
@@ -325,7 +323,6 @@ def _nearest(hull: Floats, core: Core, turn: Axes, center: Vector3) -> Nearest:
         # on an edge or a vertex, Newton's method starts with the direction to the smooth body's centre
         if kind != _FACE:
             start = minus(center, _begin_of_edge(hull, number) if kind == _EDGE else _vertex(hull, number))
-        # the last result is a point of the feature: for the start of the next one, or as the result
         g, n, next_kind, next_number, start = _stop_on(hull, core, turn, center, margin, kind, number, start)
         stop = g, n, _feature(hull, kind, number), start
         if next_kind == _HERE and g >= -_SHALLOW * size:
@@ -353,7 +350,7 @@ def _nearest(hull: Floats, core: Core, turn: Axes, center: Vector3) -> Nearest:
     if best[0] == best[0] and not of_all[0] > best[0]:
         return best
     if of_all[0] != of_all[0] and on_segment[0] == on_segment[0]:
-        # the trial of all features found nothing: return the overlap that the search along the segment found
+        # no feature has a final stop: return the overlap that the search along the segment found
         return on_segment
     if of_all[0] != of_all[0] and n_faces == 0:
         of_all = _deep_segment(hull, core, turn, center, size)
@@ -362,10 +359,9 @@ def _nearest(hull: Floats, core: Core, turn: Axes, center: Vector3) -> Nearest:
 
 @compiled
 def _deep_segment(hull: Floats, core: Core, turn: Axes, center: Vector3, size: float) -> Nearest:
-    """Return the result of :func:`_nearest` for a segment deep in the smooth body.
+    """Return the result of :func:`_nearest` for a segment deep in the smooth body: the largest gap of ends and side.
 
-    The largest gap of the ends and the side is taken.  At an end the search starts from directions with a large gap, on
-    the side from ``_ROUND`` directions round the segment.
+    At an end the search starts from directions with a large gap, on the side from ``_ROUND`` directions round it.
     """
     best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, (0.0, 0.0, 0.0))
     e, _ = _edge(hull, 0)

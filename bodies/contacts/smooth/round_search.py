@@ -313,20 +313,12 @@ def _facing_points(
     # a point has no arc, and a body's point on the surface is exact
     if radius == 0.0 or not least > _SAME:
         return best, least * extent
-    facing, _ = facing_point(core, turn, center, n)
-    facing, on_circle = plus_scaled(facing, -g, n), plus_scaled(p, -g, n)
-    # search an arc about the direction of the body's support point; it includes the present point of the circle
-    middle = math.atan2(facing[1], facing[0])
-    is_off_axis = on_circle[0] * on_circle[0] + on_circle[1] * on_circle[1] > 0.0
-    half_width = (
-        abs(
-            math.atan2(
-                on_circle[0] * facing[1] - on_circle[1] * facing[0], on_circle[0] * facing[0] + on_circle[1] * facing[1]
-            )
-        )
-        if is_off_axis
-        else 0.0
-    )
+    q, _ = facing_point(core, turn, center, n)
+    q, c = plus_scaled(q, -g, n), plus_scaled(p, -g, n)
+    # search an arc about the direction of q, from the body's support point; it includes the circle's present point c
+    middle = math.atan2(q[1], q[0])
+    is_off_axis = c[0] * c[0] + c[1] * c[1] > 0.0
+    half_width = abs(math.atan2(c[0] * q[1] - c[1] * q[0], c[0] * q[0] + c[1] * q[1])) if is_off_axis else 0.0
     low, high = middle - half_width - _FIRST, middle + half_width + _FIRST
     for _ in range(_STEPS):
         angle_1, angle_2 = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
