@@ -18,7 +18,7 @@ from .bracket import bracket, narrowed, next_place
 from .smooth_core import Axes, NearestPoint, facing_point, largest_semi_axis, spread
 
 _SAMPLES = 8
-"""Number of directions, evenly spaced round the axis of the line, at which the gap is sampled before the search."""
+"""Number of parts of the half-circle of directions round n, at whose ends the gap is sampled before the search."""
 _STEPS = 200
 """Largest number of secants and halvings."""
 _CLOSED = 4e-16

@@ -97,7 +97,7 @@ def climb(
             else:
                 # by absolute values, so that the step increases g
                 least = ROUND_OFF * size
-                r_high, r_low, last_residual = (r_high / max(abs(high), least), r_low / max(abs(low), least), residual)
+                r_high, r_low, last_residual = r_high / max(abs(high), least), r_low / max(abs(low), least), residual
             r, s = cosine * r_high - sine * r_low, sine * r_high + cosine * r_low
             length = math.sqrt(r * r + s * s)
             if length > _WIDEST:

@@ -66,6 +66,8 @@ def _inscribed_radius(core: Core, limit: float, point: Vector3, normal: Vector3)
     if min(min(r, w), min(s, t)) == 0.0:
         # the second derivative has no bound in this cube: the radius is 0
         return 0.0
+    # bounds of the second derivative divided by j: across the third axis, from r and the direction of (x, y), and along
+    # it. The function is homogeneous, so that G = j / height; L is j times the larger bound
     power = 1.0 - 2.0 / k
     along = (j - 1.0) * (high_s ** (power + 1.0) / (a * a) + high_t ** (power + 1.0) / (b * b))
     around = (k - 1.0) * (s**power * high_t / (a * a) + t**power * high_s / (b * b))

@@ -147,8 +147,8 @@ def _between(
     """Return gap [m], smooth body's point [m] and normal at the least distance between two angles of the circle [rad].
 
     ``falling`` and ``rising`` are the derivatives of the distance by the arc length at the angles ``low`` and ``high``,
-    of opposite signs: the distance decreases from either end into the interval.  The other arguments are those of
-    :func:`round_circle`.
+    of opposite signs: the distance decreases from either end into the interval.  ``high`` may be the lesser angle.  The
+    other arguments are those of :func:`round_circle`.
     """
     sample = _sample(point, core, turn, center, radius, high)
     sides = bracket(low, high, falling, rising)
@@ -274,8 +274,8 @@ def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, l
                 continue
             solution = _solution_of(circle, (gap_at_limit, n))
         if not solution[0] <= best[0]:
-            solution, off_cone = _facing_points(circle, core, turn, center, solution)
-            if off_cone <= _OVER * limit[2]:
+            solution, off_surface = _facing_points(circle, core, turn, center, solution)
+            if off_surface <= _OVER * limit[2]:
                 best = solution
     return best
 

@@ -251,10 +251,10 @@ def _in_charts(first: Core, second: Core, turn: Axes, center: Vector3, start: Ve
     if solution[0] != solution[0] and first[0] > 0.0 and first[2] == 0.0:
         n = unit(start)
         g, n = uphill(first, second, turn, center, (gap_along(first, second, turn, center, n), n), _NEXT_TO)
-        shallow = g >= -_SUNK * _thickness(first, second)
-        if shallow and max(abs(n[0]), abs(n[1])) < _ON_AXIS:
+        is_shallow = g >= -_SUNK * _thickness(first, second)
+        if is_shallow and max(abs(n[0]), abs(n[1])) < _ON_AXIS:
             return math.nan, center, n
-        if shallow:
+        if is_shallow:
             solution = _by_steps(first, second, turn, center, n, 0)
     # change ellipsoids into the cores step by step
     if solution[0] != solution[0]:

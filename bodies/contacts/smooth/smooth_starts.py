@@ -74,12 +74,12 @@ def starts_of(first: Core, second: Core, turn: Axes, center: Vector3) -> Starts:
     """
     none: Start = (-math.inf, (0.0, 0.0, 0.0))
     kept: Starts = (none, none, none, none)
-    # the directions (-1, 0 or 1)^3 along the axes of the first core, then of the second, without (0, 0, 0)
+    # vectors with the components -1, 0 or 1 in the axes of the first core, then of the second; number 13 is 0
     for i in range(54):
-        direction = i % 27
-        if direction == 13:
+        number = i % 27
+        if number == 13:
             continue
-        n = unit((direction // 9 - 1.0, direction // 3 % 3 - 1.0, direction % 3 - 1.0))
+        n = unit((number // 9 - 1.0, number // 3 % 3 - 1.0, number % 3 - 1.0))
         if i >= 27:
             n = rotated(turn, n)
         kept = _updated(kept, (gap_along(first, second, turn, center, n), n))
@@ -88,7 +88,10 @@ def starts_of(first: Core, second: Core, turn: Axes, center: Vector3) -> Starts:
 
 @compiled
 def _updated(kept: Starts, new: Start) -> Starts:
-    """Return the kept starts, of which a new one with a larger gap replaces one: the one next to it, else the least."""
+    """Return the kept starts, of which the new one replaces one if it has a larger gap.
+
+    It replaces a start close to it, or, if there is none, the start with the least gap.
+    """
     index, least = -1, min(min(kept[0][0], kept[1][0]), min(kept[2][0], kept[3][0]))
     for i in range(4):
         if index < 0 and dot(kept[i][1], new[1]) > _NEAR:
