@@ -16,7 +16,7 @@ from nonsmooth.compiled import compiled
 from ...shapes.support_function import OF_FUNCTION, Core, gauge_of
 from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
 from .dual_newton import climb
-from .smooth_core import POINT, Axes, NearestPoint, largest_semi_axis, rotated_back, spread
+from .smooth_core import POINT, POWERS, Axes, NearestPoint, largest_semi_axis, rotated_back, spread
 
 
 @compiled
@@ -48,11 +48,11 @@ def _inscribed_radius(core: Core, limit: float, point: Vector3, normal: Vector3)
     """
     a, b, c = vector_at(core, 0)
     height = dot(normal, point)
-    if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
+    if core[POWERS] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
         return 0.0
     # the function is r^j + |z / c|^j, with r^k = |x / a|^k + |y / b|^k. First: bounds of |x / a|^k, |y / b|^k and
     # |z / c| in a cube that contains the ball of radius ``limit``, and bounds of the parts s and t of x and y in r^k
-    j, k = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
+    j, k = core[POWERS] / (core[POWERS] - 1.0), core[POWERS + 1] / (core[POWERS + 1] - 1.0)
     x, y, z = plus_scaled(point, -limit, normal)
     x, y, z = abs(x), abs(y), abs(z)
     low_x, low_y, low_z = (max(x - limit, 0.0) / a) ** k, (max(y - limit, 0.0) / b) ** k, max(z - limit, 0.0) / c
@@ -82,7 +82,7 @@ def gauge(core: Core, point: Vector3) -> float:
     A core given by a support function has no gauge in closed form.  There the result is 1 + signed distance / size, or
     nan if no normal was found.
     """
-    if core[3] != OF_FUNCTION:
+    if core[POWERS] != OF_FUNCTION:
         return float(gauge_of(core, point))
     size, no_axis = largest_semi_axis(core), (0.0, 0.0, 0.0)
     # near the centre the direction to it is lost in round-off

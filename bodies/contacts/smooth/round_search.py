@@ -91,7 +91,7 @@ def round_circle(point: Core, core: Core, turn: Axes, center: Vector3, radius: f
         The search starts at the direction of its part in the plane of the circle, of any length.
     """
     begin = math.atan2(start[1], start[0])
-    none: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
+    no_solution: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
     slope, at_start = _sample(point, core, turn, center, radius, begin)
     last_angle, last_slope = begin, slope
     # downhill from the start, until the slope changes its sign; if that fails, in every interval of the circle
@@ -117,7 +117,7 @@ def round_circle(point: Core, core: Core, turn: Axes, center: Vector3, radius: f
             if _is_outward(result):
                 return result
         last_angle, last_slope = angle, slope
-    return none
+    return no_solution
 
 
 @compiled

@@ -84,7 +84,7 @@ _SAMPLES = 8
 To prove an overlap, the ends of the parts are tested: is one of them inside of both bodies?
 """
 _NOWHERE = 1e-300
-"""Least gauge, which replaces the gauge 0 of a centre in a division."""
+"""Least gauge in a division: the gauge of a centre is 0."""
 _ON_SURFACE = 1e-12
 """Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 

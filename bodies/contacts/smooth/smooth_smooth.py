@@ -13,7 +13,7 @@ from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import OF_FUNCTION
 from ...vectors import minus, opposite, plus, plus_scaled, vector_at, write_vector
 from ..features.frames import point_in_world, write_tangent
-from .smooth_core import CENTER, RADIUS, relative_rotation, rotated, rotated_back, unit_axes_in_world
+from .smooth_core import CENTER, POWERS, RADIUS, relative_rotation, rotated, rotated_back, unit_axes_in_world
 from .smooth_newton import widest, write_surface
 
 
@@ -56,11 +56,11 @@ class SmoothSmooth(ContactKinematics):
         assert isinstance(first, SmoothShape)
         assert isinstance(second, SmoothShape)
         for shape, partner in ((first, second), (second, first)):
-            if shape.mixed and partner.core[3] == OF_FUNCTION:
+            if shape.mixed and partner.core[POWERS] == OF_FUNCTION:
                 raise InvalidInput(
                     f"contact of {type(shape).__name__} and {type(partner).__name__}",
                     "needs exponents both up to 1, or both from 1 on",
-                    [2.0 - 2.0 / power for power in shape.core[3:5]],
+                    [2.0 - 2.0 / power for power in shape.core[POWERS : POWERS + 2]],
                     "Next to flat and sharp places at once the search needs the powers of both bodies.",
                 )
         values = {"first": first.core, "second": second.core}

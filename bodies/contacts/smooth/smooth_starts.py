@@ -72,8 +72,8 @@ def starts_of(first: Core, second: Core, turn: Axes, center: Vector3) -> Starts:
     first, second, turn, center : Floats, Axes, Vector3
         See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
     """
-    none: Start = (-math.inf, (0.0, 0.0, 0.0))
-    kept: Starts = (none, none, none, none)
+    no_start: Start = (-math.inf, (0.0, 0.0, 0.0))
+    kept: Starts = (no_start, no_start, no_start, no_start)
     # vectors with the components -1, 0 or 1 in the axes of the first core, then of the second; number 13 is 0
     for i in range(54):
         number = i % 27
