@@ -88,6 +88,7 @@ class PlaneFrustum(ContactKinematics):
         axis = numbers[AXIS], numbers[AXIS + 3], numbers[AXIS + 6]
 
         def rim(radius: float, center: Point) -> FeaturePair:
+            """Return the contact of a rim, or of the apex, which is a rim of radius 0."""
             if radius == 0.0:
                 return ball(center)
             values: dict[str, Value] = {"radius": radius, "center": center, "axis": axis, "height": first.height}
@@ -95,6 +96,7 @@ class PlaneFrustum(ContactKinematics):
             return FeaturePair(evaluate_rim_over_plane, values, ("plane-rim",))
 
         def ball(center: Point) -> FeaturePair:
+            """Return the contact of the apex or of the tip of a foot, with the radius of the rounding."""
             return ball_over_plane(first, sweep, center, "sphere" if sweep > 0.0 else "vertex")
 
         return *(rim(*rim_numbers) for rim_numbers in second.standing_rims), *(ball(foot) for foot in second.feet)

@@ -171,7 +171,7 @@ def _edge_from(hull: Floats, vertex: int, i: int) -> tuple[int, float, Vector3]:
 
 @compiled
 def _first_crossed(hull: Floats, face: int, margin: float, begin: Vector3, end: Vector3) -> int:
-    """Return the number of the face's edge that a segment crosses first, on its way out, or -1 if it crosses none.
+    """Return the number of the face's edge that a segment crosses outward first, or -1 if it crosses none.
 
     The segment is in the plane of the face, from ``begin`` on the face to ``end``.  A point up to ``margin`` past an
     edge [m] is still on the face.
@@ -220,7 +220,7 @@ def _stop_on_face(
     """Return the stop on a face, from its point ``begin`` [m]; the other arguments are those of :func:`_stop_on`.
 
     The gap is that of the plane of the face.  If the plane's point is past a border, the walk continues on the first
-    edge on the way there, and starts again from ``begin``.
+    edge between ``begin`` and this point.
     """
     g, p, n = _over_face(hull, core, turn, center, number)
     edge = _first_crossed(hull, number, margin, begin, plus_scaled(p, -g, n))
