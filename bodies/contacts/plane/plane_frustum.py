@@ -49,16 +49,18 @@ def evaluate_rim_over_plane(
         Sine of the tilt of the crown at the rim.
     """
     n, along_axis = axis_of(a, 2), vector_in_world(b, vector_at(axis, 0))
-    along, sine, down = across(opposite(n), along_axis)
-    reach, out_of_rim, is_crown = radius, 0.0, sine < crown
+    along, sine, radial = across(opposite(n), along_axis)
+    distance, protrusion, is_crown = radius, 0.0, sine < crown
+    # the crown is a cap of a sphere of radius R = radius / crown: its lowest point is at R sine from the axis; it
+    # protrudes by the difference of the cosines times R, here without cancellation
     if is_crown:
-        reach *= sine / crown
+        distance *= sine / crown
         sum_of_cosines = math.sqrt(1.0 - crown * crown) + math.sqrt(1.0 - sine * sine)
-        out_of_rim = math.copysign(radius / crown * (crown * crown - sine * sine) / sum_of_cosines, along)
-    point = plus_scaled(point_in_world(b, vector_at(center, 0)), reach, down)
-    place_over_plane(a, out, plus_scaled(plus_scaled(point, out_of_rim, along_axis), -rounding, n), height)
+        protrusion = math.copysign(radius / crown * (crown * crown - sine * sine) / sum_of_cosines, along)
+    point = plus_scaled(point_in_world(b, vector_at(center, 0)), distance, radial)
+    place_over_plane(a, out, plus_scaled(plus_scaled(point, protrusion, along_axis), -rounding, n), height)
     slide, turn = (crown, radius) if is_crown else (1.0, 0.0)
-    write_principal(out, SIDE_B, cross(along_axis, down), max(sine, crown), radius, slide, turn)
+    write_principal(out, SIDE_B, cross(along_axis, radial), max(sine, crown), radius, slide, turn)
     write_sweep(out, SIDE_B, rounding)
 
 
@@ -86,6 +88,7 @@ class PlaneFrustum(ContactKinematics):
         axis = numbers[AXIS], numbers[AXIS + 3], numbers[AXIS + 6]
 
         def rim(radius: float, center: Point) -> FeaturePair:
+            """Return the contact of a rim, or of the apex, which is a rim of radius 0."""
             if radius == 0.0:
                 return ball(center)
             values: dict[str, Value] = {"radius": radius, "center": center, "axis": axis, "height": first.height}
@@ -93,6 +96,7 @@ class PlaneFrustum(ContactKinematics):
             return FeaturePair(evaluate_rim_over_plane, values, ("plane-rim",))
 
         def ball(center: Point) -> FeaturePair:
+            """Return the contact of the apex or of the tip of a foot, with the radius of the rounding."""
             return ball_over_plane(first, sweep, center, "sphere" if sweep > 0.0 else "vertex")
 
-        return *(rim(*one) for one in second.standing_rims), *(ball(foot) for foot in second.feet)
+        return *(rim(*rim_numbers) for rim_numbers in second.standing_rims), *(ball(foot) for foot in second.feet)

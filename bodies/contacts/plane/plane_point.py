@@ -13,15 +13,16 @@ from ..features.writing import write_flat, write_round
 
 @compiled
 def axis_of(frame: Floats, i: int) -> Vector3:
-    """Return an axis of a body, 0 for the first, in world axes."""
+    """Return the unit vector along axis i of a body, 0 for the first, in the world."""
     return frame[ROTATION + i], frame[ROTATION + i + 3], frame[ROTATION + i + 6]
 
 
 @compiled
 def place_over_plane(a: Floats, out: Floats, center: Vector3, height: float, radius: float = 0.0) -> None:
-    """Write gap, axes, witness points and the matrices of the plane for a ball in the world; a point has radius 0 [m].
+    """Write gap, axes, witness points and the matrices of the plane for a ball or, with the radius 0, a point.
 
-    Normal and first tangent are the third and first axis of the plane's frame.
+    ``center`` is in the world [m].  The plane is at the ``height`` [m] along the third axis of its body, which is the
+    normal.  The first axis is the first tangent.
     """
     n = axis_of(a, 2)
     d = minus(center, vector_at(a, POSITION))
@@ -38,6 +39,10 @@ def place_over_plane(a: Floats, out: Floats, center: Vector3, height: float, rad
 def evaluate_ball_over_plane(
     a: Floats, b: Floats, out: Floats, radius: float, x: float, y: float, z: float, height: float
 ) -> None:
-    """Write the geometry block; the ball's centre (x, y, z) is in its body frame [m], and a point has radius 0."""
+    """Write the geometry block of a ball over a plane.
+
+    The ball's centre (x, y, z) is in its body frame [m]; a point has radius 0.  ``height`` is that of the plane along
+    the third axis of its body [m].
+    """
     place_over_plane(a, out, point_in_world(b, (x, y, z)), height, radius)
     write_round(out, SIDE_B, radius)

@@ -25,12 +25,12 @@ from .plane_point import axis_of, place_over_plane
 
 @compiled
 def scaled(factors: Vector3, v: Vector3) -> Vector3:
-    """Return the vector of the products of components."""
+    """Return the products of the components of two vectors, as a vector."""
     return factors[0] * v[0], factors[1] * v[1], factors[2] * v[2]
 
 
 def evaluate_smooth_over_plane(a: Floats, b: Floats, out: Floats, second: Floats, height: float) -> None:
-    """Write the geometry block of a smooth body, given as a core, over a plane."""
+    """Write the geometry block of a smooth body, given as a core, over a plane at a ``height`` along its axis [m]."""
     axes, n = axes_in_world(b, second), axis_of(a, 2)
     normal = rotated_back(axes, opposite(n))
     _, point, _ = support_of(second, normal)
@@ -44,14 +44,15 @@ def evaluate_ellipsoid_over_plane(
 ) -> None:
     """Write the geometry block of an ellipsoid over a plane.
 
-    Semi-axes [m], centre in the body frame [m], and quaternion from the ellipsoid's axes to those of the body.
+    The ellipsoid has the semi-axes ``semi`` [m], the ``center`` in its body frame [m], and the quaternion
+    ``orientation`` from its axes to those of the body.  ``height`` is that of the plane in its body frame [m].
     """
     # the outward normal of the ellipsoid at the point sought, in its own axes, and the plane's tangents there
     w, x, y, z = orientation[0], orientation[1], orientation[2], orientation[3]
     n, s = vector_in_body(b, opposite(axis_of(a, 2))), vector_in_body(b, axis_of(a, 0))
     n, s = turned_by(w, -x, -y, -z, n[0], n[1], n[2]), turned_by(w, -x, -y, -z, s[0], s[1], s[2])
     t = cross(s, n)
-    # support function h and its derivative, the point
+    # the support function h [m], and its gradient, which is the lowest point [m]
     squares = semi[0] * semi[0], semi[1] * semi[1], semi[2] * semi[2]
     h = math.sqrt(dot(scaled(squares, n), n))
     p = divided(scaled(squares, n), h)

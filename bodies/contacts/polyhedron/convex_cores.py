@@ -21,32 +21,35 @@ The face is adjacent to one of the edges.
 
 
 @compiled
-def _in_first(a: Floats, b: Floats, edges: Floats, at: int) -> Vector3:
-    """Return the components, along the axes of the first body, of a vector of a row of edges of the second body."""
-    return vector_in_body(a, vector_in_world(b, vector_at(edges, at)))
+def _in_first(a: Floats, b: Floats, edges: Floats, offset: int) -> Vector3:
+    """Return, in the axes of the first body, the vector at an index of a table ``edges`` of the second body."""
+    return vector_in_body(a, vector_in_world(b, vector_at(edges, offset)))
 
 
 @compiled
 def _separation_of_edges(a: Floats, b: Floats, core_a: Floats, core_b: Floats, parallel: float) -> float:
-    """Return the largest separation of two cores along normals that an edge of each has in common [m]."""
-    best = -math.inf
-    for k in range(int(core_b[N_EDGES])):
-        two = int(core_b[EDGES]) + EDGE * k
-        f = _in_first(a, b, core_b, two + ALONG)
-        u, v = _in_first(a, b, core_b, two + INTO_FIRST), _in_first(a, b, core_b, two + INTO_SECOND)
-        start = point_in_body(a, point_in_world(b, vector_at(core_b, two)))
-        for i in range(int(core_a[N_EDGES])):
-            one = int(core_a[EDGES]) + EDGE * i
-            n = cross(vector_at(core_a, one + ALONG), f)
-            # a normal of an edge leads into none of its faces
-            p, q = dot(n, vector_at(core_a, one + INTO_FIRST)), dot(n, vector_at(core_a, one + INTO_SECOND))
+    """Return the largest separation of two cores along normals that an edge of each has in common [m].
+
+    Pairs of edges with a sine of their angle up to ``parallel`` are left out.
+    """
+    largest = -math.inf
+    for edge_b in range(int(core_b[N_EDGES])):
+        row_b = int(core_b[EDGES]) + EDGE * edge_b
+        f = _in_first(a, b, core_b, row_b + ALONG)
+        u, v = _in_first(a, b, core_b, row_b + INTO_FIRST), _in_first(a, b, core_b, row_b + INTO_SECOND)
+        start_b = point_in_body(a, point_in_world(b, vector_at(core_b, row_b + START)))
+        for edge_a in range(int(core_a[N_EDGES])):
+            row_a = int(core_a[EDGES]) + EDGE * edge_a
+            n = cross(vector_at(core_a, row_a + ALONG), f)
+            # n or -n is a normal of both edges, if it leads into no face of the first one and, reversed, of the second
+            p, q = dot(n, vector_at(core_a, row_a + INTO_FIRST)), dot(n, vector_at(core_a, row_a + INTO_SECOND))
             r, s = -dot(n, u), -dot(n, v)
-            is_ahead, is_behind = max(p, q, r, s) <= 0.0, min(p, q, r, s) >= 0.0
+            is_normal, is_opposite = max(p, q, r, s) <= 0.0, min(p, q, r, s) >= 0.0
             sine = norm(n)
-            if (is_ahead or is_behind) and sine > parallel:
-                gap = dot(n, minus(start, vector_at(core_a, one + START))) / sine
-                best = max(best, gap if is_ahead else -gap)
-    return best
+            if (is_normal or is_opposite) and sine > parallel:
+                gap = dot(n, minus(start_b, vector_at(core_a, row_a + START))) / sine
+                largest = max(largest, gap if is_normal else -gap)
+    return largest
 
 
 @compiled
@@ -54,48 +57,51 @@ def past_if_convex(
     a: Floats,
     b: Floats,
     core_a: Floats,
-    one: int,
+    row_a: int,
     core_b: Floats,
-    two: int,
+    row_b: int,
     crossing: Crossing,
     past: float,
     parallel: float,
-    within: float,
+    margin: float,
 ) -> float:
     """Return the distance past the boundary of two edges of convex cores that cross [m].
 
-    Edges whose gap is below zero do not face each other if the cores overlap less along the normal of a face of one of
-    them.  If both nearest points are outside of the other core, the normals of all pairs of edges count, too.
+    The separation of convex cores is the largest one over all normals.  So edges with a gap below zero do not face each
+    other if the separation along the normal of a face is larger.  If both nearest points are outside of the other core,
+    the common normals of all pairs of edges count, too.
 
     Flush edges do not face each other if a face separates the cores as well as their common normal: then the vertices
     over the face touch.  Edges are flush if they are so nearly parallel that the ends of the shorter edge are within
-    ``within`` [m] of the other edge, and if their common normal is the normal of a face within the sine ``_FLUSH``.
+    ``margin`` of the other edge, and if their common normal is the normal of a face within the sine ``_FLUSH``.
 
     Parameters
     ----------
     a, b : Floats
         Frame blocks.
-    core_a, one, core_b, two : Floats and int
-        Both cores (:func:`bodies.contacts.features.polytope_tables.core_numbers`), and the rows of the edges in them.
+    core_a, row_a, core_b, row_b : Floats and int
+        Both cores (:func:`bodies.contacts.features.polytope_tables.core_numbers`), and the indices at which the rows of
+        the edges begin.
     crossing : tuple
         The crossing of the edges (:func:`bodies.contacts.features.edge_crossing.cross_edges`).
     past : float
         Distance past the boundary of the edges alone [m].
     parallel : float
         Sine of the angle between two edges below which they have no common normal.
-    within : float
-        Gaps up to this size are round-off [m].
+    margin : float
+        Differences of gaps and distances up to this size are round-off [m].
     """
     p, e, f, n, gap, _, _ = crossing
-    ends = min(core_a[one + LENGTH], core_b[two + LENGTH]) * norm(cross(e, f))
-    inside = max(sine_off_cone(a, core_a, one, 1.0, n), sine_off_cone(b, core_b, two, -1.0, n))
-    is_flush = ends < within and inside > -_FLUSH
-    if past <= within and (gap < -within or is_flush):
-        best = max(separation_of_faces(a, b, core_a, core_b), separation_of_faces(b, a, core_b, core_a))
-        if is_flush and best >= gap - within:
-            past = max(past, within - ends)
-        outside = min(height_over(b, *faces_of(core_b), p), height_over(a, *faces_of(core_a), plus_scaled(p, gap, n)))
-        if gap < -within and outside > within:
-            best = max(best, _separation_of_edges(a, b, core_a, core_b, parallel))
-        past = max(past, best - gap - within)
+    ends_apart = min(core_a[row_a + LENGTH], core_b[row_b + LENGTH]) * norm(cross(e, f))
+    off_cone = max(sine_off_cone(a, core_a, row_a, 1.0, n), sine_off_cone(b, core_b, row_b, -1.0, n))
+    is_flush = ends_apart < margin and off_cone > -_FLUSH
+    if past <= margin and (gap < -margin or is_flush):
+        separation = max(separation_of_faces(a, b, core_a, core_b), separation_of_faces(b, a, core_b, core_a))
+        if is_flush and separation >= gap - margin:
+            # positive: the vertices over the face touch instead
+            past = max(past, margin - ends_apart)
+        height = min(height_over(b, *faces_of(core_b), p), height_over(a, *faces_of(core_a), plus_scaled(p, gap, n)))
+        if gap < -margin and height > margin:
+            separation = max(separation, _separation_of_edges(a, b, core_a, core_b, parallel))
+        past = max(past, separation - gap - margin)
     return past

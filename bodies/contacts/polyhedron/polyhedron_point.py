@@ -36,7 +36,7 @@ def evaluate_vertex_over_faces(
     write_vector(out, NORMAL, vector_in_world(other, scaled(sign, normal)))
     write_vector(out, near, place)
     write_vector(out, far, minus(place, scaled(sign * gap, vector_at(out, NORMAL))))
-    # fixed to the body of the face
+    # the tangent, like the normal, is fixed to the body of the face
     write_vector(out, TANGENT, vector_in_world(other, tangent_of(normal)))
     write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, 0.0)
@@ -45,7 +45,7 @@ def evaluate_vertex_over_faces(
 def bound_of_vertex_over_faces(
     a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
 ) -> None:
-    """Write the height of a vertex over the faces [m]."""
+    """Write the largest height of a vertex over the planes of the faces [m], a lower bound of its distance."""
     own_frame, other = (a, b) if swap == 1.0 else (b, a)
     place = point_in_world(own_frame, vector_at(own, vertex_at(own, vertex)))
     out[0] = height_over(other, *faces_of(core), place)

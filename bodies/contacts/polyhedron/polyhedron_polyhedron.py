@@ -32,10 +32,11 @@ def evaluate_convex_edges(
 
     The cores are those of :func:`bodies.contacts.features.polytope_tables.core_numbers`.
     """
-    one, two, within, parallel = edge_at(core_a, edge_a), edge_at(core_b, edge_b), CLOSED * size, least_sine(size)
-    crossing = cross_edges(a, b, core_a, one, core_b, two, parallel, within, size)
+    row_a, row_b, margin, parallel = edge_at(core_a, edge_a), edge_at(core_b, edge_b), CLOSED * size, least_sine(size)
+    crossing = cross_edges(a, b, core_a, row_a, core_b, row_b, parallel, margin, size)
     p, e, f, n, gap, _, past = crossing
-    past = past_if_convex(a, b, core_a, one, core_b, two, crossing, past, parallel, within)
+    past = past_if_convex(a, b, core_a, row_a, core_b, row_b, crossing, past, parallel, margin)
+    # past the boundary the gap is the distance to the feature; a negative gap is kept, for another contact takes over
     if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
@@ -75,21 +76,22 @@ class PolyhedronPolyhedron(ContactKinematics):
         assert isinstance(second, Polyhedron)
         if first.rounding > 0.0 or second.rounding > 0.0:
             return SweptSwept.between(first, second)
-        one, two = first.core, second.core
-        if len(one.edges) * len(two.edges) + len(one.vertices) + len(two.vertices) > MOST_CONTACTS:
-            return contacts_near(features_of_core(one), features_of_core(two), (first.extent, second.extent))
+        core_a, core_b = first.core, second.core
+        if len(core_a.edges) * len(core_b.edges) + len(core_a.vertices) + len(core_b.vertices) > MOST_CONTACTS:
+            return contacts_near(features_of_core(core_a), features_of_core(core_b), (first.extent, second.extent))
         return tuple(_each_pair(first, second))
 
 
 def _each_pair(first: Polyhedron, second: Polyhedron) -> Iterator[FeaturePair]:
-    one, two = first.core, second.core
-    cores, size = (core_numbers(one), core_numbers(two)), max(one.size, two.size)
-    values: dict[str, Value] = {"core_a": cores[0], "core_b": cores[1], "size": size}
-    for i, j in itertools.product(range(len(one.edges)), range(len(two.edges))):
-        numbers = {**values, "edge_a": float(i), "edge_b": float(j)}
+    """Yield the contacts of two sharp polyhedra, in the order of :meth:`PolyhedronPolyhedron.between`."""
+    core_a, core_b = first.core, second.core
+    numbers, size = (core_numbers(core_a), core_numbers(core_b)), max(core_a.size, core_b.size)
+    values: dict[str, Value] = {"core_a": numbers[0], "core_b": numbers[1], "size": size}
+    for i, j in itertools.product(range(len(core_a.edges)), range(len(core_b.edges))):
+        edge_values = {**values, "edge_a": float(i), "edge_b": float(j)}
         names = (f"edge {i} and edge {j}",)
-        yield FeaturePair(evaluate_convex_edges, numbers, names, None, bound_of_convex_edges)
-    for i in range(len(two.vertices)):
-        yield vertex_over_faces(0, cores[0], len(one.planes), cores[1], i, size)
-    for i in range(len(one.vertices)):
-        yield vertex_over_faces(1, cores[1], len(two.planes), cores[0], i, size)
+        yield FeaturePair(evaluate_convex_edges, edge_values, names, None, bound_of_convex_edges)
+    for i in range(len(core_b.vertices)):
+        yield vertex_over_faces(0, numbers[0], len(core_a.planes), numbers[1], i, size)
+    for i in range(len(core_a.vertices)):
+        yield vertex_over_faces(1, numbers[1], len(core_b.planes), numbers[0], i, size)

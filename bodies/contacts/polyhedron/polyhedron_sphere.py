@@ -23,17 +23,20 @@ from ..features.writing import write_round
 def evaluate_ball_over_polyhedron(
     a: Floats, b: Floats, out: Floats, core: Floats, radius: float, place: Floats
 ) -> None:
-    """Write the geometry block of a ball about a ``place`` of the second body and a rounded core of the first."""
+    """Write the geometry block of a ball of the second body and a core of the first, sharp or rounded.
+
+    ``radius`` and ``place`` are the radius of the ball [m] and its centre in its body frame [m].
+    """
     center = point_in_world(b, vector_at(place, 0))
-    number, distance, x, y, z, _ = nearest_of_core(core, point_in_body(a, center))
+    feature, distance, x, y, z, _ = nearest_of_core(core, point_in_body(a, center))
     n = vector_in_world(a, (x, y, z))
-    off = distance - core[SWEEP]
-    out[GAP], out[FEATURE] = off - radius, number
+    height = distance - core[SWEEP]
+    out[GAP], out[FEATURE] = height - radius, feature
     write_vector(out, NORMAL, n)
-    write_vector(out, POINT_A, minus(center, scaled(off, n)))
+    write_vector(out, POINT_A, minus(center, scaled(height, n)))
     write_vector(out, POINT_B, minus(center, scaled(radius, n)))
     write_tangent(a, out)
-    write_swept(a, out, SIDE_A, number, core[N_FACES], *edges_of(core), core[SWEEP])
+    write_swept(a, out, SIDE_A, feature, core[N_FACES], *edges_of(core), core[SWEEP])
     write_round(out, SIDE_B, radius)
 
 

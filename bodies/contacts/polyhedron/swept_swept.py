@@ -39,23 +39,23 @@ def evaluate_swept_edges(
     The cores are those of :func:`bodies.contacts.features.polytope_tables.core_numbers`; ``size`` is the size of the
     bodies [m].
     """
-    one, two, radius_a, radius_b = edge_at(core_a, edge_a), edge_at(core_b, edge_b), core_a[SWEEP], core_b[SWEEP]
+    row_a, row_b, radius_a, radius_b = edge_at(core_a, edge_a), edge_at(core_b, edge_b), core_a[SWEEP], core_b[SWEEP]
     parallel = least_round_sine(radius_a + radius_b, size)
     # the margin ``size`` skips the test of the ends of the edges, which follows below
-    crossing = cross_edges(a, b, core_a, one, core_b, two, parallel, size, size)
-    p, e, f, n, gap, over, past = crossing
+    crossing = cross_edges(a, b, core_a, row_a, core_b, row_b, parallel, size, size)
+    p, e, f, n, gap, past_ends, past = crossing
     if gap < 0.0:
-        past = max(past, over + END * size)
-        past = past_if_convex(a, b, core_a, one, core_b, two, crossing, past, parallel, END * size)
+        past = max(past, past_ends + END * size)
+        past = past_if_convex(a, b, core_a, row_a, core_b, row_b, crossing, past, parallel, END * size)
     elif past <= 0.0:
-        past, u = over + END * size, common_direction(a, b, *faces_of(core_a), *faces_of(core_b), n)
+        past, direction = past_ends + END * size, common_direction(a, b, *faces_of(core_a), *faces_of(core_b), n)
         # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
-        part = part_of_overlap(radius_a + radius_b - gap, size)
-        if part > 0.0 and dot(u, u) > 0.0:
-            beyond = crossing_past_corner(a, b, u, core_a, one, core_b, two, p, e, f, n, gap, size)
+        fraction = part_of_overlap(radius_a + radius_b - gap, size)
+        if fraction > 0.0 and dot(direction, direction) > 0.0:
+            past_corner = crossing_past_corner(a, b, direction, core_a, row_a, core_b, row_b, p, e, f, n, gap, size)
             # a tilt moves the nearest points of nearly parallel edges far past the ends: farther than a quarter of the
             # gap of the cores, the contact ends
-            past = (1.0 - part) * past + part * max(beyond, over - CONE_MARGIN * gap)
+            past = (1.0 - fraction) * past + fraction * max(past_corner, past_ends - CONE_MARGIN * gap)
     gap -= radius_a + radius_b
     if past > 0.0 and gap >= 0.0:
         gap = math.hypot(gap, past)
@@ -94,15 +94,15 @@ class SweptSwept(ContactKinematics):
         """Return the contacts of pairs of edges, then of the second body's vertices, then of the first's vertices."""
         assert isinstance(first, SweptPolytope)
         assert isinstance(second, SweptPolytope)
-        one, two = first.core, second.core
-        if len(one.edges) * len(two.edges) + len(one.vertices) + len(two.vertices) > MOST_CONTACTS:
+        core_a, core_b = first.core, second.core
+        if len(core_a.edges) * len(core_b.edges) + len(core_a.vertices) + len(core_b.vertices) > MOST_CONTACTS:
             raise InvalidInput(
                 "contact of two polyhedra",
                 f"must have at most {MOST_CONTACTS} pairs of features",
-                f"{len(one.edges)} edges against {len(two.edges)} make {len(one.edges) * len(two.edges)}",
+                f"{len(core_a.edges)} edges against {len(core_b.edges)} make {len(core_a.edges) * len(core_b.edges)}",
                 "Take polyhedra with fewer edges, or a smooth shape.",
             )
-        cores = core_numbers(one, first.sweep), core_numbers(two, second.sweep)
+        cores = core_numbers(core_a, first.sweep), core_numbers(core_b, second.sweep)
         values: dict[str, Value] = {"core_a": cores[0], "core_b": cores[1], "size": size_of_both(first, second)}
         crossings = (
             FeaturePair(
@@ -111,6 +111,6 @@ class SweptSwept(ContactKinematics):
                 (f"edge {i} and edge {j}",),
                 bound=bound_of_swept_edges,
             )
-            for i, j in itertools.product(range(len(one.edges)), range(len(two.edges)))
+            for i, j in itertools.product(range(len(core_a.edges)), range(len(core_b.edges)))
         )
         return *crossings, *vertices_over_swept(first, second)

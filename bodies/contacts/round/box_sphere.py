@@ -25,23 +25,26 @@ _FEATURES = tuple(
     for sides in itertools.product((-1, 0, 1), repeat=3)
     if any(sides)
 )
+"""Names of the 26 features, by their sides along the axes of the box: -1, 0 or 1."""
 
 
 @compiled
 def _side(coordinate: float, half: float) -> int:
+    """Return the side of a box on which a coordinate is past its half-length: 1, -1, or 0 if it is within [m]."""
     if coordinate > half:
         return 1
     return -1 if coordinate < -half else 0
 
 
 @compiled
-def _beyond(coordinate: float, side: int, half: float) -> float:
+def _past_side(coordinate: float, side: int, half: float) -> float:
+    """Return the signed distance of a coordinate past a side of a box [m], 0 for the side 0."""
     return coordinate - side * half if side != 0 else 0.0
 
 
 @compiled
 def _in_body(quaternion: Floats, v: Vector3) -> Vector3:
-    """Return a vector of the box's axes in those of its body."""
+    """Return the components of a vector along the axes of the body, from those along the axes of the box."""
     return turned_by(quaternion[0], quaternion[1], quaternion[2], quaternion[3], v[0], v[1], v[2])
 
 
@@ -53,7 +56,7 @@ def _nearest_feature(half: Vector3, p: Vector3) -> tuple[tuple[int, int, int], f
     """
     x, y, z = _side(p[0], half[0]), _side(p[1], half[1]), _side(p[2], half[2])
     if x == 0 and y == 0 and z == 0:
-        # a centre inside leaves by the nearest face
+        # a point inside belongs to the nearest face
         deep_x, deep_y, deep_z = half[0] - abs(p[0]), half[1] - abs(p[1]), half[2] - abs(p[2])
         least = min(deep_x, deep_y, deep_z)
         if least == deep_x:
@@ -63,7 +66,7 @@ def _nearest_feature(half: Vector3, p: Vector3) -> tuple[tuple[int, int, int], f
         else:
             z = 1 if p[2] >= 0.0 else -1
         return (x, y, z), -least, (float(x), float(y), float(z))
-    d = _beyond(p[0], x, half[0]), _beyond(p[1], y, half[1]), _beyond(p[2], z, half[2])
+    d = _past_side(p[0], x, half[0]), _past_side(p[1], y, half[1]), _past_side(p[2], z, half[2])
     distance = norm(d)
     return (x, y, z), distance, divided(d, distance)
 
@@ -107,8 +110,9 @@ def evaluate_box_sphere(
         x, y, z = vector_in_world(a, _in_body(orientation, (1.0 - on_x, 1.0 - on_y, 1.0 - on_z)))
         write_principal(out, SIDE_A, (x, y, z), 0.0, 1.0, 1.0, rounding)
     write_round(out, SIDE_B, radius)
-    number = 9 * (sides[0] + 1) + 3 * (sides[1] + 1) + sides[2] + 1
-    out[FEATURE] = number - 1 if number > 13 else number
+    feature = 9 * (sides[0] + 1) + 3 * (sides[1] + 1) + sides[2] + 1
+    # 13 is the number of the inside, which is no feature
+    out[FEATURE] = feature - 1 if feature > 13 else feature
 
 
 @final

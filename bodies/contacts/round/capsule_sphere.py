@@ -31,36 +31,39 @@ def numbers_of(capsule: Capsule) -> tuple[float, ...]:
 
 @compiled
 def _line(frame: Floats, capsule: Floats) -> Line:
+    """Return the middle of a capsule [m] and its unit axis, in the world."""
     return point_in_world(frame, vector_at(capsule, _CENTER)), vector_in_world(frame, vector_at(capsule, _AXIS))
 
 
 @compiled
-def _within(coordinate: float, half: float) -> float:
+def _clamped(coordinate: float, half: float) -> float:
+    """Return the coordinate, limited to the range from ``-half`` to ``half`` [m]."""
     return min(max(coordinate, -half), half)
 
 
 @compiled
 def _write_side(out: Floats, side: int, axis: Vector3, radius: float) -> None:
-    """Write the curvature matrices of the side of a capsule with this unit axis in the world."""
+    """Write the curvature matrices of the side of a capsule, from its unit axis in the world and its radius [m]."""
     write_principal(out, side, axis, 0.0, 1.0, 1.0, radius)
 
 
 def evaluate_capsule_sphere(a: Floats, b: Floats, out: Floats, first: Floats, radius: float, center: Floats) -> None:
     """Write the geometry block of a capsule and a sphere, given by radius [m] and centre in the body frame [m]."""
-    half, own = first[_HALF_LENGTH], first[_RADIUS]
+    half, radius_a = first[_HALF_LENGTH], first[_RADIUS]
     middle, axis = _line(a, first)
     point = point_in_world(b, vector_at(center, 0))
     along = dot(minus(point, middle), axis)
-    near = _within(along, half)
+    nearest = _clamped(along, half)
     write_vector(out, POINT_B, point)
-    write_vector(out, POINT_A, plus_scaled(middle, near, axis))
+    write_vector(out, POINT_A, plus_scaled(middle, nearest, axis))
+    # the normal, if the centre of the sphere is on the axis: any vector across the axis
     x, y, z = tangent_of(axis)
-    join_cores(a, out, own, radius, (x, y, z))
-    if near == along:
-        _write_side(out, SIDE_A, axis, own)
+    join_cores(a, out, radius_a, radius, (x, y, z))
+    if nearest == along:
+        _write_side(out, SIDE_A, axis, radius_a)
         out[FEATURE] = 1.0
     else:
-        write_round(out, SIDE_A, own)
+        write_round(out, SIDE_A, radius_a)
         out[FEATURE] = 2.0 if along > 0.0 else 0.0
     write_round(out, SIDE_B, radius)
 

@@ -31,6 +31,7 @@ def evaluate_spheres(
     """Write the geometry block of two spheres, given by radius [m] and centre in the body frame [m]."""
     write_vector(out, POINT_A, point_in_world(a, (x_a, y_a, z_a)))
     write_vector(out, POINT_B, point_in_world(b, (x_b, y_b, z_b)))
+    # centres in one point give no normal: take the third axis of the first body
     join_cores(a, out, radius_a, radius_b, (a[ROTATION + 2], a[ROTATION + 5], a[ROTATION + 8]))
     write_round(out, SIDE_A, radius_a)
     write_round(out, SIDE_B, radius_b)

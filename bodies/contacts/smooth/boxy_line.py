@@ -17,9 +17,10 @@ from ...vectors import Vector3, cross, dot, minus, plus, plus_scaled, scaled
 from .bracket import bracket, narrowed, next_place
 from .smooth_core import Axes, NearestPoint, facing_point, largest_semi_axis, spread
 
-_LOOKS = 8
-"""Number of directions, evenly spaced round the axis of the line, at which the gap is sampled before the search."""
+_SAMPLES = 8
+"""Number of parts of the half-circle of directions round n, at whose ends the gap is sampled before the search."""
 _STEPS = 200
+"""Largest number of secants and halvings."""
 _CLOSED = 4e-16
 """Angle between two directions below which they differ by round-off only [rad]."""
 
@@ -29,7 +30,7 @@ _ROUND_OFF = 4e-16
 
 @compiled
 def across_line(
-    core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
+    core: Core, turn: Axes, center: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> NearestPoint:
     """Return the gap of a line and a core with flat places [m], the core's point [m] and the normal.
 
@@ -37,13 +38,16 @@ def across_line(
     the origin.  All vectors are in the axes of the line's body.  A positive ``reach`` replaces the line by a cylinder
     with this radius, or, if ``sine`` is not 0, by a cone about the line.
 
+    First, samples round the line enclose a maximum between two angles, at which the gap rises (``rising`` > 0) and
+    falls (``falling`` < 0).  Then :mod:`bodies.contacts.smooth.bracket` finds the zero of the derivative.
+
     Parameters
     ----------
     core : Floats
         The core, with flat places; its radius is not used.
     turn : Axes
         Rotation from the axes of the core to those of the line's body.
-    place : Vector3
+    center : Vector3
         The core's centre [m].
     e : Vector3
         Direction of the line, a unit vector.
@@ -54,77 +58,77 @@ def across_line(
     reach : float
         Distance of the surface about the line from the origin, along its normals [m]; 0 for the line itself.
     """
-    between = math.pi / _LOOKS
-    found, slope = _look(core, turn, place, e, n, cosine, sine, 0.0)
-    # climb from the given direction n; if no positive gap is found, climb from the best of all sampled directions
-    at, low, high, rising, falling, most = 0, 0.0, 0.0, slope, slope, found[0]
-    way = 1 if slope > 0.0 else -1
-    for i in range(1, _LOOKS // 2 + 2):
-        look, slope = _look(core, turn, place, e, n, cosine, sine, way * i * between)
-        most = max(most, look[0])
-        low, high = (high, i * between) if way > 0 else (-i * between, low)
-        rising, falling = (falling, slope) if way > 0 else (slope, rising)
+    spacing = math.pi / _SAMPLES
+    current, slope = _sample(core, turn, center, e, n, cosine, sine, 0.0)
+    # go from the direction n to where the gap rises; if no positive gap is found, begin at the best of all samples
+    best_i, low, high, rising, falling, largest = 0, 0.0, 0.0, slope, slope, current[0]
+    sign = 1 if slope > 0.0 else -1
+    for i in range(1, _SAMPLES // 2 + 2):
+        sample, slope = _sample(core, turn, center, e, n, cosine, sine, sign * i * spacing)
+        largest = max(largest, sample[0])
+        low, high = (high, i * spacing) if sign > 0 else (-i * spacing, low)
+        rising, falling = (falling, slope) if sign > 0 else (slope, rising)
         if rising > 0.0 > falling:
             break
-    if most <= reach:
-        best, last, middle_slope = -math.inf, math.nan, 0.0
-        for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
-            look, slope = _look(core, turn, place, e, n, cosine, sine, i * between)
-            if look[0] > best and abs(i) <= _LOOKS // 2:
-                best, at, rising, middle_slope = look[0], i, last, slope
-            elif at == i - 1:
+    if largest <= reach:
+        best_gap, last_slope, middle_slope = -math.inf, math.nan, 0.0
+        for i in range(-_SAMPLES // 2 - 1, _SAMPLES // 2 + 2):
+            sample, slope = _sample(core, turn, center, e, n, cosine, sine, i * spacing)
+            if sample[0] > best_gap and abs(i) <= _SAMPLES // 2:
+                best_gap, best_i, rising, middle_slope = sample[0], i, last_slope, slope
+            elif best_i == i - 1:
                 falling = slope
-            last = slope
-        low, high = (at - 1) * between, (at + 1) * between
+            last_slope = slope
+        low, high = (best_i - 1) * spacing, (best_i + 1) * spacing
         # in an overlap the gap may have two maxima between the samples next to the best one: bisect the interval, in
         # the direction in which the gap rises from the best sample, until one maximum remains
-        for _ in range(_LOOKS):
+        for _ in range(_SAMPLES):
             if rising > 0.0 > falling:
                 break
-            middle = at * between
+            middle = best_i * spacing
             if middle_slope > 0.0:
                 low, rising = middle, middle_slope
             else:
                 high, falling = middle, middle_slope
             if rising > 0.0 > falling:
                 break
-            _, slope = _look(core, turn, place, e, n, cosine, sine, 0.5 * (low + high))
+            _, slope = _sample(core, turn, center, e, n, cosine, sine, 0.5 * (low + high))
             if middle_slope > 0.0:
                 high, falling = 0.5 * (low + high), slope
             else:
                 low, rising = 0.5 * (low + high), slope
     if not (rising > 0.0 > falling):
-        return math.nan, found[1], found[2]
-    none = _ROUND_OFF * (spread(place) + largest_semi_axis(core))
+        return math.nan, current[1], current[2]
+    zero_slope = _ROUND_OFF * (spread(center) + largest_semi_axis(core))
     sides = bracket(low, high, rising, falling)
     for _ in range(_STEPS):
         middle, sides = next_place(sides)
         low, high, _, _, _, _ = sides
-        found, slope = _look(core, turn, place, e, n, cosine, sine, middle)
-        if abs(slope) <= none:
-            return found[0] - reach, found[1], found[2]
+        current, slope = _sample(core, turn, center, e, n, cosine, sine, middle)
+        if abs(slope) <= zero_slope:
+            return current[0] - reach, current[1], current[2]
         if high - low <= _CLOSED or middle == low or middle == high:
-            # the derivative jumps, so a flat place faces the line: interpolate between the points of both directions
-            one, up = _look(core, turn, place, e, n, cosine, sine, low)
-            two, down = _look(core, turn, place, e, n, cosine, sine, high)
-            part = min(max(up / (up - down), 0.0), 1.0) if up > down else 0.5
-            return found[0] - reach, plus_scaled(one[1], part, minus(two[1], one[1])), found[2]
+            # the derivative jumps from slope_low to slope_high, so a flat place faces the line: interpolate its point
+            at_low, slope_low = _sample(core, turn, center, e, n, cosine, sine, low)
+            at_high, slope_high = _sample(core, turn, center, e, n, cosine, sine, high)
+            fraction = min(max(slope_low / (slope_low - slope_high), 0.0), 1.0) if slope_low > slope_high else 0.5
+            return current[0] - reach, plus_scaled(at_low[1], fraction, minus(at_high[1], at_low[1])), current[2]
         sides = narrowed(sides, middle, slope)
-    return math.nan, found[1], found[2]
+    return math.nan, current[1], current[2]
 
 
 @compiled
-def _look(
-    core: Core, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
+def _sample(
+    core: Core, turn: Axes, center: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
 ) -> tuple[NearestPoint, float]:
-    """Return gap, core's point and normal, and the gap's derivative by the angle, at an ``angle`` round the line [rad].
+    """Return gap of the line [m], core's point [m] and normal at an ``angle`` [rad], and the derivative of the gap.
 
     The line has the unit direction ``e``; the unit vector ``n``, perpendicular to it, is at angle 0.  The normal has
-    the component ``cosine`` across the line and ``sine`` along it.  The gap is that of the line itself [m]; the
-    derivative is in [m].
+    the component ``cosine`` across the line and ``sine`` along it.  The last number is the derivative of the gap by the
+    angle [m].
     """
     u = cross(e, n)
     c, s = cosine * math.cos(angle), cosine * math.sin(angle)
     normal = plus_scaled(plus(scaled(c, n), scaled(s, u)), sine, e)
-    p, _ = facing_point(core, turn, place, normal)
+    p, _ = facing_point(core, turn, center, normal)
     return (dot(normal, p), p, normal), dot(minus(scaled(c, u), scaled(s, n)), p)

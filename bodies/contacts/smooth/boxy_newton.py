@@ -31,8 +31,8 @@ from .tangent_plane import (
     write_matrices,
 )
 
-_STEPS = 200
-_HALVINGS = 40
+_STEPS, _HALVINGS = 200, 40
+"""Largest number of evaluations, and of successive halvings of one step."""
 _SEEN = 1e-14
 """Difference of two distances of the contact points that is round-off, relative to the size of the bodies."""
 _ENOUGH = 1e-4
@@ -47,24 +47,27 @@ _FLATTEST = 1e-12
 Without it the curvature is 0 at flat places, but the engine divides by it in a contact with a plane.
 """
 
-Place: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, Symmetric]
+SurfacePoint: TypeAlias = tuple[Vector3, Vector3, Vector3, Vector3, Symmetric]
 """Point of a surface [m], unit normal, two unit tangents, and the shape operator along these [1/m]."""
 
 
 @compiled
-def place_on(core: Core, p: Vector3) -> Place:
-    """Return the point of a boxy core's surface in the direction p, with normal and shape operator."""
-    f, slope, bends = boxy_gauge_of(core, p)
-    length = norm(slope)
-    n = divided(slope, length)
+def place_on(core: Core, p: Vector3) -> SurfacePoint:
+    """Return the point of a boxy core's surface in the direction p from the centre, with normal and shape operator.
+
+    ``p`` is a vector of any length; all vectors are in the axes of the core.
+    """
+    f, gradient, bends = boxy_gauge_of(core, p)
+    length = norm(gradient)
+    n = divided(gradient, length)
     t = tangent_of(n)
     u = cross(n, t)
-    # the second derivative goes with 1 / f
+    # f is homogeneous: its second derivative at p / f is f times that at p
     return divided(p, f), n, t, u, scaled(f / length, bends_in_plane(bends, t, u))
 
 
 @compiled
-def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
+def climb_boxy(core: Core, other: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
     """Return the gap of a boxy core and another core [m], the point on the boxy core [m], and the normal from it.
 
     Point and normal are in the axes of the boxy core.  The gap is nan if the search fails.  The other core must not be
@@ -81,26 +84,27 @@ def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vecto
     core : Floats
         The boxy core; its radius is not used.
     other : Floats
-        The other core, or its semi-axes and powers (:data:`Norm`).
-    turn, place : Axes, Vector3
+        The other core, or its semi-axes and powers (:data:`bodies.contacts.smooth.smooth_core.SemiAxes`).
+    turn, center : Axes, Vector3
         See :mod:`bodies.contacts.smooth.smooth_core`; the boxy core is the first one.
     start : Vector3
         Direction of the point to begin with, of any length.
     """
     extent = largest_semi_axis(core)
-    size = spread(place) + extent + largest_semi_axis(other)
-    p, last, step = start, start, (0.0, 0.0, 0.0)
-    merit, promise, before, halvings = math.inf, 0.0, math.inf, 0
+    size = spread(center) + extent + largest_semi_axis(other)
+    p, last_p, step = start, start, (0.0, 0.0, 0.0)
+    # ``decrease``: the part _ENOUGH of the decrease of the merit |d|^2 / 2 that its derivative predicts for the step
+    merit, decrease, last_residual, halvings = math.inf, 0.0, math.inf, 0
     for _ in range(_STEPS):
         p, n, t, u, (k11, k12, k22) = place_on(core, p)
-        q, bends = facing_point(other, turn, place, n)
+        q, bends = facing_point(other, turn, center, n)
         d = minus(q, p)
-        found = 0.5 * dot(d, d)
-        seen = _SEEN * size * (_SEEN * size + math.sqrt(found))
-        if found > merit - promise + seen and halvings < _HALVINGS:
-            halvings, step, promise = halvings + 1, scaled(0.5, step), 0.5 * promise
+        new_merit = 0.5 * dot(d, d)
+        round_off = _SEEN * size * (_SEEN * size + math.sqrt(new_merit))
+        if new_merit > merit - decrease + round_off and halvings < _HALVINGS:
+            halvings, step, decrease = halvings + 1, scaled(0.5, step), 0.5 * decrease
         else:
-            merit, halvings, last = found, 0, p
+            merit, halvings, last_p = new_merit, 0, p
             g, (r, s) = dot(n, d), in_plane(t, u, d)
             residual = math.sqrt(r * r + s * s)
             h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, t), rotated_back(turn, u))
@@ -108,26 +112,27 @@ def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vecto
             m21, m22 = h12 * k11 + (h22 + g) * k12, 1.0 + h12 * k12 + (h22 + g) * k22
             m = m11, m12, m21, m22
             det = determinant(m)
-            if has_ended(residual, before, size):
+            if has_ended(residual, last_residual, size):
                 # a stationary point that is not a maximum of the gap is not the shortest separating translation
                 is_wrong = residual > RIGHT * size or det <= 0.0 or m11 + m22 <= 0.0
                 return math.nan if is_wrong else g, p, n
-            before = residual
-            # the derivative of the merit is -(1 + K H) (r, s)
+            last_residual = residual
+            # the derivative of the merit by p is -(1 + K H) (r, s)
             v, w = h11 * r + h12 * s, h12 * r + h22 * s
-            slope = r + k11 * v + k12 * w, s + k12 * v + k22 * w
+            gradient = r + k11 * v + k12 * w, s + k12 * v + k22 * w
             x, y = solved(m, det, (r, s)) if det > 0.0 else (r, s)
-            promise = slope[0] * x + slope[1] * y
-            if promise <= 0.0:
-                x, y = slope
-                promise = x * x + y * y
+            decrease = gradient[0] * x + gradient[1] * y
+            # Newton's step does not decrease the merit: take the steepest descent
+            if decrease <= 0.0:
+                x, y = gradient
+                decrease = x * x + y * y
             length = math.sqrt(x * x + y * y)
             if length > _LONGEST * extent:
                 shorter = _LONGEST * extent / length
-                x, y, promise = x * shorter, y * shorter, promise * shorter
-            promise = 0.0 if residual <= _LAST * size else promise * _ENOUGH
+                x, y, decrease = x * shorter, y * shorter, decrease * shorter
+            decrease = 0.0 if residual <= _LAST * size else decrease * _ENOUGH
             step = along((x, y), t, u)
-        p = plus(last, step)
+        p = plus(last_p, step)
     return math.nan, p, (0.0, 0.0, 1.0)
 
 
@@ -135,20 +140,16 @@ def climb_boxy(core: Core, other: Core, turn: Axes, place: Vector3, start: Vecto
 def write_boxy(out: Floats, side: int, core: Core, axes: Axes, p: Vector3) -> None:
     """Write the curvature matrices of a boxy body: slide is the shape operator K of its core, turn is 1 + radius K.
 
-    The contact point of the core is p, in the axes of the core [m].
-
-    The geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
+    The contact point of the core is p, in the axes of the core [m].  The geometry block ``out`` must already hold
+    normal and first tangent; ``side`` is the index of the matrices in it.  ``axes`` are the core's axes in the world.
     """
     _, _, first, second, (k11, k12, k22) = place_on(core, p)
     t, u = tangents_in(axes, out)
-    (c11, c12, c21, c22), least, radius = (
-        from_tangents(t, u, first, second),
-        _FLATTEST / largest_semi_axis(core),
-        core[RADIUS],
-    )
+    c11, c12, c21, c22 = from_tangents(t, u, first, second)
+    least, radius = _FLATTEST / largest_semi_axis(core), core[RADIUS]
     k11, k22 = k11 + least, k22 + least
+    # C K C^T, with the matrix C from the tangents of K to those of the contact
     s11 = c11 * (k11 * c11 + k12 * c12) + c12 * (k12 * c11 + k22 * c12)
     s12 = c11 * (k11 * c21 + k12 * c22) + c12 * (k12 * c21 + k22 * c22)
     s22 = c21 * (k11 * c21 + k12 * c22) + c22 * (k12 * c21 + k22 * c22)
-    # with a radius r the turn grows by r times the slide
     write_matrices(out, side, (s11, s12, s22), (1.0 + radius * s11, radius * s12, 1.0 + radius * s22))

@@ -1,4 +1,4 @@
-"""Search for a root between two places at which a function has opposite signs: secants, and halvings if they are slow.
+"""Search for a root between two values of opposite signs: secants, and halvings if the secants are slow.
 
 The secant is that of the Illinois method: if the same end of the interval moves twice in succession, the value at the
 other end is halved.
@@ -10,31 +10,38 @@ from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 
-_PATIENCE = 3
+_MOST_SLOW_STEPS = 3
 """Largest number of successive secant steps that each leave more than half of the interval; a halving follows."""
 Bracket: TypeAlias = tuple[float, float, float, float, int, int]
-"""Both ends of the interval, the values there, the end that moved last (1 or 2, 0 at first), number of slow steps."""
+"""Both ends of the interval, values there, the end that moved last (1 low, 2 high, 0 none), number of slow steps."""
 
 
 @compiled
 def bracket(low: float, high: float, at_low: float, at_high: float) -> Bracket:
-    """Return the bracket with which a search starts, from both ends and the values there, of opposite signs."""
+    """Return the bracket with which a search starts: both ends of the interval, and values of opposite signs there."""
     return low, high, at_low, at_high, 0, 0
 
 
 @compiled
 def next_place(b: Bracket) -> tuple[float, Bracket]:
-    """Return the place of the next value, and the bracket, in which a halving sets the number of slow steps to 0."""
+    """Return the argument of the next evaluation, and the bracket.
+
+    It is the zero of the secant.  After ``_MOST_SLOW_STEPS`` slow steps, or if round-off puts the zero outside, it is
+    the middle of the interval; the number of slow steps is then 0 again.
+    """
     low, high, at_low, at_high, moved, slow = b
     middle = (low * at_high - high * at_low) / (at_high - at_low)
-    if slow >= _PATIENCE or not (min(low, high) < middle < max(low, high)):
+    if slow >= _MOST_SLOW_STEPS or not (min(low, high) < middle < max(low, high)):
         return 0.5 * (low + high), (low, high, at_low, at_high, moved, 0)
     return middle, b
 
 
 @compiled
 def narrowed(b: Bracket, middle: float, value: float) -> Bracket:
-    """Return the part of a bracket that holds the root, with the value at a place within."""
+    """Return the part of a bracket that holds the root, from the ``value`` at the argument ``middle`` inside.
+
+    If the same end moves twice in succession, the value at the other end is halved (Illinois method).
+    """
     low, high, at_low, at_high, moved, slow = b
     width = abs(high - low)
     if (value < 0.0) == (at_low < 0.0):

@@ -17,15 +17,15 @@ from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
 from .smooth_core import Axes, NearestPoint, SemiAxes, largest_semi_axis, rotated, rotated_back, spread, unit
 from .tangent_plane import Symmetric, along, by_symmetric, determinant, from_tangents, in_plane, solved, turned_matrix
 
-_STEPS = 40
-_HALVINGS = 10
+_STEPS, _HALVINGS = 40, 10
+"""Largest number of evaluations, and of successive halvings of one step."""
 _LONGEST = 0.3
 """Longest Newton step eps in either chart, a length, relative to the smaller body's size: charts are linearised."""
 
 
 @compiled
 def meet_in_charts(
-    first: SemiAxes, second: SemiAxes, turn: Axes, place: Vector3, start: Vector3, parts: int
+    first: SemiAxes, second: SemiAxes, turn: Axes, center: Vector3, start: Vector3, steps: int
 ) -> NearestPoint:
     """Return the gap of two cores [m], the point on the first core and its outward normal.
 
@@ -33,102 +33,104 @@ def meet_in_charts(
 
     Parameters
     ----------
-    first, second : Norm
+    first, second : SemiAxes
         Semi-axes and powers; one of them may be a point.
-    turn, place : Axes, Vector3
+    turn, center : Axes, Vector3
         See :mod:`bodies.contacts.smooth.smooth_core`.
     start : Vector3
         The normal with which the search starts, of any length.
-    parts : int
+    steps : int
         Used if the direct search fails: the search is repeated with ellipsoids, whose powers then change to the cores'
         own powers in this number of steps; 0 for no further search.
     """
     n = unit(start)
-    found = _climb(first, second, turn, place, n)
-    if found[0] == found[0]:
-        return found
+    solution = _climb(first, second, turn, center, n)
+    if solution[0] == solution[0]:
+        return solution
     # solve for ellipsoids first and change their powers step by step, each solution as the next start
-    for i in range(parts + 1 if parts > 0 else 0):
-        found = _climb(_between(first, i / parts), _between(second, i / parts), turn, place, n)
-        if found[0] == found[0]:
-            n = found[2]
-    return found
+    for i in range(steps + 1 if steps > 0 else 0):
+        solution = _climb(_between(first, i / steps), _between(second, i / steps), turn, center, n)
+        if solution[0] == solution[0]:
+            n = solution[2]
+    return solution
 
 
 @compiled
-def _between(core: SemiAxes, part: float) -> SemiAxes:
-    """Return a core interpolated between the ellipsoid of equal semi-axes (``part`` 0) and ``core`` (``part`` 1).
+def _between(core: SemiAxes, fraction: float) -> SemiAxes:
+    """Return a core between the ellipsoid of equal semi-axes (``fraction`` 0) and ``core`` (``fraction`` 1).
 
-    The reciprocal powers 1 / p and 1 / q vary linearly with ``part``.
+    The reciprocal powers 1 / p and 1 / q vary linearly with ``fraction``.
     """
     a, b, c, p, q = core
-    return a, b, c, 1.0 / (0.5 + part * (1.0 / p - 0.5)), 1.0 / (0.5 + part * (1.0 / q - 0.5))
+    return a, b, c, 1.0 / (0.5 + fraction * (1.0 / p - 0.5)), 1.0 / (0.5 + fraction * (1.0 / q - 0.5))
 
 
 @compiled
-def _climb(first: SemiAxes, second: SemiAxes, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
+def _climb(first: SemiAxes, second: SemiAxes, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
     """Return the largest gap of two cores over all directions [m], the first core's point and normal there.
 
     Newton's method starts at the support points of the cores, along the unit normal ``start`` and against it.  The
     other arguments are those of :func:`meet_in_charts`.  The gap is nan if no solution was found.
     """
     extent_a, extent_b = largest_semi_axis(first), largest_semi_axis(second)
-    size, weight = spread(place) + extent_a + extent_b, max(extent_a, extent_b)
+    size, weight = spread(center) + extent_a + extent_b, max(extent_a, extent_b)
     if min(extent_a, extent_b) > 0.0:
         weight = min(extent_a, extent_b)
-    w, o = start_of(first, start), start_of(second, rotated_back(turn, opposite(start)))
-    last_w, last_o, step_w, step_o = w, o, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-    merit, before, halvings = math.inf, math.inf, 0
+    w_a, w_b = start_of(first, start), start_of(second, rotated_back(turn, opposite(start)))
+    last_w_a, last_w_b, step_a, step_b = w_a, w_b, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    merit, last_residual, halvings = math.inf, math.inf, 0
     for _ in range(_STEPS):
-        p, n, t, u, s_a, u_a, w, along_w, beside_w = chart_of(first, weight, w)
-        q, m, t_b, u_b, s_b, turn_b, o, along_o, beside_o = chart_of(second, weight, o)
+        p, n, t, u, slide_a, turn_a, w_a, w_a_t, w_a_u = chart_of(first, weight, w_a)
+        q, m, t_b, u_b, slide_b, turn_b, w_b, w_b_t, w_b_u = chart_of(second, weight, w_b)
         q, m, t_b, u_b = rotated(turn, q), rotated(turn, m), rotated(turn, t_b), rotated(turn, u_b)
-        d = minus(plus(place, q), p)
+        d = minus(plus(center, q), p)
         (r1, r2), (v1, v2), facing = in_plane(t, u, d), in_plane(t, u, m), dot(n, m)
-        found = misfit(r1, r2, v1, v2, facing, weight)
-        if found > merit and halvings < _HALVINGS and found > (CLOSE * size) ** 2:
-            halvings, step_w, step_o = halvings + 1, scaled(0.5, step_w), scaled(0.5, step_o)
+        new_merit = misfit(r1, r2, v1, v2, facing, weight)
+        if new_merit > merit and halvings < _HALVINGS and new_merit > (CLOSE * size) ** 2:
+            halvings, step_a, step_b = halvings + 1, scaled(0.5, step_a), scaled(0.5, step_b)
         else:
-            if halvings >= _HALVINGS or found != found:
+            if halvings >= _HALVINGS or new_merit != new_merit:
                 return math.nan, p, n
-            merit, halvings, last_w, last_o = found, 0, w, o
-            g, residual = dot(n, d), math.sqrt(found)
-            # the second body's matrices along the first's tangents
+            merit, halvings, last_w_a, last_w_b = new_merit, 0, w_a, w_b
+            g, residual = dot(n, d), math.sqrt(new_merit)
+            # slide S_B and turn U_B of the second body, along the tangents of the first
             c = from_tangents(t, u, t_b, u_b)
-            (s11, s12, s22), (t11, t12, t22) = turned_matrix(c, s_b), turned_matrix(c, turn_b)
+            (s11, s12, s22), (t11, t12, t22) = turned_matrix(c, slide_b), turned_matrix(c, turn_b)
             # U_A + g S_A, and M = S_B (U_A + g S_A) - (n . m) U_B S_A
-            a11, a12, a22 = plus(u_a, scaled(g, s_a))
+            a11, a12, a22 = plus(turn_a, scaled(g, slide_a))
             m11, m12, m21, m22 = by_symmetric((s11, s12, s12, s22), (a11, a12, a22))
-            b11, b12, b21, b22 = by_symmetric((t11, t12, t12, t22), s_a)
+            b11, b12, b21, b22 = by_symmetric((t11, t12, t12, t22), slide_a)
             matrix = m11 - facing * b11, m12 - facing * b12, m21 - facing * b21, m22 - facing * b22
             det = determinant(matrix)
-            if has_ended(residual, before, size):
-                # M is S_B (H_A + H_B + g) S_A: below 0 the stationary point is no maximum
-                is_top = g >= 0.0 or (det >= 0.0 and not _is_least(g, s_a, u_a, s_b, turn_b))
-                is_wrong = residual > RIGHT * size or facing > 0.0 or not is_top
+            if has_ended(residual, last_residual, size):
+                # det M is that of S_B (H_A + H_B + g) S_A: below 0 the stationary point is no maximum
+                is_maximum = g >= 0.0 or (det >= 0.0 and not _is_least(g, slide_a, turn_a, slide_b, turn_b))
+                is_wrong = residual > RIGHT * size or facing > 0.0 or not is_maximum
                 return math.nan if is_wrong else g, p, n
-            before = residual
+            last_residual = residual
             det = away_from_zero(det, 1e-14 / (weight * weight))
             right = s11 * r1 + s12 * r2 - t11 * v1 - t12 * v2, s12 * r1 + s22 * r2 - t12 * v1 - t22 * v2
             i, j = solved(matrix, det, right)
-            f1 = a11 * i + a12 * j - r1 + weight * (facing * (s_a[0] * i + s_a[1] * j) - v1)
-            f2 = a12 * i + a22 * j - r2 + weight * (facing * (s_a[1] * i + s_a[2] * j) - v2)
-            k, e = c[0] * f1 + c[2] * f2, c[1] * f1 + c[3] * f2
-            over = max(math.sqrt(i * i + j * j), math.sqrt(k * k + e * e)) / (_LONGEST * weight)
-            if over > 1.0:
-                i, j, k, e = i / over, j / over, k / over, e / over
-            step_w, step_o = along((i, j), along_w, beside_w), along((k, e), along_o, beside_o)
-        w, o = plus(last_w, step_w), plus(last_o, step_o)
-    return math.nan, place, start
+            f1 = a11 * i + a12 * j - r1 + weight * (facing * (slide_a[0] * i + slide_a[1] * j) - v1)
+            f2 = a12 * i + a22 * j - r2 + weight * (facing * (slide_a[1] * i + slide_a[2] * j) - v2)
+            # step (i, j) of the first body, step of the second along its own tangents
+            i_b, j_b = c[0] * f1 + c[2] * f2, c[1] * f1 + c[3] * f2
+            excess = max(math.sqrt(i * i + j * j), math.sqrt(i_b * i_b + j_b * j_b)) / (_LONGEST * weight)
+            if excess > 1.0:
+                i, j, i_b, j_b = i / excess, j / excess, i_b / excess, j_b / excess
+            step_a, step_b = along((i, j), w_a_t, w_a_u), along((i_b, j_b), w_b_t, w_b_u)
+        w_a, w_b = plus(last_w_a, step_a), plus(last_w_b, step_b)
+    return math.nan, center, start
 
 
 @compiled
 def _is_least(g: float, s_a: Symmetric, u_a: Symmetric, s_b: Symmetric, u_b: Symmetric) -> bool:
-    """Return whether H_A + H_B + g has a trace below 0, as where the second body is farthest from a point.
+    """Return whether H_A + H_B + g has a trace below 0: then the gap g [m] is no maximum.
 
-    The trace of H = U S^-1 is that of U times the adjugate of S over the determinant, which is 0 at a flat place.
+    This is so where the second body is farthest from a point.  The trace of H = U S^-1 is that of U times the adjugate
+    of S, over the determinant of S.  All is multiplied by both determinants, which are 0 at flat places.
     """
-    flat_a, flat_b = s_a[0] * s_a[2] - s_a[1] * s_a[1], s_b[0] * s_b[2] - s_b[1] * s_b[1]
+    flat_a, flat_b = (s_a[0] * s_a[2] - s_a[1] * s_a[1], s_b[0] * s_b[2] - s_b[1] * s_b[1])
     bent_a = u_a[0] * s_a[2] + u_a[2] * s_a[0] - 2.0 * u_a[1] * s_a[1]
     bent_b = u_b[0] * s_b[2] + u_b[2] * s_b[0] - 2.0 * u_b[1] * s_b[1]
     return bool(flat_b * bent_a + flat_a * bent_b + 2.0 * g * flat_a * flat_b < 0.0)

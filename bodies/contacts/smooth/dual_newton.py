@@ -21,8 +21,8 @@ from .newton import CLOSE, RIGHT, ROUND_OFF, has_ended
 from .smooth_core import Axes, bend, facing_point, largest_semi_axis, rotated_back, spread, unit
 from .tangent_plane import along, in_plane
 
-_STEPS = 100
-_HALVINGS = 40
+_STEPS, _HALVINGS = 100, 40
+"""Largest number of evaluations, and of successive halvings of one step."""
 _WIDEST = 1.0
 """Longest step in the tangent plane of the unit sphere, before it is projected back to the sphere."""
 _SEEN = 1e-14
@@ -33,7 +33,7 @@ _SADDLE = 0.3
 
 @compiled
 def climb(
-    first: Core, second: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3
+    first: Core, second: Core, turn: Axes, center: Vector3, axis: Vector3, start: Vector3
 ) -> tuple[float, Vector3]:
     """Return the largest gap g(n) [m] and its direction n, in the axes of the first core; nan if none was found.
 
@@ -41,64 +41,67 @@ def climb(
     ----------
     first, second : Floats
         The cores; their radii are not used.
-    turn, place : Axes, Vector3
+    turn, center : Axes, Vector3
         See :mod:`bodies.contacts.smooth.smooth_core`.
     axis : Vector3
         A unit vector to which n stays perpendicular, such as an edge; zero if n is free.
     start : Vector3
         Start of n, of any length; as a rule along the line of centres.
     """
-    free = axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0
+    is_free = axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0
     n = plus_scaled(start, -dot(start, axis), axis)
+    # a start along the axis gives no direction: take any
     if norm(n) <= CLOSE * spread(start):
         n = tangent_of(axis)
     n = unit(n)
-    size = spread(place) + largest_semi_axis(first) + largest_semi_axis(second)
-    g, before, halvings = -math.inf, math.inf, 0
-    # direction and step of the last iteration
-    last, step = n, (0.0, 0.0, 0.0)
+    size = spread(center) + largest_semi_axis(first) + largest_semi_axis(second)
+    g, last_residual, halvings = -math.inf, math.inf, 0
+    last_n, step = n, (0.0, 0.0, 0.0)
     for _ in range(_STEPS):
-        _, p, a = support_of(first, n)
-        q, b = facing_point(second, turn, place, n)
+        _, p, bends_a = support_of(first, n)
+        q, bends_b = facing_point(second, turn, center, n)
         d = minus(q, p)
-        found = dot(n, d)
-        if found < g - _SEEN * size and halvings < _HALVINGS:
+        new_g = dot(n, d)
+        if new_g < g - _SEEN * size and halvings < _HALVINGS:
             halvings, step = halvings + 1, scaled(0.5, step)
         else:
-            g, halvings, last = found, 0, n
-            t, u = (tangent_of(n), axis) if free else (cross(axis, n), axis)
-            if free:
+            g, halvings, last_n = new_g, 0, n
+            t, u = (tangent_of(n), axis) if is_free else (cross(axis, n), axis)
+            if is_free:
                 u = cross(n, t)
+            # gradient r, s and elements of H_A + H_B + g along the tangents t and u; if n turns about the axis only,
+            # the gradient has no component along u, and the element there is any positive number
             r, s = in_plane(t, u, d)
             v = rotated_back(turn, t)
-            tt, tu, uu = bend(a, t, t) + bend(b, v, v) + g, 0.0, size
-            if free:
+            tt, tu, uu = bend(bends_a, t, t) + bend(bends_b, v, v) + g, 0.0, size
+            if is_free:
                 w = rotated_back(turn, u)
-                tu, uu = bend(a, t, u) + bend(b, v, w), bend(a, u, u) + bend(b, w, w) + g
+                tu, uu = bend(bends_a, t, u) + bend(bends_b, v, w), bend(bends_a, u, u) + bend(bends_b, w, w) + g
             else:
                 s = 0.0
             residual = math.sqrt(r * r + s * s)
-            # the eigenvalues, low <= high, and the angle of the latter's vector
+            # eigenvalues low <= high, the angle of the vector of high, and r along both vectors
             middle, half = 0.5 * (tt + uu), 0.5 * (tt - uu)
-            wide = math.sqrt(half * half + tu * tu)
-            low, high = middle - wide, middle + wide
+            half_difference = math.sqrt(half * half + tu * tu)
+            low, high = middle - half_difference, middle + half_difference
             angle = 0.5 * math.atan2(tu, half)
             cosine, sine = math.cos(angle), math.sin(angle)
-            most, other = cosine * r + sine * s, cosine * s - sine * r
-            if has_ended(residual, before, size):
+            r_high, r_low = cosine * r + sine * s, cosine * s - sine * r
+            if has_ended(residual, last_residual, size):
                 if residual > RIGHT * size:
                     return math.nan, n
                 if low >= -CLOSE * size:
                     return g, n
                 # a stationary point that is not a maximum: leave it along the direction in which g grows most
-                most, other, before = 0.0, _SADDLE, math.inf
+                r_high, r_low, last_residual = 0.0, _SADDLE, math.inf
             else:
+                # by absolute values, so that the step increases g
                 least = ROUND_OFF * size
-                most, other, before = most / max(abs(high), least), other / max(abs(low), least), residual
-            r, s = cosine * most - sine * other, sine * most + cosine * other
+                r_high, r_low, last_residual = r_high / max(abs(high), least), r_low / max(abs(low), least), residual
+            r, s = cosine * r_high - sine * r_low, sine * r_high + cosine * r_low
             length = math.sqrt(r * r + s * s)
             if length > _WIDEST:
                 r, s = r * _WIDEST / length, s * _WIDEST / length
             step = along((r, s), t, u)
-        n = unit(plus(last, step))
+        n = unit(plus(last_n, step))
     return math.nan, n

@@ -16,47 +16,47 @@ from nonsmooth.compiled import compiled
 from ...shapes.support_function import OF_FUNCTION, Core, gauge_of
 from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
 from .dual_newton import climb
-from .smooth_core import POINT, Axes, NearestPoint, largest_semi_axis, rotated_back, spread
+from .smooth_core import POINT, POWERS, Axes, NearestPoint, largest_semi_axis, rotated_back, spread
 
 
 @compiled
-def no_shorter_way(first: Core, second: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
+def no_shorter_way(first: Core, second: Core, turn: Axes, center: Vector3, solution: NearestPoint) -> bool:
     """Return True if inscribed balls prove that no translation shorter than the overlap separates the cores.
 
     Parameters
     ----------
-    first, second, turn, place : Floats, Axes, Vector3
+    first, second, turn, center : Floats, Axes, Vector3
         See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
-    found : tuple
+    solution : tuple
         The gap, below 0 [m], the second core's contact point and the normal, in the axes of the first core and from
         its centre.
     """
-    g, q, n = found
-    radius = _ball_in(first, -g, plus_scaled(q, -g, n), n)
+    g, q, n = solution
+    radius = _inscribed_radius(first, -g, plus_scaled(q, -g, n), n)
     if radius >= -g:
         return True
-    point, normal = rotated_back(turn, minus(q, place)), rotated_back(turn, opposite(n))
-    return bool(radius + _ball_in(second, -g, point, normal) >= -g)
+    point, normal = rotated_back(turn, minus(q, center)), rotated_back(turn, opposite(n))
+    return bool(radius + _inscribed_radius(second, -g, point, normal) >= -g)
 
 
 @compiled
-def _ball_in(core: Core, most: float, point: Vector3, normal: Vector3) -> float:
+def _inscribed_radius(core: Core, limit: float, point: Vector3, normal: Vector3) -> float:
     """Return the radius [m] of a ball that lies inside the core and touches the core's surface at a point.
 
     The point is in the axes of the core, from its centre [m].  ``normal`` is the outward unit normal there.  The radius
-    is a lower bound of the largest possible radius, and at most ``most`` [m].  It is 0 if no ball was found.
+    is a lower bound of the largest possible radius, and at most ``limit`` [m].  It is 0 if no ball was found.
     """
     a, b, c = vector_at(core, 0)
     height = dot(normal, point)
-    if core[3] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
+    if core[POWERS] == OF_FUNCTION or min(a, min(b, c)) <= 0.0 or height <= 0.0:
         return 0.0
-    # the function is r^j + |z / c|^j, with r^k = |x / a|^k + |y / b|^k.  First: bounds of |x / a|^k, |y / b|^k and
-    # |z / c| in a cube that contains the ball of radius `most`, and bounds of the parts s and t of x and y in r^k
-    j, k = core[3] / (core[3] - 1.0), core[4] / (core[4] - 1.0)
-    x, y, z = plus_scaled(point, -most, normal)
+    # the function is r^j + |z / c|^j, with r^k = |x / a|^k + |y / b|^k. First: bounds of |x / a|^k, |y / b|^k and
+    # |z / c| in a cube that contains the ball of radius ``limit``, and bounds of the parts s and t of x and y in r^k
+    j, k = core[POWERS] / (core[POWERS] - 1.0), core[POWERS + 1] / (core[POWERS + 1] - 1.0)
+    x, y, z = plus_scaled(point, -limit, normal)
     x, y, z = abs(x), abs(y), abs(z)
-    low_x, low_y, low_z = (max(x - most, 0.0) / a) ** k, (max(y - most, 0.0) / b) ** k, max(z - most, 0.0) / c
-    high_x, high_y, high_z = ((x + most) / a) ** k, ((y + most) / b) ** k, (z + most) / c
+    low_x, low_y, low_z = (max(x - limit, 0.0) / a) ** k, (max(y - limit, 0.0) / b) ** k, max(z - limit, 0.0) / c
+    high_x, high_y, high_z = ((x + limit) / a) ** k, ((y + limit) / b) ** k, (z + limit) / c
     low_s, low_t = low_x / (low_x + high_y), low_y / (high_x + low_y)
     high_s, high_t = 1.0 - low_t, 1.0 - low_s
     r, w = high_x + high_y, high_z
@@ -66,25 +66,28 @@ def _ball_in(core: Core, most: float, point: Vector3, normal: Vector3) -> float:
     if min(min(r, w), min(s, t)) == 0.0:
         # the second derivative has no bound in this cube: the radius is 0
         return 0.0
-    bend = 1.0 - 2.0 / k
-    along = (j - 1.0) * (high_s ** (bend + 1.0) / (a * a) + high_t ** (bend + 1.0) / (b * b))
-    round_it = (k - 1.0) * (s**bend * high_t / (a * a) + t**bend * high_s / (b * b))
-    across, up = r ** ((j - 2.0) / k) * (along + round_it), (j - 1.0) * w ** (j - 2.0) / (c * c)
-    return float(min(most, 1.0 / (height * max(across, up))))
+    # bounds of the second derivative divided by j: across the third axis, from r and the direction of (x, y), and along
+    # it. The function is homogeneous, so that G = j / height; L is j times the larger bound
+    power = 1.0 - 2.0 / k
+    along = (j - 1.0) * (high_s ** (power + 1.0) / (a * a) + high_t ** (power + 1.0) / (b * b))
+    around = (k - 1.0) * (s**power * high_t / (a * a) + t**power * high_s / (b * b))
+    across, up = r ** ((j - 2.0) / k) * (along + around), (j - 1.0) * w ** (j - 2.0) / (c * c)
+    return float(min(limit, 1.0 / (height * max(across, up))))
 
 
 @compiled
 def gauge(core: Core, point: Vector3) -> float:
-    """Return the gauge of a point: 1 on the surface of a core, more outside, less inside; in the axes of the core.
+    """Return the gauge of a point, given in the axes of a core [m]: 1 on its surface, more outside, less inside.
 
     A core given by a support function has no gauge in closed form.  There the result is 1 + signed distance / size, or
     nan if no normal was found.
     """
-    if core[3] != OF_FUNCTION:
+    if core[POWERS] != OF_FUNCTION:
         return float(gauge_of(core, point))
-    size, none = largest_semi_axis(core), (0.0, 0.0, 0.0)
+    size, no_axis = largest_semi_axis(core), (0.0, 0.0, 0.0)
+    # near the centre the direction to it is lost in round-off
     if spread(point) <= 1e-9 * size:
         return 0.0
-    same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-    g, _ = climb(POINT, core, same, opposite(point), none, opposite(point))
+    identity = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    g, _ = climb(POINT, core, identity, opposite(point), no_axis, opposite(point))
     return float(1.0 + g / size)

@@ -51,24 +51,24 @@ from .smooth_newton import widest_from, write_smooth
 
 Numbers = tuple[float, ...]
 
-COUNTS, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = 6, 9, 10, 11, 12, 13, 14
+COUNTS, N_EDGES, N_FACES, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = range(6, 15)
 """Indices in the head of a polytope's numbers.
 
-At ``COUNTS`` is the number of vertices; the numbers of edges and of faces follow.  At ``VERTICES``, ``EDGES``,
-``FACES``, ``LOOPS``, ``STARS`` and ``LISTS`` is the index at which the list of this name begins.  ``LISTS`` are the
-lists of the edges of each vertex.
+At ``COUNTS`` is the number of vertices, at ``N_EDGES`` and ``N_FACES`` are those of edges and faces.  At the others is
+the index at which the list of this name begins.  ``LISTS`` are the lists of the edges of each vertex.
 """
-EDGE, FACE = 4, 6
-"""Length of the row of an edge and of the row of a face, respectively.
+EDGE, END, LEFT = 4, 1, 2
+"""Length of the row of an edge, and offsets in it: first vertex, second vertex, faces on its left and right or -1."""
+FACE, OFFSET, LOOP, N_LOOP = 6, 3, 4, 5
+"""Length of the row of a face, and offsets in it.
 
-An edge: both vertices, the face on its left, the face on its right (-1 for none).  A face: outward normal, distance of
-its plane from the origin [m], beginning and length of its loop.
+The row is: outward normal, distance of the plane from the origin [m], beginning of its loop, number of its vertices.
 """
 _HEADER = 15
 
 
 def polyhedron_numbers(polytope: Polytope, radius: float = 0.0) -> Numbers:
-    """Numbers of a polyhedron, with a radius about it [m].
+    """Return the numbers of a polyhedron, with a radius about it [m].
 
     They begin like the numbers of a point (:func:`bodies.shapes.smooth.core_numbers`), because searches treat a vertex
     as a point: three semi-axes 0, two powers, the radius.  Then come the numbers of vertices, edges and faces, and the
@@ -80,7 +80,7 @@ def polyhedron_numbers(polytope: Polytope, radius: float = 0.0) -> Numbers:
 
 
 def segment_numbers(ends: Sequence[tuple[float, float, float]], radius: float) -> Numbers:
-    """Numbers of a capsule, a segment with a radius about it [m]; see :func:`polyhedron_numbers`."""
+    """Return the numbers of a capsule, a segment with a radius about it [m]; see :func:`polyhedron_numbers`."""
     return _numbers(ends, (), (), ((0, 1, -1, -1),), radius)
 
 
@@ -91,20 +91,23 @@ def _numbers(
     edges: Sequence[tuple[int, int, int, int]],
     radius: float,
 ) -> Numbers:
-    number = {pair: i for i, (one, two, _, _) in enumerate(edges) for pair in ((one, two), (two, one))}
-    loops = [(one, number[one, two]) for face in faces for one, two in zip(face, (*face[1:], face[0]), strict=True)]
+    """Return the numbers described at :func:`polyhedron_numbers`, from attributes of a polytope and a radius [m]."""
+    edge_between = {pair: i for i, (one, two, _, _) in enumerate(edges) for pair in ((one, two), (two, one))}
+    loops = [
+        (one, edge_between[one, two]) for face in faces for one, two in zip(face, (*face[1:], face[0]), strict=True)
+    ]
     begins = itertools.accumulate((len(face) for face in faces), initial=0)
     rows = [(*plane, 2 * begin, len(face)) for plane, begin, face in zip(planes, begins, faces, strict=False)]
-    own: list[list[int]] = [[] for _ in vertices]
+    edges_of: list[list[int]] = [[] for _ in vertices]
     for i, edge in enumerate(edges):
         for vertex in edge[:2]:
-            own[vertex].append(i)
-    begins = itertools.accumulate((len(one) for one in own), initial=0)
-    stars = [(begin, len(one)) for begin, one in zip(begins, own, strict=False)]
-    parts = [list(itertools.chain(*part)) for part in (vertices, edges, rows, loops, stars, own)]
-    offsets = itertools.accumulate((len(part) for part in parts[:-1]), initial=_HEADER)
+            edges_of[vertex].append(i)
+    begins = itertools.accumulate((len(one) for one in edges_of), initial=0)
+    stars = [(begin, len(one)) for begin, one in zip(begins, edges_of, strict=False)]
+    lists = [list(itertools.chain(*part)) for part in (vertices, edges, rows, loops, stars, edges_of)]
+    offsets = itertools.accumulate((len(part) for part in lists[:-1]), initial=_HEADER)
     head = (0, 0, 0, 2, 2, radius, len(vertices), len(edges), len(faces), *offsets)
-    return tuple(float(x) for x in (*head, *itertools.chain(*parts)))
+    return tuple(float(x) for x in (*head, *itertools.chain(*lists)))
 
 
 _HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
@@ -124,7 +127,10 @@ _ROUND = 8
 """Number of directions about a segment from which Newton's method starts, if the segment is deep in the body."""
 
 Stop: TypeAlias = tuple[float, Vector3, int, int, Vector3]
-"""Gap [m] and normal at a stop of the walk, kind and number of the feature that follows, point where it starts [m]."""
+"""A stop: gap [m], normal, kind and number of the feature on which the walk continues, and a point.
+
+The point [m] is one of the feature, if the walk ends, or the start on the next feature, if this is a face.
+"""
 Nearest: TypeAlias = tuple[float, Vector3, int, Vector3]
 """Gap of the cores [m], normal, number of the polytope's nearest feature and a point of this feature [m].
 
@@ -135,27 +141,28 @@ polytope's nearest point.  Vectors are in the frame of the polytope.  The gap is
 
 @compiled
 def _vertex(hull: Floats, i: int) -> Vector3:
+    """Return vertex i, in the axes of the polytope [m]."""
     return vector_at(hull, int(hull[VERTICES]) + 3 * i)
 
 
 @compiled
 def _begin_of_edge(hull: Floats, i: int) -> Vector3:
-    """Return the first vertex of an edge [m]."""
+    """Return the first vertex of edge i, in the axes of the polytope [m]."""
     return _vertex(hull, int(hull[int(hull[EDGES]) + EDGE * i]))
 
 
 @compiled
 def _edge(hull: Floats, i: int) -> tuple[Vector3, float]:
-    """Return the unit vector from the first to the second vertex of an edge, and its length."""
-    at = int(hull[EDGES]) + EDGE * i
-    e = minus(_vertex(hull, int(hull[at + 1])), _vertex(hull, int(hull[at])))
+    """Return the unit vector from the first to the second vertex of edge i, and the length of the edge [m]."""
+    row = int(hull[EDGES]) + EDGE * i
+    e = minus(_vertex(hull, int(hull[row + END])), _vertex(hull, int(hull[row])))
     length = norm(e)
     return divided(e, length), length
 
 
 @compiled
 def _edge_from(hull: Floats, vertex: int, i: int) -> tuple[int, float, Vector3]:
-    """Return the number of edge i of a vertex, 1 if the edge begins there, -1 if it ends there, its unit vector."""
+    """Return the number of edge i of a vertex, 1 if it begins there, else -1, and the edge's own unit vector."""
     star = int(hull[STARS]) + 2 * vertex
     edge = int(hull[int(hull[LISTS]) + int(hull[star]) + i])
     e, _ = _edge(hull, edge)
@@ -163,93 +170,113 @@ def _edge_from(hull: Floats, vertex: int, i: int) -> tuple[int, float, Vector3]:
 
 
 @compiled
-def _exit(hull: Floats, face: int, near: float, here: Vector3, there: Vector3) -> int:
-    """Return the number of the face's edge that the line between two points crosses first, or -1 if it crosses none.
+def _first_crossed(hull: Floats, face: int, margin: float, begin: Vector3, end: Vector3) -> int:
+    """Return the number of the face's edge that a segment crosses outward first, or -1 if it crosses none.
 
-    Both points are in the plane of the face, the first on the face.  A point up to ``near`` past an edge [m] is on it.
+    The segment is in the plane of the face, from ``begin`` on the face to ``end``.  A point up to ``margin`` past an
+    edge [m] is still on the face.
     """
-    at = int(hull[FACES]) + FACE * face
-    n = vector_at(hull, at)
-    loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
-    found, least = -1, 2.0
+    row = int(hull[FACES]) + FACE * face
+    n = vector_at(hull, row)
+    loop, count = int(hull[LOOPS]) + int(hull[row + LOOP]), int(hull[row + N_LOOP])
+    crossed, least = -1, 2.0
     for i in range(count):
         v, w = _vertex(hull, int(hull[loop + 2 * i])), _vertex(hull, int(hull[loop + 2 * ((i + 1) % count)]))
         e = minus(w, v)
         outward = divided(cross(e, n), norm(e))
-        before, after = dot(minus(here, v), outward), dot(minus(there, v), outward)
-        if after > near and after > before:
-            part = max(-before, 0.0) / (after - before)
-            if part < least:
-                found, least = int(hull[loop + 2 * i + 1]), part
-    return found
+        # distances of both points past the line of the edge
+        before, after = dot(minus(begin, v), outward), dot(minus(end, v), outward)
+        if after > margin and after > before:
+            fraction = max(-before, 0.0) / (after - before)
+            if fraction < least:
+                crossed, least = int(hull[loop + 2 * i + 1]), fraction
+    return crossed
 
 
 @compiled
-def _over_face(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int) -> NearestPoint:
+def _over_face(hull: Floats, core: Core, turn: Axes, center: Vector3, number: int) -> NearestPoint:
     """Return the gap between the plane of a face and the smooth body [m], the body's point [m] and the normal."""
-    at = int(hull[FACES]) + FACE * number
-    n = vector_at(hull, at)
-    p, _ = facing_point(core, turn, place, n)
-    return dot(n, p) - hull[at + 3], p, n
+    row = int(hull[FACES]) + FACE * number
+    n = vector_at(hull, row)
+    p, _ = facing_point(core, turn, center, n)
+    return dot(n, p) - hull[row + OFFSET], p, n
 
 
 @compiled
-def _best_face(hull: Floats, core: Core, turn: Axes, place: Vector3) -> int:
+def _farthest_face(hull: Floats, core: Core, turn: Axes, center: Vector3) -> int:
     """Return the face whose plane has the largest gap to the smooth body, or -1 if the polytope is a segment."""
-    best, widest = -1, -math.inf
-    for i in range(int(hull[COUNTS + 2])):
-        wide, _, _ = _over_face(hull, core, turn, place, i)
-        if wide > widest:
-            best, widest = i, wide
-    return best
+    farthest, largest = -1, -math.inf
+    for i in range(int(hull[N_FACES])):
+        gap, _, _ = _over_face(hull, core, turn, center, i)
+        if gap > largest:
+            farthest, largest = i, gap
+    return farthest
 
 
 @compiled
-def _look_at_face(hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, number: int, way: Vector3) -> Stop:
-    g, p, n = _over_face(hull, core, turn, place, number)
-    edge = _exit(hull, number, near, way, plus_scaled(p, -g, n))
-    return g, n, _HERE if edge < 0 else _EDGE, edge, way
-
-
-@compiled
-def _look_at_edge(
-    hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, number: int, begin: Vector3
+def _stop_on_face(
+    hull: Floats, core: Core, turn: Axes, center: Vector3, margin: float, number: int, begin: Vector3
 ) -> Stop:
-    at = int(hull[EDGES]) + EDGE * number
-    v, (e, length) = _begin_of_edge(hull, number), _edge(hull, number)
-    g, p, n = widest_from(hull, core, turn, minus(place, v), e, begin)
-    s = dot(p, e)
-    if s < -near or s > length + near:
-        return g, n, _VERTEX, int(hull[at]) if s < 0.0 else int(hull[at + 1]), begin
-    side, most = -1, _ON_BORDER
-    for i in range(2):
-        face = int(hull[at + 2 + i])
-        if face >= 0:
-            # into the face, whose loop runs along the edge on its left, against it on its right
-            into = dot(n, cross(vector_at(hull, int(hull[FACES]) + FACE * face), e))
-            into = into if i == 0 else -into
-            if into > most:
-                side, most = face, into
-    return g, n, _HERE if side < 0 else _FACE, side, plus_scaled(v, s, e)
+    """Return the stop on a face, from its point ``begin`` [m]; the other arguments are those of :func:`_stop_on`.
+
+    The gap is that of the plane of the face.  If the plane's point is past a border, the walk continues on the first
+    edge between ``begin`` and this point.
+    """
+    g, p, n = _over_face(hull, core, turn, center, number)
+    edge = _first_crossed(hull, number, margin, begin, plus_scaled(p, -g, n))
+    return g, n, _HERE if edge < 0 else _EDGE, edge, begin
 
 
 @compiled
-def _look_at_vertex(hull: Floats, core: Core, turn: Axes, place: Vector3, number: int, begin: Vector3) -> Stop:
+def _stop_on_edge(
+    hull: Floats, core: Core, turn: Axes, center: Vector3, margin: float, number: int, start: Vector3
+) -> Stop:
+    """Return the stop on an edge, from the normal ``start``; the other arguments are those of :func:`_stop_on`.
+
+    If the point of its line is past an end, the walk continues on this vertex.  If the normal leads into a face of the
+    edge, the distance decreases on this face, and the walk continues on it.
+    """
+    row = int(hull[EDGES]) + EDGE * number
+    v, (e, length) = _begin_of_edge(hull, number), _edge(hull, number)
+    g, p, n = widest_from(hull, core, turn, minus(center, v), e, start)
+    # distance of the line's point from the first vertex
+    s = dot(p, e)
+    if s < -margin or s > length + margin:
+        return g, n, _VERTEX, int(hull[row]) if s < 0.0 else int(hull[row + END]), start
+    next_face, steepest = -1, _ON_BORDER
+    for i in range(2):
+        face = int(hull[row + LEFT + i])
+        if face >= 0:
+            # component of the normal into the face, which is on the left (i = 0) or right of the edge
+            slope = dot(n, cross(vector_at(hull, int(hull[FACES]) + FACE * face), e))
+            slope = slope if i == 0 else -slope
+            if slope > steepest:
+                next_face, steepest = face, slope
+    return g, n, _HERE if next_face < 0 else _FACE, next_face, plus_scaled(v, s, e)
+
+
+@compiled
+def _stop_on_vertex(hull: Floats, core: Core, turn: Axes, center: Vector3, number: int, start: Vector3) -> Stop:
+    """Return the stop on a vertex, from the normal ``start``; the other arguments are those of :func:`_stop_on`.
+
+    If the normal leads along an edge, the distance decreases there: the walk continues on the steepest such edge.
+    """
     v = _vertex(hull, number)
-    g, _, n = widest_from(hull, core, turn, minus(place, v), (0.0, 0.0, 0.0), begin)
-    steepest, most = -1, _ON_BORDER
+    g, _, n = widest_from(hull, core, turn, minus(center, v), (0.0, 0.0, 0.0), start)
+    next_edge, steepest = -1, _ON_BORDER
     for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
         edge, sign, e = _edge_from(hull, number, i)
-        away = sign * dot(n, e)
-        if away > most:
-            steepest, most = edge, away
-    return g, n, _HERE if steepest < 0 else _EDGE, steepest, v
+        slope = sign * dot(n, e)
+        if slope > steepest:
+            next_edge, steepest = edge, slope
+    return g, n, _HERE if next_edge < 0 else _EDGE, next_edge, v
 
 
 @compiled
 def _middle(hull: Floats, face: int) -> Vector3:
-    at = int(hull[FACES]) + FACE * face
-    loop, count = int(hull[LOOPS]) + int(hull[at + 4]), int(hull[at + 5])
+    """Return the mean of the vertices of a face [m]."""
+    row = int(hull[FACES]) + FACE * face
+    loop, count = int(hull[LOOPS]) + int(hull[row + LOOP]), int(hull[row + N_LOOP])
     middle = 0.0, 0.0, 0.0
     for i in range(count):
         middle = plus(middle, divided(_vertex(hull, int(hull[loop + 2 * i])), count))
@@ -257,143 +284,151 @@ def _middle(hull: Floats, face: int) -> Vector3:
 
 
 @compiled
-def _look(
-    hull: Floats, core: Core, turn: Axes, place: Vector3, near: float, kind: int, number: int, begin: Vector3
+def _stop_on(
+    hull: Floats, core: Core, turn: Axes, center: Vector3, margin: float, kind: int, number: int, start: Vector3
 ) -> Stop:
-    """Return the stop of a feature; ``begin`` is a point of a face [m], or the first normal at an edge or vertex."""
+    """Return the stop on the feature of a ``kind`` with a ``number``: the minimum over its plane or line, or its point.
+
+    ``start`` is a point of a face [m], or the normal with which the search on an edge or a vertex starts, of any
+    length.  ``margin`` is the distance past the border of a feature that is round-off [m].  All vectors are in the axes
+    of the polytope ``hull``; ``turn`` and ``center`` are those of :mod:`bodies.contacts.smooth.smooth_core`.
+    """
     if kind == _FACE:
-        found: Stop = _look_at_face(hull, core, turn, place, near, number, begin)
+        stop: Stop = _stop_on_face(hull, core, turn, center, margin, number, start)
     elif kind == _EDGE:
-        found = _look_at_edge(hull, core, turn, place, near, number, begin)
+        stop = _stop_on_edge(hull, core, turn, center, margin, number, start)
     else:
-        found = _look_at_vertex(hull, core, turn, place, number, begin)
-    return found
+        stop = _stop_on_vertex(hull, core, turn, center, number, start)
+    return stop
 
 
 @compiled
-def _nearest(hull: Floats, core: Core, turn: Axes, place: Vector3) -> Nearest:
+def _nearest(hull: Floats, core: Core, turn: Axes, center: Vector3) -> Nearest:
     """Return gap, normal, nearest feature and point of a polytope and a smooth body.
 
-    ``place`` is the centre of the smooth body's core in the frame of the polytope [m].
+    It is the final stop of the walk, if its overlap is below ``_SHALLOW`` or proved.  Otherwise it is the stop with the
+    largest gap, of this one and those of all features.  If a search along a segment finds a gap that is not negative,
+    this is the result.  ``center`` is the centre of the smooth body's core in the axes of the polytope [m].
     """
-    n_edges, n_faces = int(hull[COUNTS + 1]), int(hull[COUNTS + 2])
-    way = _vertex(hull, 0)
-    size = spread(place) + largest_semi_axis(core) + abs(way[0]) + abs(way[1]) + abs(way[2])
-    near = _ON_BORDER * size
+    n_edges, n_faces = int(hull[N_EDGES]), int(hull[N_FACES])
+    start = _vertex(hull, 0)
+    size = spread(center) + largest_semi_axis(core) + abs(start[0]) + abs(start[1]) + abs(start[2])
+    margin = _ON_BORDER * size
     kind, number = _EDGE, 0
     if n_faces > 0:
-        kind, number = _FACE, _best_face(hull, core, turn, place)
-        way = _middle(hull, number)
-    best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, way)
-    # on edges and vertices Newton's method starts with the direction to the smooth body's centre
+        kind, number = _FACE, _farthest_face(hull, core, turn, center)
+        start = _middle(hull, number)
+    best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, start)
     for _ in range(n_edges + 4):
+        # on an edge or a vertex, Newton's method starts with the direction to the smooth body's centre
         if kind != _FACE:
-            way = minus(place, _begin_of_edge(hull, number) if kind == _EDGE else _vertex(hull, number))
-        g, n, after, where, way = _look(hull, core, turn, place, near, kind, number, way)
-        stop = g, n, _feature(hull, kind, number), way
-        if after == _HERE and g >= -_SHALLOW * size:
+            start = minus(center, _begin_of_edge(hull, number) if kind == _EDGE else _vertex(hull, number))
+        g, n, next_kind, next_number, start = _stop_on(hull, core, turn, center, margin, kind, number, start)
+        stop = g, n, _feature(hull, kind, number), start
+        if next_kind == _HERE and g >= -_SHALLOW * size:
             return stop
         # a final stop is valid only if the smooth body's centre is on the outer side of the feature
-        if after == _HERE and dot(n, minus(place, way)) > 0.0:
+        if next_kind == _HERE and dot(n, minus(center, start)) > 0.0:
             # if the polytope's point lies in the smooth body (gauge below 1), the overlap is proved
-            p, _ = facing_point(core, turn, place, n)
-            if gauge(core, rotated_back(turn, minus(plus_scaled(p, -g, n), place))) < 1.0:
+            p, _ = facing_point(core, turn, center, n)
+            if gauge(core, rotated_back(turn, minus(plus_scaled(p, -g, n), center))) < 1.0:
                 return stop
             best = stop
-        if g != g or after == _HERE:
+        if g != g or next_kind == _HERE:
             break
-        kind, number = after, where
-    on_segment: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, way)
+        kind, number = next_kind, next_number
+    on_segment: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, start)
     if n_faces == 0:
-        # a segment: search along it
+        # a segment: its number is that of its side, first or second end
         v, (e, length) = _vertex(hull, 0), _edge(hull, 0)
-        found, s = along_segment(core, turn, minus(place, v), e, length)
+        result, s = along_segment(core, turn, minus(center, v), e, length)
         number = n_edges if s == 0.0 else n_edges + 1 if s == length else 0
-        on_segment = found[0], found[2], number, plus_scaled(v, s, e)
-        if found[0] >= 0.0:
+        on_segment = result[0], result[2], number, plus_scaled(v, s, e)
+        if result[0] >= 0.0:
             return on_segment
-    of_all: Nearest = _best_of_all(hull, core, turn, place, near)
+    of_all: Nearest = _best_of_all(hull, core, turn, center, margin)
     if best[0] == best[0] and not of_all[0] > best[0]:
         return best
     if of_all[0] != of_all[0] and on_segment[0] == on_segment[0]:
-        # the trial of all features found nothing: return the overlap that the search along the segment found
+        # no feature has a final stop: return the overlap that the search along the segment found
         return on_segment
     if of_all[0] != of_all[0] and n_faces == 0:
-        of_all = _deep_segment(hull, core, turn, place, size)
+        of_all = _deep_segment(hull, core, turn, center, size)
     return of_all
 
 
 @compiled
-def _deep_segment(hull: Floats, core: Core, turn: Axes, place: Vector3, size: float) -> Nearest:
-    """Return the result of :func:`_nearest` for a segment deep in the smooth body.
+def _deep_segment(hull: Floats, core: Core, turn: Axes, center: Vector3, size: float) -> Nearest:
+    """Return the result of :func:`_nearest` for a segment deep in the smooth body: the largest gap of ends and side.
 
-    Searches start uphill from both ends, and from ``_ROUND`` directions round the segment.
+    At an end the search starts from directions with a large gap, on the side from ``_ROUND`` directions round it.
     """
     best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, (0.0, 0.0, 0.0))
     e, _ = _edge(hull, 0)
     for end in range(2):
         v = _vertex(hull, end)
-        g, _, n = up_hills(POINT, core, turn, minus(place, v), 0.0, (1.0, 0.0, size))
-        rise = dot(n, e)
-        if (rise <= 0.0 if end == 0 else rise >= 0.0) and g == g and not g <= best[0]:
+        g, _, n = up_hills(POINT, core, turn, minus(center, v), 0.0, (1.0, 0.0, size))
+        slope = dot(n, e)
+        # a normal that leads into the segment is not a normal of its end
+        if (slope <= 0.0 if end == 0 else slope >= 0.0) and g == g and not g <= best[0]:
             best = g, n, _feature(hull, _VERTEX, end), v
     t = tangent_of(e)
     u = cross(e, t)
     for i in range(_ROUND):
         c, s = math.cos(2.0 * math.pi * i / _ROUND), math.sin(2.0 * math.pi * i / _ROUND)
-        begin = plus(scaled(c, t), scaled(s, u))
-        g, n, after, _, way = _look_at_edge(hull, core, turn, place, _ON_BORDER * size, 0, begin)
-        if after == _HERE and g == g and not g <= best[0]:
-            best = g, n, _feature(hull, _EDGE, 0), way
+        start = plus(scaled(c, t), scaled(s, u))
+        g, n, next_kind, _, point = _stop_on_edge(hull, core, turn, center, _ON_BORDER * size, 0, start)
+        if next_kind == _HERE and g == g and not g <= best[0]:
+            best = g, n, _feature(hull, _EDGE, 0), point
     return best
 
 
 @compiled
-def _best_of_all(hull: Floats, core: Core, turn: Axes, place: Vector3, near: float) -> Nearest:
+def _best_of_all(hull: Floats, core: Core, turn: Axes, center: Vector3, margin: float) -> Nearest:
     """Return the result of :func:`_nearest` by Newton's method on every feature of the polytope.
 
     It is used for overlaps in which the walk does not lead to a proved solution.  The result is the final stop with the
-    largest gap.  Newton's method starts from an outward direction.  At an edge it is the sum of the normals of its
-    faces, at a vertex the sum of the unit vectors opposite to its edges.
+    largest gap.  Newton's method starts from an outward direction (:func:`_start_of`).
     """
     best: Nearest = (math.nan, (0.0, 0.0, 1.0), 0, (0.0, 0.0, 0.0))
     for kind in (_FACE, _EDGE, _VERTEX):
         for number in range(int(hull[COUNTS + kind])):
-            begin = _begin(hull, kind, number, place)
-            g, n, after, _, way = _look(hull, core, turn, place, near, kind, number, begin)
-            if after == _HERE and g == g and not g <= best[0]:
-                best = g, n, _feature(hull, kind, number), way
+            start = _start_of(hull, kind, number, center)
+            g, n, next_kind, _, point = _stop_on(hull, core, turn, center, margin, kind, number, start)
+            if next_kind == _HERE and g == g and not g <= best[0]:
+                best = g, n, _feature(hull, kind, number), point
     return best
 
 
 @compiled
-def _begin(hull: Floats, kind: int, number: int, place: Vector3) -> Vector3:
+def _start_of(hull: Floats, kind: int, number: int, center: Vector3) -> Vector3:
     """Return the middle of a face [m], or a direction out of the polytope at an edge or a vertex, of any length.
 
-    At an edge it is the sum of the normals of its two faces.  A segment has no faces: there it is the vector from its
-    start to the smooth body's centre [m].
+    At an edge it is the sum of the normals of its two faces; at a vertex, of the unit vectors opposite to its edges.  A
+    segment has no faces: there it is the vector from its first end to the smooth body's centre [m].
     """
-    at, outward = int(hull[EDGES]) + EDGE * number, (0.0, 0.0, 0.0)
+    row, start = int(hull[EDGES]) + EDGE * number, (0.0, 0.0, 0.0)
     if kind == _FACE:
-        outward = _middle(hull, number)
-    elif kind == _EDGE and hull[at + 2] < 0.0:
-        outward = minus(place, _begin_of_edge(hull, number))
+        start = _middle(hull, number)
+    elif kind == _EDGE and hull[row + LEFT] < 0.0:
+        start = minus(center, _begin_of_edge(hull, number))
     elif kind == _EDGE:
         for i in range(2):
-            if hull[at + 2 + i] >= 0.0:
-                outward = plus(outward, vector_at(hull, int(hull[FACES]) + FACE * int(hull[at + 2 + i])))
+            if hull[row + LEFT + i] >= 0.0:
+                start = plus(start, vector_at(hull, int(hull[FACES]) + FACE * int(hull[row + LEFT + i])))
     else:
         for i in range(int(hull[int(hull[STARS]) + 2 * number + 1])):
             _, sign, e = _edge_from(hull, number, i)
-            outward = plus_scaled(outward, -sign, e)
-    return outward
+            start = plus_scaled(start, -sign, e)
+    return start
 
 
 @compiled
 def _feature(hull: Floats, kind: int, number: int) -> int:
+    """Return the number of a feature among all features: faces first, then edges, then vertices."""
     if kind == _FACE:
         return number
-    return number + int(hull[COUNTS + 2]) + (int(hull[COUNTS + 1]) if kind == _VERTEX else 0)
+    return number + int(hull[N_FACES]) + (int(hull[N_EDGES]) if kind == _VERTEX else 0)
 
 
 def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
@@ -403,14 +438,14 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     (:func:`bodies.shapes.smooth.core_numbers`).  The gap is nan if no nearest feature was found.
     """
     axes_b = axes_in_world(b, second)
-    place, turn = point_in_body(a, point_in_world(b, vector_at(second, CENTER))), relative_rotation(axes_of(a), axes_b)
-    g, n, feature, base = _nearest(first, second, turn, place)
-    p, _ = facing_point(second, turn, place, n)
-    n_faces, n_edges = int(first[COUNTS + 2]), int(first[COUNTS + 1])
+    center, turn = point_in_body(a, point_in_world(b, vector_at(second, CENTER))), relative_rotation(axes_of(a), axes_b)
+    g, n, feature, point = _nearest(first, second, turn, center)
+    p, _ = facing_point(second, turn, center, n)
+    n_faces, n_edges = int(first[N_FACES]), int(first[N_EDGES])
     if feature >= n_faces and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the polytope's point
-        p = plus_scaled(base, g, n)
-    write_smooth(a, out, g - first[RADIUS] - second[RADIUS], second, axes_b, turn, place, n, p)
+        p = plus_scaled(point, g, n)
+    write_smooth(a, out, g - first[RADIUS] - second[RADIUS], second, axes_b, turn, center, n, p)
     out[FEATURE] = feature
     if feature < n_faces:
         write_flat(out, SIDE_A)

@@ -29,11 +29,8 @@ from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""
-_LOOKS, _STEPS = 16, 120
-"""Numbers of angles and steps of a search.
-
-``_LOOKS``: angles round the circle that are sampled.  ``_STEPS``: largest number of steps.
-"""
+_SAMPLES, _STEPS = 16, 120
+"""Number of angles round the circle that are sampled, and largest number of steps of a search."""
 _SAME = 4e-16
 """Round-off: two angles closer than this [rad] are equal, and a smaller derivative of the distance is zero."""
 _ACROSS = 1e-9
@@ -56,25 +53,26 @@ _NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
 ``_STEEPEST``: angle between normal and axis at which the method gives up [rad].
 """
 
-Look: TypeAlias = tuple[float, NearestPoint]
-"""Derivative of the distance by the arc length of the circle [1], and a stop.
+Sample: TypeAlias = tuple[float, NearestPoint]
+"""Derivative of the distance by the arc length of the circle [1], and the solution for one point of the circle.
 
-A stop is the gap between one point of the circle and the body [m], the body's nearest point to it, and the normal.
+The solution is the gap between the point and the body [m], the body's nearest point [m], and the normal.
 """
 
 
 @compiled
-def _look(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, angle: float) -> Look:
+def _sample(point: Core, core: Core, turn: Axes, center: Vector3, radius: float, angle: float) -> Sample:
+    """Return slope and solution for the circle's point at an angle [rad]; arguments as in :func:`round_circle`."""
     c, s = math.cos(angle), math.sin(angle)
     rim = radius * c, radius * s, 0.0
-    from_rim = minus(place, rim)
+    from_rim = minus(center, rim)
     g, p, n = widest_of_round(point, core, turn, from_rim, from_rim)
     return n[0] * s - n[1] * c, (g, plus(p, rim), n)
 
 
 @compiled
-def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3) -> NearestPoint:
-    """Return gap, smooth body's point and normal at the least distance of a circle from the body.
+def round_circle(point: Core, core: Core, turn: Axes, center: Vector3, radius: float, start: Vector3) -> NearestPoint:
+    """Return gap [m], smooth body's point [m] and normal at the least distance of a circle from the body.
 
     The centre of the circle is the origin, its axis the third axis.  The normal points out of its disc.  The gap is nan
     if no such point was found.
@@ -85,7 +83,7 @@ def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: fl
         Core numbers of a point (a body of size 0, used for each point of the circle), and of the smooth body.
     turn : Axes
         Rotation from the axes of the core to those of the circle.
-    place : Vector3
+    center : Vector3
         The core's centre [m].
     radius : float
         Radius of the circle [m].
@@ -93,45 +91,43 @@ def round_circle(point: Core, core: Core, turn: Axes, place: Vector3, radius: fl
         The search starts at the direction of its part in the plane of the circle, of any length.
     """
     begin = math.atan2(start[1], start[0])
-    none: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
-    look = _look(point, core, turn, place, radius, begin)
-    slope, reached = look
-    # downhill from the start; if that fails, in every interval of the circle
-    way = -math.copysign(1.0, slope)
+    no_solution: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
+    slope, at_start = _sample(point, core, turn, center, radius, begin)
+    last_angle, last_slope = begin, slope
+    # downhill from the start, until the slope changes its sign; if that fails, in every interval of the circle
+    sign = -math.copysign(1.0, slope)
     low, falling, step = begin, slope, _FIRST
     if abs(slope) > _SAME:
         while step < math.pi:
-            angle = begin + way * step
-            slope, _ = _look(point, core, turn, place, radius, angle)
-            if way * slope >= 0.0:
-                answer = _between(point, core, turn, place, radius, low, angle, falling, slope)
-                if _is_outward(answer):
-                    return answer
+            angle = begin + sign * step
+            slope, _ = _sample(point, core, turn, center, radius, angle)
+            if sign * slope >= 0.0:
+                result = _between(point, core, turn, center, radius, low, angle, falling, slope)
+                if _is_outward(result):
+                    return result
                 break
             low, falling, step = angle, slope, 2.0 * step
-    elif _is_outward(reached):
-        return reached
-    last, before = begin, look[0]
-    for i in range(1, _LOOKS + 1):
-        angle = begin + 2.0 * math.pi * i / _LOOKS
-        slope, _ = _look(point, core, turn, place, radius, angle)
-        if before < 0.0 <= slope:
-            answer = _between(point, core, turn, place, radius, last, angle, before, slope)
-            if _is_outward(answer):
-                return answer
-        last, before = angle, slope
-    return none
+    elif _is_outward(at_start):
+        return at_start
+    for i in range(1, _SAMPLES + 1):
+        angle = begin + 2.0 * math.pi * i / _SAMPLES
+        slope, _ = _sample(point, core, turn, center, radius, angle)
+        if last_slope < 0.0 <= slope:
+            result = _between(point, core, turn, center, radius, last_angle, angle, last_slope, slope)
+            if _is_outward(result):
+                return result
+        last_angle, last_slope = angle, slope
+    return no_solution
 
 
 @compiled
-def _is_outward(found: NearestPoint) -> bool:
+def _is_outward(solution: NearestPoint) -> bool:
     """Return whether the normal at the circle's point leads away from the circle's axis, up to round-off.
 
-    ``found`` is in the axes of the circle, which is about the z axis: gap [m], point of the smooth core [m], and unit
-    normal from the circle to this point.  A circle with an inward normal is a local minimum of the distance, but of a
-    body that the circle surrounds: the disc in the circle passes through it.
+    ``solution`` is in the axes of the circle, which is about the third axis.  Its normal leads from the circle to the
+    body.  An inward normal is that of a body that the circle surrounds, so that the disc passes through the body.
     """
-    gap, point, normal = found
+    gap, point, normal = solution
     x, y, _ = plus_scaled(point, -gap, normal)
     return bool(x * normal[0] + y * normal[1] >= -_SAME * (abs(x) + abs(y)))
 
@@ -141,154 +137,158 @@ def _between(
     point: Core,
     core: Core,
     turn: Axes,
-    place: Vector3,
+    center: Vector3,
     radius: float,
     low: float,
     high: float,
     falling: float,
     rising: float,
 ) -> NearestPoint:
-    """Return gap, smooth body's point and normal at the least distance between two angles of the circle.
+    """Return gap [m], smooth body's point [m] and normal at the least distance between two angles of the circle [rad].
 
-    At the angle ``low`` the distance decreases towards ``high``, and at ``high`` towards ``low``.  ``falling`` and
-    ``rising`` are the derivatives of the distance at these angles.  ``place`` is the centre of the core [m]; the other
-    arguments are those of :func:`round_circle`.
+    ``falling`` and ``rising`` are the derivatives of the distance by the arc length at the angles ``low`` and ``high``,
+    of opposite signs: the distance decreases from either end into the interval.  ``high`` may be the lesser angle.  The
+    other arguments are those of :func:`round_circle`.
     """
-    look = _look(point, core, turn, place, radius, high)
+    sample = _sample(point, core, turn, center, radius, high)
     sides = bracket(low, high, falling, rising)
     for _ in range(_STEPS):
         middle, sides = next_place(sides)
         low, high, _, _, _, _ = sides
-        look = _look(point, core, turn, place, radius, middle)
-        if abs(look[0]) <= _SAME or abs(high - low) <= _SAME or middle == low or middle == high:
+        sample = _sample(point, core, turn, center, radius, middle)
+        if abs(sample[0]) <= _SAME or abs(high - low) <= _SAME or middle == low or middle == high:
             break
-        sides = narrowed(sides, middle, look[0])
-    found = look[1]
-    if not abs(look[0]) <= _ACROSS:
+        sides = narrowed(sides, middle, sample[0])
+    result = sample[1]
+    if not abs(sample[0]) <= _ACROSS:
         # deep in the body the nearest surface point is discontinuous along the circle: no stationary point
-        return math.nan, found[1], found[2]
-    return found
+        return math.nan, result[1], result[2]
+    return result
 
 
 @compiled
-def next_to_axis(core: Core, turn: Axes, place: Vector3, radius: float, start: Vector3, up: float) -> NearestPoint:
+def next_to_axis(core: Core, turn: Axes, center: Vector3, radius: float, start: Vector3, up: float) -> NearestPoint:
     """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
 
     The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
-    the tilt, which is the angle between normal and axis and starts at 0, and the angle round the axis.  The derivative
-    of the gap by the tilt is zero, and so is that by the angle, divided by the sine of the tilt; ``matrix`` is their
-    Jacobian.  With these unknowns the equations are regular at the axis.  The normal is along the axis if ``up`` is 1,
-    against it if ``up`` is -1.  The gap is nan without convergence.
+    the tilt, which is the angle between normal and axis and starts at 0, and the angle round the axis, which starts at
+    the direction ``start``.  The residuals are the derivative of the gap by the tilt, and that by the angle, divided by
+    the sine of the tilt; ``matrix`` is their Jacobian.  With these unknowns the equations are regular at the axis.  The
+    normal is close to the axis if ``up`` is 1, to its opposite if ``up`` is -1.  The gap is nan without convergence.
     """
     tilt, angle = 0.0, math.atan2(start[1], start[0])
-    size = spread(place) + largest_semi_axis(core) + radius
+    size = spread(center) + largest_semi_axis(core) + radius
     for _ in range(_NEWTON):
         c, s = math.cos(angle), math.sin(angle)
         sine, cosine = math.sin(tilt), math.cos(tilt)
-        n, o = (sine * c, sine * s, up * cosine), (cosine * c, cosine * s, -up * sine)
-        p, bends = facing_point(core, turn, place, n)
+        n, n_by_tilt = (sine * c, sine * s, up * cosine), (cosine * c, cosine * s, -up * sine)
+        p, bends = facing_point(core, turn, center, n)
         g = dot(n, p) - radius * sine
-        over, beside = dot(o, p) - radius * cosine, c * p[1] - s * p[0]
-        h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, o), rotated_back(turn, (-s, c, 0.0)))
-        matrix = -g - h11, cosine * beside - sine * h12, -h12, -(c * p[0] + s * p[1]) - sine * h22
+        by_tilt, by_angle = dot(n_by_tilt, p) - radius * cosine, c * p[1] - s * p[0]
+        h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, n_by_tilt), rotated_back(turn, (-s, c, 0.0)))
+        matrix = -g - h11, cosine * by_angle - sine * h12, -h12, -(c * p[0] + s * p[1]) - sine * h22
         det = determinant(matrix)
+        # the gap must be near a maximum
         if not (matrix[0] < 0.0 and det > 0.0):
             break
-        if abs(over) + abs(beside) <= _CLOSED * size:
+        if abs(by_tilt) + abs(by_angle) <= _CLOSED * size:
+            # a negative tilt: the normal points into the disc
             if tilt < -_CLOSED:
                 break
             return g, p, n
-        by_tilt, by_angle = solved(matrix, det, (over, beside))
-        tilt -= by_tilt
-        angle -= by_angle
+        tilt_step, angle_step = solved(matrix, det, (by_tilt, by_angle))
+        tilt -= tilt_step
+        angle -= angle_step
         if abs(tilt) > _STEEPEST:
             break
-    return math.nan, place, (0.0, 0.0, 1.0)
+    return math.nan, center, (0.0, 0.0, 1.0)
 
 
 @compiled
-def along_segment(core: Core, turn: Axes, place: Vector3, e: Vector3, length: float) -> tuple[NearestPoint, float]:
-    """Return the least distance of a smooth body from a segment: (gap [m], body's point, normal), distance along it.
+def along_segment(core: Core, turn: Axes, center: Vector3, e: Vector3, length: float) -> tuple[NearestPoint, float]:
+    """Return the least distance of a smooth body from a segment: (gap [m], body's point [m], normal), place on it [m].
 
-    The last number is the distance of the segment's nearest point from the start of the segment [m].  The segment goes
-    from the origin along the unit vector e over ``length`` [m].  The core's centre is ``place`` [m]; ``turn`` is the
-    rotation from the axes of the core to those of the segment.
+    The last number is the distance of the segment's nearest point from the start of the segment.  The segment goes
+    from the origin along the unit vector e over ``length`` [m].  The core's centre is ``center`` [m]; ``turn`` is the
+    rotation from the axes of the core to those of the segment.  By bisection: the derivative of the distance along the
+    segment is -n . e.
     """
-    low, high, way = 0.0, length, 0.0
-    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
+    low, high, along = 0.0, length, 0.0
+    best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
     for i in range(_STEPS):
         # both ends first, then the middle of the remaining interval
         s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
-        from_point = plus_scaled(place, -s, e)
+        from_point = plus_scaled(center, -s, e)
         g, p, n = widest_of_round(POINT, core, turn, from_point, from_point)
-        rise = dot(n, e)
-        best, way = (g, plus_scaled(p, s, e), n), s
-        if g != g or (i == 0 and rise <= 0.0) or (i == 1 and rise >= 0.0):
+        cosine = dot(n, e)
+        best, along = (g, plus_scaled(p, s, e), n), s
+        if g != g or (i == 0 and cosine <= 0.0) or (i == 1 and cosine >= 0.0):
             break
-        if i > 1 and (abs(rise) <= _SAME or s == low or s == high):
-            if g < 0.0 and abs(rise) > _ACROSS:
+        if i > 1 and (abs(cosine) <= _SAME or s == low or s == high):
+            if g < 0.0 and abs(cosine) > _ACROSS:
                 # deep in the body the nearest surface point is discontinuous along the segment: no solution
                 best = math.nan, best[1], best[2]
             break
-        if rise > 0.0:
+        if cosine > 0.0:
             low = s
         else:
             high = s
-    return best, way
+    return best, along
 
 
 @compiled
-def up_hills(circle: Core, core: Core, turn: Axes, place: Vector3, up: float, lean: Vector3) -> NearestPoint:
-    """Return gap, smooth body's point and normal for an overlapping circle, along the direction of the largest gap.
+def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, limit: Vector3) -> NearestPoint:
+    """Return the largest gap of a circle and an overlapping smooth body [m], the body's point [m] and the normal.
 
     Parameters
     ----------
     circle : Floats
-        The circle as a core.
-    core, turn, place : Floats, Axes, Vector3
+        The circle as a core; its axis is the third axis.
+    core, turn, center : Floats, Axes, Vector3
         As in :func:`round_circle`.
     up : float
-        1 or -1: normals are allowed from this direction of the circle's axis to the limit ``lean``; 0 allows all.
-    lean : tuple of float
+        1 or -1: normals are allowed from this direction of the circle's axis to the normal ``limit``; 0 allows all.
+    limit : tuple of float
         Radial and axial component of the unit normal at this limit, and size of both bodies [m].
     """
-    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
-    for start in starts_of(circle, core, turn, place):
-        top = uphill(circle, core, turn, place, start, _TOP)
-        found = widest_of_round(circle, core, turn, place, top[1])
-        if not found[0] >= top[0] - _TOP * lean[2]:
-            settled = settle(circle, core, turn, place, top)
+    best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
+    for start in starts_of(circle, core, turn, center):
+        top = uphill(circle, core, turn, center, start, _TOP)
+        solution = widest_of_round(circle, core, turn, center, top[1])
+        # Newton's method went to a smaller maximum, or did not converge
+        if not solution[0] >= top[0] - _TOP * limit[2]:
+            settled = settle(circle, core, turn, center, top)
             # if two maxima differ by round-off only, the ellipsoid method may go from one to the other
-            if _leans_so(settled[1], up, lean) or not _leans_so(top[1], up, lean):
+            if _is_in_range(settled[1], up, limit) or not _is_in_range(top[1], up, limit):
                 top = settled
-            found = _along(circle, top)
-        g, _, n = found
-        if not _leans_so(n, up, lean):
-            # near a sharp place of the body the gap hardly depends on the normal: try the normal at the limit `lean`
-            away = math.sqrt(n[0] * n[0] + n[1] * n[1])
-            if away == 0.0:
+            solution = _solution_of(circle, top)
+        g, _, n = solution
+        if not _is_in_range(n, up, limit):
+            # near a sharp place of the body the gap hardly depends on the normal: try the normal at the limit
+            radial = math.sqrt(n[0] * n[0] + n[1] * n[1])
+            if radial == 0.0:
                 continue
-            n = lean[0] * n[0] / away, lean[0] * n[1] / away, lean[1]
-            limit = gap_along(circle, core, turn, place, n)
-            if not limit >= g - _OVER * lean[2]:
+            n = limit[0] * n[0] / radial, limit[0] * n[1] / radial, limit[1]
+            gap_at_limit = gap_along(circle, core, turn, center, n)
+            if not gap_at_limit >= g - _OVER * limit[2]:
                 continue
-            found = _along(circle, (limit, n))
-        if not found[0] <= best[0]:
-            found, off_cone = _facing(circle, core, turn, place, found)
-            if off_cone <= _OVER * lean[2]:
-                best = found
+            solution = _solution_of(circle, (gap_at_limit, n))
+        if not solution[0] <= best[0]:
+            solution, off_surface = _facing_points(circle, core, turn, center, solution)
+            if off_surface <= _OVER * limit[2]:
+                best = solution
     return best
 
 
 @compiled
-def _leans_so(n: Vector3, up: float, lean: Vector3) -> bool:
-    """Return True if a normal is between the axis and the limit ``lean``; arguments as in :func:`up_hills`."""
-    return bool(up == 0.0 or up * (lean[0] * n[2] - lean[1] * math.sqrt(n[0] * n[0] + n[1] * n[1])) >= -_TOP)
+def _is_in_range(n: Vector3, up: float, limit: Vector3) -> bool:
+    """Return whether a unit normal is between the axis and the normal ``limit``; arguments as in :func:`up_hills`."""
+    return bool(up == 0.0 or up * (limit[0] * n[2] - limit[1] * math.sqrt(n[0] * n[0] + n[1] * n[1])) >= -_TOP)
 
 
 @compiled
-def _along(circle: Core, top: Start) -> NearestPoint:
-    """Return gap, body's point and normal for a maximum ``top`` of the gap: the gap and its direction n.
+def _solution_of(circle: Core, top: Start) -> NearestPoint:
+    """Return gap [m], body's point [m] and normal for a maximum ``top`` of the gap: the gap and its direction n.
 
     The body's point is the circle's farthest point along n, moved by the gap along n.
     """
@@ -297,53 +297,56 @@ def _along(circle: Core, top: Start) -> NearestPoint:
 
 
 @compiled
-def _facing(circle: Core, core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> tuple[NearestPoint, float]:
+def _facing_points(
+    circle: Core, core: Core, turn: Axes, center: Vector3, solution: NearestPoint
+) -> tuple[NearestPoint, float]:
     """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
 
     Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
     nearly the axis, its radial component is round-off, and so is the direction of the circle's farthest point.  A
     search along the circle finds its point p for which p + gap normal is nearest to the surface of the body.
     """
-    g, p, n = found
+    g, p, n = solution
     extent, radius = largest_semi_axis(core), circle[0]
-    best: NearestPoint = found
-    least = _off_surface(core, turn, place, p)
+    best: NearestPoint = solution
+    least = _off_surface(core, turn, center, p)
+    # a point has no arc, and a body's point on the surface is exact
     if radius == 0.0 or not least > _SAME:
         return best, least * extent
-    q, _ = facing_point(core, turn, place, n)
+    q, _ = facing_point(core, turn, center, n)
     q, c = plus_scaled(q, -g, n), plus_scaled(p, -g, n)
-    # search an arc about the circle's point nearest to the body's support point; it includes the present point
+    # search an arc about the direction of q, from the body's support point; it includes the circle's present point c
     middle = math.atan2(q[1], q[0])
     is_off_axis = c[0] * c[0] + c[1] * c[1] > 0.0
-    wide = abs(math.atan2(c[0] * q[1] - c[1] * q[0], c[0] * q[0] + c[1] * q[1])) if is_off_axis else 0.0
-    low, high = middle - wide - _FIRST, middle + wide + _FIRST
+    half_width = abs(math.atan2(c[0] * q[1] - c[1] * q[0], c[0] * q[0] + c[1] * q[1])) if is_off_axis else 0.0
+    low, high = middle - half_width - _FIRST, middle + half_width + _FIRST
     for _ in range(_STEPS):
-        one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
-        point_one, point_two = _over_rim(radius, one, g, n), _over_rim(radius, two, g, n)
-        first, second = _off_surface(core, turn, place, point_one), _off_surface(core, turn, place, point_two)
-        if first < least:
-            least, best = first, (g, point_one, n)
-        if second < least:
-            least, best = second, (g, point_two, n)
+        angle_1, angle_2 = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
+        point_1, point_2 = _over_rim(radius, angle_1, g, n), _over_rim(radius, angle_2, g, n)
+        off_1, off_2 = _off_surface(core, turn, center, point_1), _off_surface(core, turn, center, point_2)
+        if off_1 < least:
+            least, best = off_1, (g, point_1, n)
+        if off_2 < least:
+            least, best = off_2, (g, point_2, n)
         if high - low <= _SAME or least <= _SAME:
             break
-        if first < second:
-            high = two
+        if off_1 < off_2:
+            high = angle_2
         else:
-            low = one
+            low = angle_1
     return best, least * extent
 
 
 @compiled
 def _over_rim(radius: float, angle: float, g: float, n: Vector3) -> Vector3:
-    """Return the point at the distance g along n from the circle's point at an angle [m]."""
+    """Return the point at the distance g [m] along n from the circle's point at an angle [rad]."""
     return radius * math.cos(angle) + g * n[0], radius * math.sin(angle) + g * n[1], g * n[2]
 
 
 @compiled
-def _off_surface(core: Core, turn: Axes, place: Vector3, point: Vector3) -> float:
+def _off_surface(core: Core, turn: Axes, center: Vector3, point: Vector3) -> float:
     """Return abs(gauge - 1) of a point [1], a residual: 0 on the surface of the core, positive inside and outside.
 
     ``point`` is in the axes of the circle [m].  The gauge has a closed form, which the distance has not.
     """
-    return float(abs(gauge(core, rotated_back(turn, minus(point, place))) - 1.0))
+    return float(abs(gauge(core, rotated_back(turn, minus(point, center))) - 1.0))

@@ -1,9 +1,9 @@
 """Cores of smooth bodies and their axes, for contacts.
 
-A smooth body is a core with a smooth support function, rounded by a radius.  The core is the tuple of
-:func:`bodies.shapes.smooth.core_numbers`.  Where a search takes two cores, ``turn`` converts components along the
-axes of the second core to components along those of the first, and ``place`` is the second core's centre from the
-first's [m], in the axes of the first.
+A smooth body is a core with a smooth support function, rounded by a radius.  The numbers of a core are those of
+:func:`bodies.shapes.smooth.core_numbers`.  A search that takes two cores computes in the axes of the first core, from
+its centre.  Its argument ``turn`` converts components along the axes of the second core to components along those of
+the first.  Its argument ``center`` is the centre of the second core [m].
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ SemiAxes: TypeAlias = tuple[float, float, float, float, float]
 NearestPoint: TypeAlias = tuple[float, Vector3, Vector3]
 """Gap [m], point [m] and unit normal, the result of a search; the gap is nan if the search failed."""
 
-RADIUS, CENTER = 5, 6
-"""Indices of the radius and the centre in the numbers of a core."""
+POWERS, RADIUS, CENTER, CORE_AXES = 3, 5, 6, 9
+"""Indices in the numbers of a core, after its semi-axes: powers, radius, centre, rotation to the axes of the body."""
 POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 """Core numbers of a point."""
 
@@ -50,8 +50,14 @@ def largest_semi_axis(core: Core) -> float:
 
 
 @compiled
+def semi_axes_of(core: Core) -> SemiAxes:
+    """Return the semi-axes [m] and powers of a core."""
+    return core[0], core[1], core[2], core[POWERS], core[POWERS + 1]
+
+
+@compiled
 def bend(h: Bends, u: Vector3, v: Vector3) -> float:
-    """Return u . H v with the second derivative H of a support function [m]."""
+    """Return u . H v with the second derivative H of a support function [m]; ``h`` holds the six elements of H."""
     return (
         u[0] * (h[0] * v[0] + h[5] * v[1] + h[4] * v[2])
         + u[1] * (h[5] * v[0] + h[1] * v[1] + h[3] * v[2])
@@ -61,28 +67,29 @@ def bend(h: Bends, u: Vector3, v: Vector3) -> float:
 
 @compiled
 def by_columns(x: Vector3, y: Vector3, z: Vector3) -> Axes:
-    """Return the rotation with these columns."""
+    """Return the rotation with the unit vectors x, y and z as columns."""
     return x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]
 
 
 @compiled
 def axes_in_world(frame: Floats, core: Core) -> Axes:
     """Return the axes of a smooth body's core in the world, as columns."""
-    x = vector_in_world(frame, (core[9], core[12], core[15]))
-    y = vector_in_world(frame, (core[10], core[13], core[16]))
-    return by_columns(x, y, vector_in_world(frame, (core[11], core[14], core[17])))
+    x = vector_in_world(frame, (core[CORE_AXES], core[CORE_AXES + 3], core[CORE_AXES + 6]))
+    y = vector_in_world(frame, (core[CORE_AXES + 1], core[CORE_AXES + 4], core[CORE_AXES + 7]))
+    z = vector_in_world(frame, (core[CORE_AXES + 2], core[CORE_AXES + 5], core[CORE_AXES + 8]))
+    return by_columns(x, y, z)
 
 
 @compiled
 def unit_axes_in_world(frame: Floats, core: Core) -> Axes:
     """Return the axes of a smooth body's core in the world, as columns of length 1.
 
-    Within a time step, a body's quaternion is not normalised.  If its length is L, the columns of its rotation matrix
-    have the length L^2.
+    Within a time step, a body's quaternion is not normalised.  If its length is L, its matrix is L^2 times a rotation:
+    all rows and columns have the length L^2.
     """
     x, y, z, u, v, w, r, s, t = axes_in_world(frame, core)
-    part = 1.0 / norm((x, y, z))
-    return part * x, part * y, part * z, part * u, part * v, part * w, part * r, part * s, part * t
+    factor = 1.0 / norm((x, y, z))
+    return factor * x, factor * y, factor * z, factor * u, factor * v, factor * w, factor * r, factor * s, factor * t
 
 
 @compiled
@@ -98,12 +105,8 @@ def relative_rotation(a: Axes, b: Axes) -> Axes:
 
     The columns of a and b are axes in the world.
     """
-    x, y, z = (
-        rotated_back(a, (b[0], b[3], b[6])),
-        rotated_back(a, (b[1], b[4], b[7])),
-        rotated_back(a, (b[2], b[5], b[8])),
-    )
-    return by_columns(x, y, z)
+    x, y = rotated_back(a, (b[0], b[3], b[6])), rotated_back(a, (b[1], b[4], b[7]))
+    return by_columns(x, y, rotated_back(a, (b[2], b[5], b[8])))
 
 
 @compiled
@@ -135,10 +138,11 @@ def rotated_back(axes: Axes, v: Vector3) -> Vector3:
 
 
 @compiled
-def facing_point(core: Core, turn: Axes, place: Vector3, n: Vector3) -> tuple[Vector3, Bends]:
-    """Return the farthest point of a second core in the direction -n [m], and the second derivative of its support.
+def facing_point(core: Core, turn: Axes, center: Vector3, n: Vector3) -> tuple[Vector3, Bends]:
+    """Return the point of the second core that faces the first along n [m], and the second derivative of its support.
 
-    Point and n are in the axes of the first core; the second derivative is in those of the second [m].
+    It is the farthest point in the direction -n.  Point and n are in the axes of the first core, the point from its
+    centre.  The second derivative is in the axes of the second core [m].
     """
     _, p, h = support_of(core, rotated_back(turn, opposite(n)))
-    return plus(place, rotated(turn, p)), h
+    return plus(center, rotated(turn, p)), h

@@ -34,6 +34,7 @@ from .smooth_core import (
     inverse,
     rotated,
     rotated_back,
+    semi_axes_of,
     spread,
     unit,
 )
@@ -65,7 +66,7 @@ _NEARBY, _NEXT_TO = 0.05, 1e-6
 
 ``_NEARBY``: first restart.  ``_NEXT_TO``: further restarts, for mixed cores only.
 """
-_FEW_PARTS, _PARTS = 4, 24
+_FEW_STEPS, _MANY_STEPS = 4, 24
 """Numbers of steps in which the powers of two cores are changed from 2 (ellipsoids) to their own values.
 
 If a core is mixed (one power below 2, the other above) and the direct search fails, the gap is followed through these
@@ -83,16 +84,16 @@ _SAMPLES = 8
 To prove an overlap, the ends of the parts are tested: is one of them inside of both bodies?
 """
 _NOWHERE = 1e-300
-"""Least gauge, which replaces the gauge 0 of a centre in a division."""
+"""Least gauge in a division: the gauge of a centre is 0."""
 _ON_SURFACE = 1e-12
 """Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 
 
 @compiled
-def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> NearestPoint:
-    """Return the gap of two cores, the second's point and the normal, in the axes of the first and from its centre.
+def widest(first: Core, second: Core, turn: Axes, center: Vector3) -> NearestPoint:
+    """Return the gap of two cores [m], the second core's point [m] and the normal, in the axes of the first core.
 
-    The gap is the largest one over all directions [m].  If it is positive, it is the only maximum.  A negative gap is
+    The gap is the largest one over all directions.  If it is positive, it is the only maximum.  A negative gap is
     returned only if a common point of both bodies proves the overlap.  Overlapping bodies can have several maxima: each
     is a locally shortest translation that separates them.  If the first search fails, or its solution is not proved to
     be the shortest translation, the search also starts from directions with a large gap.  The gap is nan if no solution
@@ -100,50 +101,56 @@ def widest(first: Core, second: Core, turn: Axes, place: Vector3) -> NearestPoin
 
     Parameters
     ----------
-    first, second, turn, place : Floats, Axes, Vector3
+    first, second, turn, center : Floats, Axes, Vector3
         See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
     """
-    mixed = is_mixed(first) or is_mixed(second)
-    best = _first_look(first, second, turn, place)
-    overlap = _share_a_point(first, second, turn, place, best)
-    if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and overlap):
+    is_any_mixed = is_mixed(first) or is_mixed(second)
+    best = _from_centers(first, second, turn, center)
+    is_proved = _is_proved(first, second, turn, center, best)
+    if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and is_proved):
         return best
-    if overlap and no_shorter_way(first, second, turn, place, best):
+    if is_proved and no_shorter_way(first, second, turn, center, best):
         return best
-    starts, thin = starts_of(first, second, turn, place), _is_thin(first, second)
-    buried = best[0] < -_BURIED * _thickness(first, second)
-    axes = 2 * _TOPS if mixed else _TOPS
-    for attempt in range(axes + (13 if mixed else 12)):
-        if overlap and best[0] == best[0] and attempt >= _TOPS:
-            if attempt == axes + 12 or not (thin or buried):
+    starts, is_thin = starts_of(first, second, turn, center), _is_thin(first, second)
+    is_deep = best[0] < -_BURIED * _thickness(first, second)
+    first_axis = 2 * _TOPS if is_any_mixed else _TOPS
+    # attempts: directions with a large gap; for mixed cores the maxima next to them; from number ``first_axis`` on, the
+    # twelve axes; for mixed cores a last search
+    for attempt in range(first_axis + (13 if is_any_mixed else 12)):
+        if is_proved and best[0] == best[0] and attempt >= _TOPS:
+            # the overlap is proved: only a thin or deep body can have a larger gap, along one of the axes
+            if attempt == first_axis + 12 or not (is_thin or is_deep):
                 break
-            if attempt < axes:
+            if attempt < first_axis:
                 continue
-        if attempt == axes + 12:
-            found = _in_charts(first, second, turn, place, place)
-        elif attempt >= axes:
-            found = _from_start(first, second, turn, place, _axis(turn, attempt - axes))
+        if attempt == first_axis + 12:
+            candidate = _in_charts(first, second, turn, center, center)
+        elif attempt >= first_axis:
+            candidate = _from_start(first, second, turn, center, _axis(turn, attempt - first_axis))
         elif attempt >= _TOPS:
-            _, n = uphill(first, second, turn, place, starts[attempt - _TOPS], _NEXT_TO)
-            found = _from_start(first, second, turn, place, n)
+            _, n = uphill(first, second, turn, center, starts[attempt - _TOPS], _NEXT_TO)
+            candidate = _from_start(first, second, turn, center, n)
         else:
-            seen, n = starts[attempt]
-            found = _from_start(first, second, turn, place, n)
-            if not found[0] >= seen:
+            start_gap, n = starts[attempt]
+            candidate = _from_start(first, second, turn, center, n)
+            if not candidate[0] >= start_gap:
                 # Newton's method went to a smaller maximum, or did not converge
-                _, n = uphill(first, second, turn, place, starts[attempt], _NEARBY)
-                found = _from_start(first, second, turn, place, n)
-        overlap = overlap or _share_a_point(first, second, turn, place, found)
-        if found[0] == found[0] and not best[0] >= found[0]:
-            best = found
-            if best[0] >= 0.0 or (overlap and no_shorter_way(first, second, turn, place, best)):
+                _, n = uphill(first, second, turn, center, starts[attempt], _NEARBY)
+                candidate = _from_start(first, second, turn, center, n)
+        is_proved = is_proved or _is_proved(first, second, turn, center, candidate)
+        if candidate[0] == candidate[0] and not best[0] >= candidate[0]:
+            best = candidate
+            if best[0] >= 0.0 or (is_proved and no_shorter_way(first, second, turn, center, best)):
                 return best
-    return best[0] if overlap else math.nan, best[1], best[2]
+    return best[0] if is_proved else math.nan, best[1], best[2]
 
 
 @compiled
 def _axis(turn: Axes, number: int) -> Vector3:
-    """Return one of the twelve directions along the axes of both bodies."""
+    """Return one of twelve directions, a unit vector in the axes of the first core.
+
+    By ``number`` they are the axes of the first core, of the second, and the opposite directions of both.
+    """
     i, sign = number % 3, 1.0 if number < 6 else -1.0
     e = sign if i == 0 else 0.0, sign if i == 1 else 0.0, sign if i == 2 else 0.0
     return rotated(turn, e) if number % 6 >= 3 else e
@@ -151,36 +158,38 @@ def _axis(turn: Axes, number: int) -> Vector3:
 
 @compiled
 def _is_thin(first: Core, second: Core) -> bool:
-    most = max(max(first[0], first[1], first[2]), max(second[0], second[1], second[2]))
-    return bool(most > _THIN * _thickness(first, second))
+    """Return whether the largest semi-axis of both cores exceeds the least one by more than the factor ``_THIN``."""
+    longest = max(max(first[0], first[1], first[2]), max(second[0], second[1], second[2]))
+    return bool(longest > _THIN * _thickness(first, second))
 
 
 @compiled
-def _share_a_point(first: Core, second: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
-    """Return whether a common point of both bodies is found, which confirms the overlap of a solution.
+def _is_proved(first: Core, second: Core, turn: Axes, center: Vector3, solution: NearestPoint) -> bool:
+    """Return whether a common point of both bodies proves the overlap of a solution, or whether none is needed.
 
-    Candidates are the two points of the solution, points between them, and the line of centres.
+    A gap above ``-_TOUCHING`` needs none.  Tested are the points of the solution, points between them, and the line of
+    centres.
     """
-    g, q, n = found
-    if g >= -_TOUCHING * spread(place):
+    g, q, n = solution
+    if g >= -_TOUCHING * spread(center):
         return True
     for i in range(_SAMPLES + 1):
         # from the first body's point to the second's
         p = plus_scaled(q, -(g * (1.0 - i / _SAMPLES)), n)
         if (
-            gauge(second, rotated_back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE
+            gauge(second, rotated_back(turn, minus(p, center))) <= 1.0 + _ON_SURFACE
             and gauge(first, p) <= 1.0 + _ON_SURFACE
         ):
             return True
-    # on the line of centres, each body covers the part 1 / gauge of its length, from the body's own centre: the bodies
-    # overlap if these parts together are longer than the line
-    one, two = gauge_of(first, place), gauge_of(second, rotated_back(turn, opposite(place)))
-    return bool(1.0 / max(one, _NOWHERE) + 1.0 / max(two, _NOWHERE) >= 1.0)
+    # each body covers the fraction 1 / gauge of the line of centres, from its own centre: the bodies overlap if these
+    # fractions add up to 1
+    gauge_a, gauge_b = gauge_of(first, center), gauge_of(second, rotated_back(turn, opposite(center)))
+    return bool(1.0 / max(gauge_a, _NOWHERE) + 1.0 / max(gauge_b, _NOWHERE) >= 1.0)
 
 
 @compiled
 def _thickness(first: Core, second: Core) -> float:
-    """Return the least semi-axis of two cores, of which one may be a point [m]."""
+    """Return the least semi-axis of two cores [m]; a point or a circle, whose least semi-axis is 0, does not count."""
     a, b = min(first[0], first[1], first[2]), min(second[0], second[1], second[2])
     return a if b == 0.0 or (a > 0.0 and a < b) else b
 
@@ -192,179 +201,195 @@ def _ellipsoid_of(core: Core) -> SemiAxes:
 
 
 @compiled
-def _first_look(first: Core, second: Core, turn: Axes, place: Vector3) -> NearestPoint:
-    """Return the largest gap over all directions, second core's point and normal; search from the line of centres."""
+def _from_centers(first: Core, second: Core, turn: Axes, center: Vector3) -> NearestPoint:
+    """Return the largest gap over all directions [m], the second core's point [m] and the normal.
+
+    The search starts along the line of centres.  For a mixed core it starts with the normal of two ellipsoids with the
+    semi-axes of the cores, which is found first.
+    """
     if not (is_mixed(first) or is_mixed(second)):
-        return _from_start(first, second, turn, place, place)
-    g, n = climb(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, (0.0, 0.0, 0.0), place)
-    found = (g, place, n)
+        return _from_start(first, second, turn, center, center)
+    g, n = climb(_ellipsoid_of(first), _ellipsoid_of(second), turn, center, (0.0, 0.0, 0.0), center)
+    solution = (g, center, n)
     if g == g:
-        # Newton's method starts with the contact normal of two ellipsoids that have the semi-axes of the cores
-        found = _by_parts(first, second, turn, place, n, 0)
-    return found
+        solution = _by_steps(first, second, turn, center, n, 0)
+    return solution
 
 
 @compiled
-def _from_start(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
-    """Return the largest gap over all directions [m], second core's point and normal; search from ``start``."""
+def _from_start(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+    """Return the largest gap over all directions [m], the second core's point [m] and the normal.
+
+    The search starts in the direction ``start``, of any length.  The kinds of the cores decide the unknown of Newton's
+    method (see the module).
+    """
     if is_mixed(first) or is_mixed(second):
-        return _by_parts(first, second, turn, place, start, 0)
+        return _by_steps(first, second, turn, center, start, 0)
     if is_boxy(first):
         if is_boxy(second):
-            g, p, n = _both(first, second, turn, place, start)
+            g, p, n = _of_two_boxy(first, second, turn, center, start)
         else:
-            g, p, n = climb_boxy(first, second, turn, place, start)
+            g, p, n = climb_boxy(first, second, turn, center, start)
         # p is the point of the first core
         return g, plus_scaled(p, g, n), n
-    return widest_of_round(first, second, turn, place, start)
+    return widest_of_round(first, second, turn, center, start)
 
 
 @compiled
-def _in_charts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
-    """Return the largest gap over all directions [m], second core's point and normal, if a core is mixed.
+def _in_charts(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+    """Return the largest gap over all directions [m], the second core's point [m] and the normal, if a core is mixed.
 
     A mixed core has one power below 2 and one above, so that it has flat and sharp places.  The search starts with the
     contact normal of two ellipsoids that have the semi-axes of the cores; this normal is searched from the direction
     ``start``.  If the first core is a circle (the rim of a frustum), a maximum along the circle's axis gives nan: it is
-    the gap to the middle of the disc, not to the rim.
+    the gap to the middle of the disc, not to the rim.  Each further search is made only if the one before fails.
     """
-    found = meet_in_charts(_ellipsoid_of(first), _ellipsoid_of(second), turn, place, start, 0)
-    if found[0] == found[0]:
-        found = _by_parts(first, second, turn, place, found[2], 0)
-    if found[0] != found[0] and first[0] > 0.0 and first[2] == 0.0:
+    solution = meet_in_charts(_ellipsoid_of(first), _ellipsoid_of(second), turn, center, start, 0)
+    if solution[0] == solution[0]:
+        solution = _by_steps(first, second, turn, center, solution[2], 0)
+    # a circle: start from the maximum next to ``start``, unless it is on the axis
+    if solution[0] != solution[0] and first[0] > 0.0 and first[2] == 0.0:
         n = unit(start)
-        g, n = uphill(first, second, turn, place, (gap_along(first, second, turn, place, n), n), _NEXT_TO)
-        shallow = g >= -_SUNK * _thickness(first, second)
-        if shallow and max(abs(n[0]), abs(n[1])) < _ON_AXIS:
-            return math.nan, place, n
-        if shallow:
-            found = _by_parts(first, second, turn, place, n, 0)
-    if found[0] != found[0]:
-        found = _by_parts(first, second, turn, place, start, _FEW_PARTS)
-    if found[0] != found[0] and dot(place, place) > 0.0:
-        found = _by_parts(first, second, turn, place, place, _PARTS)
-    if found[0] != found[0]:
-        for one in starts_of(first, second, turn, place):
-            _, n = uphill(first, second, turn, place, one, _NEXT_TO)
-            found = _by_parts(first, second, turn, place, n, 0)
-            if found[0] >= 0.0:
-                return found
-    return found
+        g, n = uphill(first, second, turn, center, (gap_along(first, second, turn, center, n), n), _NEXT_TO)
+        is_shallow = g >= -_SUNK * _thickness(first, second)
+        if is_shallow and max(abs(n[0]), abs(n[1])) < _ON_AXIS:
+            return math.nan, center, n
+        if is_shallow:
+            solution = _by_steps(first, second, turn, center, n, 0)
+    # change ellipsoids into the cores step by step
+    if solution[0] != solution[0]:
+        solution = _by_steps(first, second, turn, center, start, _FEW_STEPS)
+    if solution[0] != solution[0] and dot(center, center) > 0.0:
+        solution = _by_steps(first, second, turn, center, center, _MANY_STEPS)
+    if solution[0] != solution[0]:
+        for top in starts_of(first, second, turn, center):
+            _, n = uphill(first, second, turn, center, top, _NEXT_TO)
+            solution = _by_steps(first, second, turn, center, n, 0)
+            if solution[0] >= 0.0:
+                return solution
+    return solution
 
 
 @compiled
-def _by_parts(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3, parts: int) -> NearestPoint:
-    """Return gap, second core's point and normal; the search starts in the direction ``start``.
+def _by_steps(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3, steps: int) -> NearestPoint:
+    """Return gap [m], second core's point [m] and normal by Newton's method in charts, from the direction ``start``.
 
-    If it fails, it is repeated with ellipsoids whose powers are changed in ``parts`` steps from 2 to the cores' own.
+    If it fails, it is repeated with ellipsoids whose powers are changed in a number of ``steps`` from 2 to those of the
+    cores.  Without steps the gap is then nan.
     """
-    one = first[0], first[1], first[2], first[3], first[4]
-    two = second[0], second[1], second[2], second[3], second[4]
-    g, p, n = meet_in_charts(one, two, turn, place, start, parts)
+    g, p, n = meet_in_charts(semi_axes_of(first), semi_axes_of(second), turn, center, start, steps)
     return g, plus_scaled(p, g, n), n
 
 
 @compiled
-def widest_of_round(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
-    """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
+def widest_of_round(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+    """Return the largest gap over all directions [m], the second core's point [m] and the normal.
 
-    The first core is round; it may be a point or a circle.  The second core is of any kind.
+    The first core is round; it may be a point or a circle.  The second core is of any kind.  The search starts in the
+    direction ``start``, of any length.
     """
     if is_mixed(second) or is_boxy(second):
         if is_mixed(second):
-            found = _in_charts(first, second, turn, place, start)
+            solution = _in_charts(first, second, turn, center, start)
         else:
-            found = _from_boxy(first, second, turn, place, start)
-        if found[0] != found[0] and first[0] == 0.0:
-            found = _by_cuts(first, second, turn, place, start)
-        return found
-    g, n = climb(first, second, turn, place, (0.0, 0.0, 0.0), start)
-    p, _ = facing_point(second, turn, place, n)
+            solution = _from_boxy(first, second, turn, center, start)
+        # a point: the ellipsoid method needs no derivatives
+        if solution[0] != solution[0] and first[0] == 0.0:
+            solution = _by_ellipses(first, second, turn, center, start)
+        return solution
+    g, n = climb(first, second, turn, center, (0.0, 0.0, 0.0), start)
+    p, _ = facing_point(second, turn, center, n)
     return g, p, n
 
 
 @compiled
-def _from_boxy(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
-    """Return the largest gap over all directions [m], second core's point and normal; search from ``start``.
+def _from_boxy(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+    """Return the largest gap over all directions [m], the second core's point [m] and the normal.
 
-    The second core is boxy: the unknown of Newton's method is the point of its surface.
+    The second core is boxy: the unknown of Newton's method is the point of its surface.  The search starts in the
+    direction ``start``.
     """
-    to_first, begin = rotated_back(turn, opposite(place)), rotated_back(turn, opposite(start))
+    # climb_boxy computes in the axes of the boxy core, with the normal that points out of it
+    to_first, begin = rotated_back(turn, opposite(center)), rotated_back(turn, opposite(start))
     g, p, n = climb_boxy(second, first, inverse(turn), to_first, begin)
-    return g, plus(place, rotated(turn, p)), rotated(turn, opposite(n))
+    return g, plus(center, rotated(turn, p)), rotated(turn, opposite(n))
 
 
 @compiled
-def _by_cuts(point: Core, core: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
-    """Return gap, point and normal of a core and a point outside of it, for searches in which Newton's method fails.
+def _by_ellipses(point: Core, core: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+    """Return gap [m], point [m] and normal of a core and a point outside of it, by the ellipsoid method.
 
     Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
-    small distance.  The ellipsoid method needs no curvatures.
+    small distance.  The ellipsoid method needs no curvatures.  The gap is nan for a point inside, and if the result is
+    not on the surface of the core.  The search starts in the direction ``start``, of any length.
     """
     n = unit(start)
-    if gauge(core, rotated_back(turn, opposite(place))) <= 1.0:
-        return math.nan, place, n
-    top = uphill(point, core, turn, place, (gap_along(point, core, turn, place, n), n), _NEARBY)
-    g, n = settle(point, core, turn, place, top)
+    if gauge(core, rotated_back(turn, opposite(center))) <= 1.0:
+        return math.nan, center, n
+    top = uphill(point, core, turn, center, (gap_along(point, core, turn, center, n), n), _NEARBY)
+    g, n = settle(point, core, turn, center, top)
     p = scaled(g, n)
-    if not (g > 0.0 and abs(gauge(core, rotated_back(turn, minus(p, place))) - 1.0) <= _ON_SURFACE):
+    if not (g > 0.0 and abs(gauge(core, rotated_back(turn, minus(p, center))) - 1.0) <= _ON_SURFACE):
         g = math.nan
     return g, scaled(g, n), n
 
 
 @compiled
-def _both(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
-    """Return the gap of two boxy cores (with flat places) [m], the first core's point and the normal.
+def _of_two_boxy(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+    """Return the gap of two boxy cores (with flat places) [m], the first core's point [m] and the normal.
 
     The search starts with the contact normal for which the second core is replaced by an ellipsoid.  If the search
-    fails, it starts with the normal for which the first core is replaced instead, and last from ``start``.
+    fails, it starts with the normal for which the first core is replaced instead.  The last searches start from the
+    direction ``start``: from the support points along it, then from the surface points in this direction.
     """
-    g, _, n = climb_boxy(first, _ellipsoid_of(second), turn, place, start)
-    found = _from(first, second, turn, place, n)
-    if g == g and found[0] == found[0]:
-        return found
-    to_first, begin = rotated_back(turn, opposite(place)), rotated_back(turn, opposite(start))
+    g, _, n = climb_boxy(first, _ellipsoid_of(second), turn, center, start)
+    solution = _from_supports(first, second, turn, center, n)
+    if g == g and solution[0] == solution[0]:
+        return solution
+    to_first, begin = rotated_back(turn, opposite(center)), rotated_back(turn, opposite(start))
     g, _, n = climb_boxy(second, _ellipsoid_of(first), inverse(turn), to_first, begin)
-    found = _from(first, second, turn, place, rotated(turn, opposite(n)))
-    if g == g and found[0] == found[0]:
-        return found
-    found = _from(first, second, turn, place, start)
-    if found[0] != found[0]:
-        found = meet(first, second, turn, place, start, opposite(start))
-    return found
+    solution = _from_supports(first, second, turn, center, rotated(turn, opposite(n)))
+    if g == g and solution[0] == solution[0]:
+        return solution
+    solution = _from_supports(first, second, turn, center, start)
+    if solution[0] != solution[0]:
+        solution = meet(first, second, turn, center, start, opposite(start))
+    return solution
 
 
 @compiled
-def _from(first: Core, second: Core, turn: Axes, place: Vector3, start: Vector3) -> NearestPoint:
-    """Return the gap of two boxy cores [m], the first core's point and the normal.
+def _from_supports(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+    """Return the gap of two boxy cores [m], the first core's point [m] and the normal.
 
-    Newton's method starts at the support points of the first core along ``start``, and of the second against it.
+    Newton's method starts at the support point of the first core along ``start``, and of the second core against it.
     """
     n = unit(start)
     _, p, _ = support_of(first, n)
     _, q, _ = support_of(second, rotated_back(turn, opposite(n)))
-    return meet(first, second, turn, place, p, rotated(turn, q))
+    return meet(first, second, turn, center, p, rotated(turn, q))
 
 
 @compiled
-def widest_from(hull: Core, core: Core, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> NearestPoint:
-    """Return the gap between the origin and a core of any kind [m], the core's point and the normal.
+def widest_from(hull: Core, core: Core, turn: Axes, center: Vector3, axis: Vector3, start: Vector3) -> NearestPoint:
+    """Return the gap of a line or the origin and a core of any kind [m], the core's point [m] and the normal.
 
-    If ``axis`` is not zero, the gap is measured from the line through the origin along this unit vector.  ``place`` is
-    the centre of the core [m], ``hull`` begins with the core numbers of a point, and ``turn`` is the rotation from the
-    core's axes.  The search starts in the direction ``start``.
+    The gap is measured from the line through the origin along the unit vector ``axis``, or from the origin if ``axis``
+    is zero.  All vectors are in the axes of the line's body.  ``center`` is the centre of the core [m].  ``hull``
+    begins with the core numbers of a point.  ``turn`` is the rotation from the core's axes.  The search starts in the
+    direction ``start``, of any length.
     """
     if is_round(core):
-        g, n = climb(hull, core, turn, place, axis, start)
-        p, _ = facing_point(core, turn, place, n)
+        g, n = climb(hull, core, turn, center, axis, start)
+        p, _ = facing_point(core, turn, center, n)
         return g, p, n
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:
-        return widest_of_round(POINT, core, turn, place, start)
+        return widest_of_round(POINT, core, turn, center, start)
     n = plus_scaled(start, -dot(start, axis), axis)
     length = norm(n)
     if length == 0.0:
-        return math.nan, place, start
-    return across_line(core, turn, place, axis, divided(n, length), 1.0, 0.0, 0.0)
+        # the start is along the line, so that it gives no normal
+        return math.nan, center, start
+    return across_line(core, turn, center, axis, divided(n, length), 1.0, 0.0, 0.0)
 
 
 @compiled
@@ -385,8 +410,8 @@ def write_core(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3) 
 def write_surface(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3, p: Vector3) -> None:
     """Write the curvature matrices of a core of any kind at its surface point p with the outward normal ``normal``.
 
-    Point and normal are in the core's axes.  ``side`` is the index of the matrices in the geometry block ``out``;
-    ``axes`` are the core's axes in the world.
+    Point [m] and normal are in the core's axes.  ``side`` is the index of the matrices in the geometry block ``out``,
+    which must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     if is_mixed(core):
         write_chart(out, side, core, axes, normal)
@@ -398,13 +423,13 @@ def write_surface(out: Floats, side: int, core: Core, axes: Axes, normal: Vector
 
 @compiled
 def write_smooth(
-    a: Floats, out: Floats, gap: float, core: Floats, axes: Axes, turn: Axes, place: Vector3, n: Vector3, p: Vector3
+    a: Floats, out: Floats, gap: float, core: Floats, axes: Axes, turn: Axes, center: Vector3, n: Vector3, p: Vector3
 ) -> None:
-    """Write gap, axes, witness points and the second matrices of a body ``a`` without curved parts and a smooth body.
+    """Write the geometry block of body ``a`` and a smooth body, except for the curvature of the surface of ``a``.
 
-    ``n`` is the normal and ``p`` the point of the smooth body's core [m], in the axes of the first body.  ``axes`` are
-    the core's axes in the world, ``turn`` and ``place`` its rotation and centre as in
-    :mod:`bodies.contacts.smooth.smooth_core`.
+    ``gap`` is the gap of the surfaces [m], ``n`` the normal and ``p`` the point of the smooth body's core [m], both in
+    the axes of the first body.  ``axes`` are the core's axes in the world, ``turn`` and ``center`` its rotation and
+    centre as in :mod:`bodies.contacts.smooth.smooth_core`.
     """
     normal = vector_in_world(a, n)
     point = plus_scaled(point_in_world(a, p), -core[RADIUS], normal)
@@ -413,4 +438,4 @@ def write_smooth(
     write_vector(out, POINT_B, point)
     write_vector(out, POINT_A, plus_scaled(point, -gap, normal))
     write_tangent(a, out)
-    write_surface(out, SIDE_B, core, axes, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, place)))
+    write_surface(out, SIDE_B, core, axes, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, center)))

@@ -13,28 +13,29 @@ from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import OF_FUNCTION
 from ...vectors import minus, opposite, plus, plus_scaled, vector_at, write_vector
 from ..features.frames import point_in_world, write_tangent
-from .smooth_core import CENTER, RADIUS, relative_rotation, rotated, rotated_back, unit_axes_in_world
+from .smooth_core import CENTER, POWERS, RADIUS, relative_rotation, rotated, rotated_back, unit_axes_in_world
 from .smooth_newton import widest, write_surface
 
 
 def evaluate_smooth_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
     """Write the geometry block of two smooth bodies, given as cores; at most one of them is a point.
 
-    The gap is nan if Newton's method fails.
+    The search computes in the axes of the first core, from its centre: there q and p are the points of both cores, and
+    n is the normal.  The gap is nan if no solution was found.
     """
     axes_a, axes_b = unit_axes_in_world(a, first), unit_axes_in_world(b, second)
-    center = point_in_world(a, vector_at(first, CENTER))
-    place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
+    center_a = point_in_world(a, vector_at(first, CENTER))
+    center = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center_a))
     turn = relative_rotation(axes_a, axes_b)
-    g, q, n = widest(first, second, turn, place)
+    g, q, n = widest(first, second, turn, center)
     p, normal = plus_scaled(q, -g, n), rotated(axes_a, n)
     out[GAP] = g - first[RADIUS] - second[RADIUS]
     write_vector(out, NORMAL, normal)
-    write_vector(out, POINT_A, plus_scaled(plus(center, rotated(axes_a, p)), first[RADIUS], normal))
-    write_vector(out, POINT_B, plus_scaled(plus(center, rotated(axes_a, q)), -second[RADIUS], normal))
+    write_vector(out, POINT_A, plus_scaled(plus(center_a, rotated(axes_a, p)), first[RADIUS], normal))
+    write_vector(out, POINT_B, plus_scaled(plus(center_a, rotated(axes_a, q)), -second[RADIUS], normal))
     write_tangent(a, out)
     write_surface(out, SIDE_A, first, axes_a, n, p)
-    write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(q, place)))
+    write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(q, center)))
 
 
 @final
@@ -54,12 +55,12 @@ class SmoothSmooth(ContactKinematics):
         """
         assert isinstance(first, SmoothShape)
         assert isinstance(second, SmoothShape)
-        for one, other in ((first, second), (second, first)):
-            if one.mixed and other.core[3] == OF_FUNCTION:
+        for shape, partner in ((first, second), (second, first)):
+            if shape.mixed and partner.core[POWERS] == OF_FUNCTION:
                 raise InvalidInput(
-                    f"contact of {type(one).__name__} and {type(other).__name__}",
+                    f"contact of {type(shape).__name__} and {type(partner).__name__}",
                     "needs exponents both up to 1, or both from 1 on",
-                    [2.0 - 2.0 / power for power in one.core[3:5]],
+                    [2.0 - 2.0 / power for power in shape.core[POWERS : POWERS + 2]],
                     "Next to flat and sharp places at once the search needs the powers of both bodies.",
                 )
         values = {"first": first.core, "second": second.core}

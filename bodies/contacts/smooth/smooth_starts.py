@@ -27,18 +27,22 @@ _NEAR = 0.95
 Start: TypeAlias = tuple[float, Vector3]
 """A gap [m], and the unit vector along which it is measured."""
 Starts: TypeAlias = tuple[Start, Start, Start, Start]
-"""Four starts, in no order."""
+"""Four starts, in any order."""
 
 
 @compiled
-def gap_along(first: Core, second: Core, turn: Axes, place: Vector3, n: Vector3) -> float:
+def gap_along(first: Core, second: Core, turn: Axes, center: Vector3, n: Vector3) -> float:
     """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
-    return float(dot(n, place) - support_of(first, n)[0] - support_of(second, rotated_back(turn, opposite(n)))[0])
+    return float(dot(n, center) - support_of(first, n)[0] - support_of(second, rotated_back(turn, opposite(n)))[0])
 
 
 @compiled
-def uphill(first: Core, second: Core, turn: Axes, place: Vector3, start: Start, least: float) -> Start:
-    """Return a local maximum of the gap [m] and its direction, to about ``least`` [rad], by steps from ``start``."""
+def uphill(first: Core, second: Core, turn: Axes, center: Vector3, start: Start, least: float) -> Start:
+    """Return a local maximum of the gap [m] and its direction, to about ``least`` [rad], by steps from ``start``.
+
+    A step is the best of eight directions round the present one.  If none of them has a larger gap, the next step is
+    shorter.  The other arguments are those of :func:`starts_of`.
+    """
     g, n = start
     step = _LONGEST
     for _ in range(_MOVES):
@@ -49,10 +53,10 @@ def uphill(first: Core, second: Core, turn: Axes, place: Vector3, start: Start, 
         best: Start = (g, n)
         for i in range(8):
             c, s = step * math.cos(0.25 * math.pi * i), step * math.sin(0.25 * math.pi * i)
-            m = unit(plus_scaled(plus_scaled(n, c, t), s, u))
-            found = gap_along(first, second, turn, place, m)
-            if found > best[0]:
-                best = (found, m)
+            candidate = unit(plus_scaled(plus_scaled(n, c, t), s, u))
+            gap = gap_along(first, second, turn, center, candidate)
+            if gap > best[0]:
+                best = (gap, candidate)
         if best[0] <= g:
             step *= 0.4
         g, n = best
@@ -60,44 +64,48 @@ def uphill(first: Core, second: Core, turn: Axes, place: Vector3, start: Start, 
 
 
 @compiled
-def starts_of(first: Core, second: Core, turn: Axes, place: Vector3) -> Starts:
+def starts_of(first: Core, second: Core, turn: Axes, center: Vector3) -> Starts:
     """Return four directions that are not close to each other, with the largest gaps of all directions tried.
 
     Parameters
     ----------
-    first, second, turn, place : Floats, Axes, Vector3
+    first, second, turn, center : Floats, Axes, Vector3
         See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
     """
-    none: Start = (-math.inf, (0.0, 0.0, 0.0))
-    kept: Starts = (none, none, none, none)
+    no_start: Start = (-math.inf, (0.0, 0.0, 0.0))
+    kept: Starts = (no_start, no_start, no_start, no_start)
+    # vectors with the components -1, 0 or 1 in the axes of the first core, then of the second; number 13 is 0
     for i in range(54):
-        way = i % 27
-        if way == 13:
+        number = i % 27
+        if number == 13:
             continue
-        n = unit((way // 9 - 1.0, way // 3 % 3 - 1.0, way % 3 - 1.0))
+        n = unit((number // 9 - 1.0, number // 3 % 3 - 1.0, number % 3 - 1.0))
         if i >= 27:
             n = rotated(turn, n)
-        kept = _with(kept, (gap_along(first, second, turn, place, n), n))
+        kept = _updated(kept, (gap_along(first, second, turn, center, n), n))
     return kept
 
 
 @compiled
-def _with(kept: Starts, new: Start) -> Starts:
-    """Return the kept starts; a new one with a larger gap replaces a kept one close to it, or else the worst one."""
-    place, least = -1, min(min(kept[0][0], kept[1][0]), min(kept[2][0], kept[3][0]))
+def _updated(kept: Starts, new: Start) -> Starts:
+    """Return the kept starts, of which the new one replaces one if it has a larger gap.
+
+    It replaces a start close to it, or, if there is none, the start with the least gap.
+    """
+    index, least = -1, min(min(kept[0][0], kept[1][0]), min(kept[2][0], kept[3][0]))
     for i in range(4):
-        if place < 0 and dot(kept[i][1], new[1]) > _NEAR:
-            place = i
+        if index < 0 and dot(kept[i][1], new[1]) > _NEAR:
+            index = i
     for i in range(4):
-        if place < 0 and kept[i][0] == least:
-            place = i
-    if new[0] <= kept[place][0]:
+        if index < 0 and kept[i][0] == least:
+            index = i
+    if new[0] <= kept[index][0]:
         return kept
     return (
-        new if place == 0 else kept[0],
-        new if place == 1 else kept[1],
-        new if place == 2 else kept[2],
-        new if place == 3 else kept[3],
+        new if index == 0 else kept[0],
+        new if index == 1 else kept[1],
+        new if index == 2 else kept[2],
+        new if index == 3 else kept[3],
     )
 
 
@@ -114,40 +122,44 @@ _HIGHER = 1e-16
 
 
 @compiled
-def _cut_round(circle: Core, core: Core, turn: Axes, place: Vector3, start: Start) -> Start:
+def _run_of_ellipses(circle: Core, core: Core, turn: Axes, center: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and its direction, by one run of the ellipsoid method.
 
-    The method and the arguments are those of :func:`settle`.
+    The method and the arguments are those of :func:`settle`.  The ellipse has the centre (x, y) in the plane, along its
+    tangents t and u, and the matrix E: (w - centre) . E^-1 (w - centre) <= 1.  With the gradient c of the gap and
+    b = E c / sqrt(c . E c), the next centre is moved by b / 3, and the next matrix is 4/3 (E - 2/3 b b^T).
     """
     best: Start = start
     _, n = start
     t = tangent_of(n)
     u = cross(n, t)
-    size = spread(place) + largest_semi_axis(core) + circle[0]
-    i, j, e11, e12, e22 = 0.0, 0.0, _WIDE * _WIDE, 0.0, _WIDE * _WIDE
+    size = spread(center) + largest_semi_axis(core) + circle[0]
+    x, y, e_xx, e_xy, e_yy = 0.0, 0.0, _WIDE * _WIDE, 0.0, _WIDE * _WIDE
     for _ in range(_CUTS):
-        m = plus_scaled(plus_scaled(n, i, t), j, u)
-        length = norm(m)
-        m = divided(m, length)
-        q, _ = facing_point(core, turn, place, m)
-        d = minus(q, support_of(circle, m)[1])
-        g = dot(m, d)
-        if g > best[0]:
-            best = g, m
-        r, s = in_plane(t, u, divided(plus_scaled(d, -g, m), length))
-        k, h = e11 * r + e12 * s, e12 * r + e22 * s
-        most = r * k + s * h
-        if not most > (_HIGHER * size) ** 2:
+        direction = plus_scaled(plus_scaled(n, x, t), y, u)
+        length = norm(direction)
+        direction = divided(direction, length)
+        q, _ = facing_point(core, turn, center, direction)
+        d = minus(q, support_of(circle, direction)[1])
+        gap = dot(direction, d)
+        if gap > best[0]:
+            best = gap, direction
+        slope_x, slope_y = in_plane(t, u, divided(plus_scaled(d, -gap, direction), length))
+        b_x, b_y = e_xx * slope_x + e_xy * slope_y, e_xy * slope_x + e_yy * slope_y
+        # squared growth of the gap from the centre to the border of the ellipse, to first order
+        growth = slope_x * b_x + slope_y * b_y
+        if not growth > (_HIGHER * size) ** 2:
             break
-        most = math.sqrt(most)
-        k, h = k / most, h / most
-        i, j = i + k / 3.0, j + h / 3.0
-        e11, e12, e22 = (e11 - k * k / 1.5) / 0.75, (e12 - k * h / 1.5) / 0.75, (e22 - h * h / 1.5) / 0.75
+        growth = math.sqrt(growth)
+        b_x, b_y = b_x / growth, b_y / growth
+        x, y = x + b_x / 3.0, y + b_y / 3.0
+        e_xx, e_xy = (e_xx - b_x * b_x / 1.5) / 0.75, (e_xy - b_x * b_y / 1.5) / 0.75
+        e_yy = (e_yy - b_y * b_y / 1.5) / 0.75
     return best
 
 
 @compiled
-def settle(circle: Core, core: Core, turn: Axes, place: Vector3, start: Start) -> Start:
+def settle(circle: Core, core: Core, turn: Axes, center: Vector3, start: Start) -> Start:
     """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
 
     The method also converges on narrow ridges, where the gap changes little along one curve of directions.
@@ -163,15 +175,15 @@ def settle(circle: Core, core: Core, turn: Axes, place: Vector3, start: Start) -
         A circle, or a point, and the smooth body, as cores.
     turn : Axes
         Rotation from the axes of the core to those of the circle.
-    place : Vector3
+    center : Vector3
         The core's centre from that of the circle [m].
     start : Start
         Gap and direction to begin with.
     """
     best: Start = start
     for _ in range(_ELLIPSES):
-        before = best
-        best = _cut_round(circle, core, turn, place, before)
-        if dot(before[1], best[1]) > 1.0 - 0.1 * _WIDE * _WIDE:
+        last = best
+        best = _run_of_ellipses(circle, core, turn, center, last)
+        if dot(last[1], best[1]) > 1.0 - 0.1 * _WIDE * _WIDE:
             break
     return best

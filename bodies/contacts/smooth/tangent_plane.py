@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import NORMAL, TANGENT
+from nonsmooth.engine.memory.blocks import NORMAL, SLIDE_MATRIX, TANGENT, TURN_MATRIX
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Bends
@@ -28,7 +28,7 @@ def in_plane(t: Vector3, u: Vector3, v: Vector3) -> Pair:
 
 @compiled
 def along(v: Pair, t: Vector3, u: Vector3) -> Vector3:
-    """Return the vector with these components along two tangents."""
+    """Return the vector with the components v along two tangents."""
     return plus(scaled(v[0], t), scaled(v[1], u))
 
 
@@ -64,14 +64,17 @@ def by_symmetric(c: Matrix, s: Symmetric) -> Matrix:
 
 @compiled
 def turned_matrix(c: Matrix, s: Symmetric) -> Symmetric:
-    """Return C S C^T."""
+    """Return C S C^T: the matrix S in the tangents to which C converts."""
     e = by_symmetric(c, s)
     return e[0] * c[0] + e[1] * c[1], e[0] * c[2] + e[1] * c[3], e[2] * c[2] + e[3] * c[3]
 
 
 @compiled
 def tangents_in(axes: Axes, out: Floats) -> tuple[Vector3, Vector3]:
-    """Return both tangents of a geometry block, which holds normal and first tangent, in the axes of a core."""
+    """Return both tangents of a contact in the axes of a core, whose axes in the world are ``axes``.
+
+    The geometry block ``out`` must already hold normal and first tangent.
+    """
     t = vector_at(out, TANGENT)
     return rotated_back(axes, t), rotated_back(axes, cross(vector_at(out, NORMAL), t))
 
@@ -80,8 +83,9 @@ def tangents_in(axes: Axes, out: Floats) -> tuple[Vector3, Vector3]:
 def write_matrices(out: Floats, side: int, slide: Symmetric, turn: Symmetric) -> None:
     """Write the curvature matrices of a surface, which satisfy slide u = turn nu.
 
-    If the contact point moves by u along the surface [m], the normal turns by nu.
+    If the contact point moves by u along the surface [m], the normal turns by nu [rad].  ``side`` is the index of the
+    matrices in the geometry block.
     """
-    out[side], out[side + 3], out[side + 4], out[side + 7] = slide[0], slide[2], turn[0], turn[2]
-    out[side + 1] = out[side + 2] = slide[1]
-    out[side + 5] = out[side + 6] = turn[1]
+    s, t = side + SLIDE_MATRIX, side + TURN_MATRIX
+    out[s], out[s + 3], out[t], out[t + 3] = slide[0], slide[2], turn[0], turn[2]
+    out[s + 1], out[s + 2], out[t + 1], out[t + 2] = slide[1], slide[1], turn[1], turn[1]
