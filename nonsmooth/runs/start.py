@@ -142,7 +142,7 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
     remembered = np.flatnonzero((modes != Mode.OPEN) | (state.closing_rates != 0.0) | turns)
     model.reserve(len(remembered))
     remember(memory, remembered, {one: values[remembered] for one, values in states.items()})
-    model.list_contacts()
+    model.list_contacts(of_all=False)
 
 
 def write_request(memory: Memory, request: RunRequest) -> None:
