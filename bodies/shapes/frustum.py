@@ -17,11 +17,11 @@ from nonsmooth.vectors import perpendiculars
 from .placement import turned
 
 Point = tuple[float, float, float]
-LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN, SWEEP = 2, 3, 4, 5, 6, 11, 18, 19, 20
+LOW_RADIUS, HIGH_RADIUS, LOW, HIGH, FEET, SIDE, CENTER, AXIS, COS, SIN, SWEEP = 0, 1, 2, 3, 4, 5, 6, 11, 18, 19, 20
 """Indices in the numbers of a frustum (:func:`frustum_numbers`).
 
-In this order: heights of the lower and the upper rim, height of the feet, length of the side, centre, axis (its
-components are three apart), radial and axial component of the side's normal, rounding radius.
+In this order: radii of the lower and the upper rim, heights of both rims, height of the feet, length of the side,
+centre, axis (its components are three apart), radial and axial component of the side's normal, rounding radius.
 """
 _THINNEST = 1e-5
 """Least inscribed radius of a rounded body's core, relative to the largest size of the body.

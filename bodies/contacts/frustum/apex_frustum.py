@@ -5,21 +5,13 @@ from __future__ import annotations
 from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP
+from ...shapes.frustum import COS, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import dot, minus, opposite, plus_scaled, scaled
 from ..features.frames import across
 from ..features.swept_vertex import END, NEAR
 from ..features.writing import write_round
 from .apex_swept import past_apex
-from .frustum import (
-    HIGH_RIM,
-    LOW_RIM,
-    axis_in_world,
-    center_in_world,
-    nearest_part,
-    on_axis_in_world,
-    part_number,
-)
+from .frustum import HIGH_RIM, LOW_RIM, axis_in_world, center_in_world, nearest_part, on_axis_in_world, part_number
 from .frustum_writing import write_side, write_two
 
 
@@ -28,7 +20,8 @@ def evaluate_apex_over_frustum(
 ) -> None:
     """Write the geometry block of the apex of a body and the nearest part of the other.
 
-    ``first`` is the body with the apex: the second body if ``swap`` is 1, else the first.
+    ``first`` is the frustum with the apex, that of the second body if ``swap`` is 1; ``second`` is the other frustum.
+    ``size`` is the size of the bodies [m].  The contact ends if the side of the cone is nearer than the apex.
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
     axis, other_axis = axis_in_world(own, first), axis_in_world(other, second)
@@ -38,16 +31,18 @@ def evaluate_apex_over_frustum(
     n = plus_scaled(scaled(-radial, outward), -axial, other_axis)
     past = past_apex(first, distance, dot(n, axis), size)
     if distance - first[SWEEP] - second[SWEEP] > NEAR * size:
-        # the apex sphere is part of the body: its gap is an upper bound, so at a wide gap the contact stays valid
+        # the apex sphere is part of the body: its gap is an upper bound, so at a large gap the contact stays valid
         past = min(past, -END * size)
-    if swap == 1.0 and second[1] == 0.0:
-        # two apices have one contact, that of the first body's apex: this contact ends before the other apex
-        up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[0])
+    if swap == 1.0 and second[HIGH_RADIUS] == 0.0:
+        # two apices have one contact, that of the first body's apex: this contact ends before the other apex. ``up`` is
+        # the coordinate of the point along the other side, from the lower rim
+        up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[LOW_RADIUS])
         past = max(past, END * size - (second[SIDE] - up))
     write_two(a, out, swap, first, second, distance, past, n, p)
     out[FEATURE] = part_number(second, part)
-    point = away - distance * radial
+    # distance of the other contact point from its axis: exact on a rim
+    point_away = away - distance * radial
     if part == LOW_RIM or part == HIGH_RIM:
-        point = second[0] if part == LOW_RIM else second[1]
+        point_away = second[LOW_RADIUS] if part == LOW_RIM else second[HIGH_RADIUS]
     write_round(out, SIDE_B if swap == 1.0 else SIDE_A, first[SWEEP])
-    write_side(out, 1.0 - swap, second, part, other_axis, outward, opposite(n), max(point, 0.0))
+    write_side(out, 1.0 - swap, second, part, other_axis, outward, opposite(n), max(point_away, 0.0))

@@ -22,7 +22,8 @@ def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> fl
 
     It is the coordinate of this point along a straight line on the cone's side, from the apex downwards.  If the result
     is positive, the side is nearer to the point than the apex.  The point lies at ``distance`` [m] from the apex;
-    ``axial`` is the component, along the cone's axis, of the unit vector from the apex to the point.
+    ``axial`` is the component, along the cone's axis, of the unit vector from the apex to the point.  ``size`` is the
+    size of the bodies [m].
     """
     radial = math.sqrt(max(1.0 - axial * axial, 0.0))
     return float(max(distance * (frustum[SIN] * radial - frustum[COS] * axial), -size) - 2.0 * END * size)
@@ -31,7 +32,10 @@ def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> fl
 def evaluate_apex_over_core(
     a: Floats, b: Floats, out: Floats, first: Floats, core: Floats, sweep: float, size: float
 ) -> None:
-    """Write the geometry block of a cone's apex and the nearest face or edge of a core, rounded by ``sweep`` [m]."""
+    """Write the geometry block of a cone's apex and the nearest face or edge of a core, rounded by ``sweep`` [m].
+
+    ``first`` is the cone, ``core`` the core of the second body, ``size`` the size of the bodies [m].
+    """
     axis, p = axis_in_world(a, first), on_axis_in_world(a, first, first[HIGH])
     found = nearest_of_core(core, point_in_body(b, p))
     n = vector_in_world(b, (found[2], found[3], found[4]))

@@ -7,7 +7,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, LOW, SIDE, SIN, SWEEP
+from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import least_round_sine
 from ..features.frames import tangent_of
@@ -17,9 +17,9 @@ from .frustum_writing import past_border, past_depth, write_side, write_two
 
 @compiled
 def _across_both(a: Vector3, b: Vector3) -> tuple[Vector3, float]:
-    """Return the unit vector along the product of two unit vectors, and its length, the sine of their angle.
+    """Return the unit vector along the product a x b of two unit vectors, and the sine of the angle between a and b.
 
-    Of parallel vectors, return any unit vector perpendicular to them.
+    If they are parallel, the sine is 0, and the vector is any unit vector perpendicular to them.
     """
     v = cross(a, b)
     # the components of a small product along a are round-off
@@ -30,10 +30,13 @@ def _across_both(a: Vector3, b: Vector3) -> tuple[Vector3, float]:
 
 @compiled
 def _line(frustum: Floats, center: Vector3, axis: Vector3, n: Vector3) -> tuple[Vector3, Vector3]:
-    """Return the straight line of the side with the outward normal n: its lower end [m] and unit vector."""
+    """Return the straight line of the side with the outward normal n: its lower end [m] and unit vector upwards.
+
+    ``center`` and ``axis`` are those of the frustum; all vectors are in the world.
+    """
     cosine, sine = frustum[COS], frustum[SIN]
     outward = divided(plus_scaled(n, -sine, axis), cosine)
-    low = plus_scaled(plus_scaled(center, frustum[LOW], axis), frustum[0], outward)
+    low = plus_scaled(plus_scaled(center, frustum[LOW], axis), frustum[LOW_RADIUS], outward)
     return low, plus_scaled(scaled(cosine, axis), -sine, outward)
 
 
@@ -57,8 +60,8 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
     n_c = math.sqrt(max(n_c_squared, 0.0))
     gap, n = -math.inf, (1.0, 0.0, 0.0)
     # support functions of the infinite cones of both sides, along n and -n
-    support_a = first[COS] * first[0] + first[SIN] * first[LOW]
-    support_b = second[COS] * second[0] + second[SIN] * second[LOW]
+    support_a = first[COS] * first[LOW_RADIUS] + first[SIN] * first[LOW]
+    support_b = second[COS] * second[LOW_RADIUS] + second[SIN] * second[LOW]
     for sign in (-1.0, 1.0):
         candidate = plus_scaled(plus(scaled(n_a, axis_a), scaled(n_e, e)), sign * n_c, c)
         candidate = divided(candidate, norm(candidate))
@@ -69,17 +72,18 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
     q, v = _line(second, center_b, axis_b, opposite(n))
     w, crossing = minus(q, p), dot(n, cross(u, v))
     # distances of the contact points along the lines, from their lower ends
-    s, t, over_end = 0.5 * first[SIDE], 0.5 * second[SIDE], size
-    round_radius = first[0] + second[0] + first[SWEEP] + second[SWEEP]
+    s, t, past_ends = 0.5 * first[SIDE], 0.5 * second[SIDE], size
+    round_radius = first[LOW_RADIUS] + second[LOW_RADIUS] + first[SWEEP] + second[SWEEP]
     if n_c_squared >= 0.0 and abs(crossing) > least_round_sine(round_radius, size):
         s, t = dot(n, cross(w, v)) / crossing, dot(n, cross(w, u)) / crossing
-        over_end = max(max(-s, s - first[SIDE]), max(-t, t - second[SIDE]))
+        past_ends = max(max(-s, s - first[SIDE]), max(-t, t - second[SIDE]))
         # the distance along n of the points that cross: an error of n hardly changes it
         gap = dot(n, plus_scaled(plus_scaled(w, t, v), -s, u))
     p = plus_scaled(p, s, u)
     q = plus_scaled(p, gap, n)
-    away_a, away_b = first[0] - first[SIN] * s, second[0] - second[SIN] * t
-    past = max(past_border(over_end, 0.0, size), past_depth(a, first, b, second, gap, size))
+    # distances of the contact points from the axes, for the curvature: not negative past an apex
+    away_a, away_b = first[LOW_RADIUS] - first[SIN] * s, second[LOW_RADIUS] - second[SIN] * t
+    past = max(past_border(past_ends, 0.0, size), past_depth(a, first, b, second, gap, size))
     write_two(a, out, 0.0, first, second, gap, past, n, p)
     write_side(out, 0.0, first, FLANK, axis_a, minus(p, center_a), n, max(away_a, 0.0))
     write_side(out, 1.0, second, FLANK, axis_b, minus(q, center_b), opposite(n), max(away_b, 0.0))

@@ -1,7 +1,8 @@
 """Caps, rims, side, apex and feet of a frustum: the part nearest to a point, its curvature, and frustums on feet.
 
 A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`.  Its parts are numbered along the axis: lower
-cap, lower rim, side, upper rim, upper cap.
+cap, lower rim, side, upper rim, upper cap.  The functions here use its core: callers add the rounding radius.
+``frame`` is the frame block of a body.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ from ...shapes.frustum import (
     CENTER,
     COS,
     HIGH,
+    HIGH_RADIUS,
     LOW,
+    LOW_RADIUS,
     SIDE,
     SIN,
     SWEEP,
@@ -43,26 +46,26 @@ from ..surface.surface_tables import Numbers
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
 """Part numbers of a frustum, in the direction of its axis: lower cap, lower rim, side, upper rim, upper cap."""
 FLATTEST = 1e-9
-"""Least sine of the angle between a rim and a face for which the rim has a lowest point.
+"""Least sine of the angle between a rim and a face at which the rim has a lowest point over the face.
 
-The speed of this point along the rim is inversely proportional to the sine.  Feet carry a flatter rim.
+The speed of this point along the rim is inversely proportional to the sine.  A flatter rim rests on feet.
 """
 RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
-"""Names of the rims in the names of features."""
+"""Words for the rims in the names of features."""
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
     """Return the names of the parts that a frustum has, in the order of :func:`part_number`."""
     if numbers[SIDE] == 0.0:
         return "face -", "rim", "face +"
-    if numbers[1] == 0.0:
+    if numbers[HIGH_RADIUS] == 0.0:
         return "base", "rim", "side", "apex"
     return "cap -", "rim -", "side", "rim +", "cap +"
 
 
 @compiled
 def part_number(frustum: Floats, part: int) -> float:
-    """Return the number of a part among the parts that the frustum has: a disc has one rim and no side."""
+    """Return the index of a part in :func:`part_names`; the upper face of a disc, which has one rim, is 2, not 4."""
     return 2.0 if frustum[SIDE] == 0.0 and part == HIGH_CAP else float(part)
 
 
@@ -80,7 +83,7 @@ def axis_in_world(frame: Floats, frustum: Floats) -> Vector3:
 
 @compiled
 def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
-    """Return the point of the axis of a frustum at a height over its centre, in the world [m]."""
+    """Return the point of the axis at ``height`` [m] over the centre of a frustum, in the world [m]."""
     return plus_scaled(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
 
 
@@ -88,21 +91,24 @@ def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
 def rim_of(frustum: Floats, rim: float) -> tuple[float, float, float]:
     """Return radius [m], height over the centre [m] and side of a rim: 1 for ``HIGH_RIM``, -1 for ``LOW_RIM``."""
     if rim > LOW_RIM:
-        return frustum[1], frustum[HIGH], 1.0
-    return frustum[0], frustum[LOW], -1.0
+        return frustum[HIGH_RADIUS], frustum[HIGH], 1.0
+    return frustum[LOW_RADIUS], frustum[LOW], -1.0
 
 
 @compiled
 def cap_of(frustum: Floats, cap: float) -> tuple[float, float, float]:
     """Return radius [m], height over the centre [m] and side of a cap: 1 for ``HIGH_CAP``, -1 for ``LOW_CAP``."""
     if cap > LOW_CAP:
-        return frustum[1], frustum[HIGH], 1.0
-    return frustum[0], frustum[LOW], -1.0
+        return frustum[HIGH_RADIUS], frustum[HIGH], 1.0
+    return frustum[LOW_RADIUS], frustum[LOW], -1.0
 
 
 @compiled
 def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float, float, float, int]:
-    """Return the part nearest to a point: signed distance [m], normal (across and along the axis), and part.
+    """Return the part of a frustum nearest to a point: signed distance [m], outward normal there, and part.
+
+    The distance is negative inside.  The normal is given by two components: radial, away from the axis, and axial.  The
+    plane through the axis and the point shows a trapezium, whose sides and corners are the parts.
 
     Parameters
     ----------
@@ -111,59 +117,66 @@ def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float,
     along, away : float
         Coordinate of the point along the axis from the centre, and its distance from the axis [m].
     """
-    under, over = frustum[LOW] - along, along - frustum[HIGH]
-    dr, dz = away - frustum[0], along - frustum[LOW]
-    beside = frustum[COS] * dr + frustum[SIN] * dz
-    up = frustum[COS] * dz - frustum[SIN] * dr
-    if over > 0.0 and away < frustum[1]:
-        return over, 0.0, 1.0, HIGH_CAP
-    if under > 0.0 and away < frustum[0]:
-        return under, 0.0, -1.0, LOW_CAP
-    if under <= 0.0 and over <= 0.0 and beside <= 0.0:
-        # inside, the nearest part is the side or a cap
-        if beside >= under and beside >= over:
-            return beside, frustum[COS], frustum[SIN], FLANK
-        if over >= under:
-            return over, 0.0, 1.0, HIGH_CAP
-        return under, 0.0, -1.0, LOW_CAP
-    if 0.0 < up < frustum[SIDE]:
-        return beside, frustum[COS], frustum[SIN], FLANK
-    part = LOW_RIM if up <= 0.0 or frustum[SIDE] == 0.0 else HIGH_RIM
+    # heights of the point over the planes of both caps and over the side, continued past its rims
+    over_low, over_high = frustum[LOW] - along, along - frustum[HIGH]
+    dr, dz = away - frustum[LOW_RADIUS], along - frustum[LOW]
+    over_side = frustum[COS] * dr + frustum[SIN] * dz
+    # coordinate of the point along the side, from the lower rim upwards
+    up_side = frustum[COS] * dz - frustum[SIN] * dr
+    if over_high > 0.0 and away < frustum[HIGH_RADIUS]:
+        return over_high, 0.0, 1.0, HIGH_CAP
+    if over_low > 0.0 and away < frustum[LOW_RADIUS]:
+        return over_low, 0.0, -1.0, LOW_CAP
+    if over_low <= 0.0 and over_high <= 0.0 and over_side <= 0.0:
+        # inside, the nearest part is the side or a cap: the one with the largest, least negative height
+        if over_side >= over_low and over_side >= over_high:
+            return over_side, frustum[COS], frustum[SIN], FLANK
+        if over_high >= over_low:
+            return over_high, 0.0, 1.0, HIGH_CAP
+        return over_low, 0.0, -1.0, LOW_CAP
+    if 0.0 < up_side < frustum[SIDE]:
+        return over_side, frustum[COS], frustum[SIN], FLANK
+    # a disc has one rim, the lower one
+    part = LOW_RIM if up_side <= 0.0 or frustum[SIDE] == 0.0 else HIGH_RIM
     if part == HIGH_RIM:
-        dr, dz = away - frustum[1], over
+        dr, dz = away - frustum[HIGH_RADIUS], over_high
     distance = math.sqrt(dr * dr + dz * dz)
     return distance, dr / distance, dz / distance, part
 
 
 @compiled
 def past_of_rim(past: float, radius: float, sine: float) -> float:
-    """Return a length [m] by which bodies must move before the lowest point of a rim is no longer past a border.
+    """Return a displacement [m] that bodies need before the lowest point of a rim is inside a face's border again.
 
-    ``past`` is the distance of the point past the border [m], and the result if it is negative.  ``sine`` is that of
-    the angle between the rim and the face.  If the bodies turn by an angle, the point moves round the rim by up to this
-    angle over the sine.  So it may come from afar while the bodies hardly move.  This length is for bodies that are
-    apart, whose contacts are sought.  Where they touch, the distance itself tells whether the contact ends.  Below
-    ``PARALLEL`` the sine counts as this: the length must be positive past the border.
+    ``past`` is the distance of the point past the border [m]; if it is not positive, it is the result.  ``sine`` is the
+    sine of the angle between the planes of rim and face, ``radius`` the radius of the rim [m].  If the bodies rotate by
+    an angle, the point moves round the rim by up to this angle over the sine: far, while the bodies hardly move.
+
+    Use this displacement for bodies that are apart.  If they touch, the contact ends at ``past`` itself.
     """
+    # the least sine keeps the result positive past the border, also for a rim parallel to the face
     return past if past <= 0.0 or radius == 0.0 else max(sine, PARALLEL) * min(past, radius)
 
 
 @compiled
 def least_height(frustum: Floats, height: float, axis: Vector3, normal: Vector3) -> float:
-    """Return the least height of a frustum over a plane [m].
+    """Return the least height of a frustum over a plane [m], that of the lowest point of one of its rims.
 
-    ``height`` is the height of its centre [m], ``axis`` its unit axis, ``normal`` the unit normal of the plane.
+    ``height`` is the height of the frustum's centre [m], ``axis`` its unit axis, ``normal`` the unit normal of the
+    plane.  Axis and normal are in the same axes, those of the world or of a body.
     """
     # the root of 1 - cosine^2 would be wrong by up to 1e-8 for an axis along the normal
     cosine, sine = dot(axis, normal), norm(cross(axis, normal))
-    return float(height + min(cosine * frustum[LOW] - sine * frustum[0], cosine * frustum[HIGH] - sine * frustum[1]))
+    low, high = cosine * frustum[LOW], cosine * frustum[HIGH]
+    return float(height + min(low - sine * frustum[LOW_RADIUS], high - sine * frustum[HIGH_RADIUS]))
 
 
 @compiled
 def separation_over_faces(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
-    """Return the largest separation of a frustum in ``a`` and a core in ``b`` along the normals of its faces [m].
+    """Return the largest separation of a frustum and a core along the normals of the core's faces [m].
 
-    It is negative if none of the planes of the faces separates the bodies.
+    The frustum belongs to the first body, with the frame ``a``, the core to the second one.  The result is the largest
+    of the frustum's least heights over the faces: negative if no plane of a face separates the bodies.
     """
     axis, center = vector_in_body(b, axis_in_world(a, frustum)), point_in_body(b, center_in_world(a, frustum))
     best = -math.inf
@@ -175,27 +188,38 @@ def separation_over_faces(a: Floats, b: Floats, frustum: Floats, core: Floats) -
 
 @compiled
 def least_over(b: Floats, core: Floats, normal: Vector3, place: Vector3) -> float:
-    """Return the least height of the vertices of a core in ``b`` over the plane through ``place`` with a normal [m]."""
-    base = dot(normal, minus(vector_at(b, POSITION), place))
-    own, least = vector_in_body(b, normal), math.inf
+    """Return the least height of the vertices of a core over a plane [m].
+
+    The plane goes through the point ``place`` [m] with the unit normal ``normal``, both in the world.  ``b`` is the
+    frame block of the core's body.
+    """
+    height_of_origin = dot(normal, minus(vector_at(b, POSITION), place))
+    normal_in_body, least = vector_in_body(b, normal), math.inf
     for i in range(int(core[N_VERTICES])):
-        least = min(least, dot(own, vector_at(core, vertex_at(core, i))))
-    return float(base + least)
+        least = min(least, dot(normal_in_body, vector_at(core, vertex_at(core, i))))
+    return float(height_of_origin + least)
 
 
 @compiled
 def separation_over_caps(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
-    """Return the largest separation of a frustum in ``a`` and a core in ``b`` along the normals of the caps [m]."""
-    axis, place = axis_in_world(a, frustum), center_in_world(a, frustum)
-    best = least_over(b, core, opposite(axis), place) + frustum[LOW]
-    if frustum[1] > 0.0:
-        best = max(best, least_over(b, core, axis, place) - frustum[HIGH])
+    """Return the largest separation of a frustum and a core along the outward normals of the frustum's caps [m].
+
+    The bodies are those of :func:`separation_over_faces`; a negative result means that no cap separates them.
+    """
+    axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
+    best = least_over(b, core, opposite(axis), center) + frustum[LOW]
+    if frustum[HIGH_RADIUS] > 0.0:
+        best = max(best, least_over(b, core, axis, center) - frustum[HIGH])
     return float(best)
 
 
 @compiled
 def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vector3) -> float:
-    """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m]."""
+    """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m].
+
+    It is the width of the gap between two planes with the normal n, each of which touches one frustum.  It is negative
+    if the frustums overlap along n.  ``n`` is in the world.
+    """
     height = dot(n, minus(center_in_world(b, second), center_in_world(a, first)))
     height = least_height(first, height, axis_in_world(a, first), opposite(n))
     return float(least_height(second, height, axis_in_world(b, second), n))
@@ -235,20 +259,22 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
     part : int
         Number of the part, such as ``FLANK``.
     axis, outward : Vector3
-        The unit axis, and the unit vector from the axis towards the point, perpendicular to the axis.
+        The unit axis, and the unit vector from the axis towards the point, perpendicular to the axis, in the world.
     radial : float
         Component of the outward normal along ``outward``.
     away : float
         Distance of the point from the axis [m].
     """
+    # the apex, a rim of radius 0, has the curvature of a point
     if part == LOW_CAP or part == HIGH_CAP:
         write_flat(out, side)
     elif part != FLANK and away == 0.0:
         write_round(out, side, 0.0)
     else:
-        # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle
-        flank, turn = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
-        write_principal(out, side, cross(axis, outward), turn, away, 1.0 - flank, flank)
+        # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle. A normal
+        # along the axis does not turn; the least value keeps the matrices regular
+        flank, slide = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
+        write_principal(out, side, cross(axis, outward), slide, away, 1.0 - flank, flank)
 
 
 @compiled
@@ -257,26 +283,37 @@ def tip_past_rim(
 ) -> float:
     """Return a length [m] that is negative if a vertex behind a disc went through the disc.
 
-    The vertex p, relative to the centre of the disc, lies behind the disc's plane at ``depth`` [m], in the direction
-    -n.  Each edge of the vertex that leads back through the plane crosses it at a distance from the centre.  The result
-    is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the plane.  A
-    negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise the edges
-    pass the rim from the side.  Edges that cross the plane farther from the vertex than their midpoint are ignored.
+    Each edge of the vertex that leads back through the disc's plane crosses it at a distance from the disc's centre.
+    The result is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the
+    plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise
+    the edges pass the rim from the side.
+
+    Parameters
+    ----------
+    b : Floats
+        Frame block of the body with the vertex.
+    n_star, star, lengths : float, Floats, Floats
+        Number of edges of the vertex, unit vectors along them in the body frame, and their lengths [m].
+    p, n : Vector3
+        The vertex, from the centre of the disc [m], and the unit normal of the disc, in the world.
+    depth, radius : float
+        Distance of the vertex from the disc's plane, in the direction -n, and radius of the disc [m].
     """
     least = math.inf
     for i in range(int(n_star)):
         edge = vector_in_world(b, vector_at(star, 3 * i))
         rise = dot(n, edge)
+        # ignore edges that do not lead back, or that cross the plane only in their far half, next to another vertex
         if rise * lengths[i] <= 2.0 * depth:
             continue
-        at = plus_scaled(p, depth / rise, edge)
-        along = dot(n, at)
-        least = min(least, math.sqrt(max(dot(at, at) - along * along, 0.0)) - radius)
+        crossing = plus_scaled(p, depth / rise, edge)
+        along = dot(n, crossing)
+        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - radius)
     return least + depth
 
 
-_WAYS = 12
-"""Number of unit vectors that stand for edges of an apex (down the side of the cone) or of a foot (along the cap).
+_N_EDGES = 12
+"""Number of unit vectors that represent edges of an apex (down the side of the cone) or of a foot (along the cap).
 
 An apex or a foot is treated as a corner with these edges, evenly spaced around the axis.  A face can touch it only if
 no edge points into the face steeper than :data:`bodies.contacts.features.edge_crossing.CONE_MARGIN`.  The steepest of
@@ -287,10 +324,12 @@ no edge points into the face steeper than :data:`bodies.contacts.features.edge_c
 def set_back(first: Frustum) -> Numbers:
     """Return the numbers of a frustum whose rims are set back by the height of its feet, so that only feet protrude.
 
-    A rim that rolls over the edge of a face then keeps its height.
+    The rims have their radii and centres for contacts with faces (:attr:`bodies.shapes.frustum.Frustum.standing_rims`).
+    A rim that rolls from a face over the face's edge then keeps its height.
     """
     own = first.frustum
     center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
+    # a disc has one rim, which is its lower and its upper one
     rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
     heights = [float((np.array(place) - center) @ axis) for _, place in rims]
     x, y, z = center.tolist()
@@ -300,19 +339,20 @@ def set_back(first: Frustum) -> Numbers:
 
 
 def size_of_both(first: Frustum, second: SweptPolytope) -> float:
-    """Return the size of the larger body [m]."""
+    """Return the size of the larger body, its diameter [m]; tolerances of lengths are relative to it."""
     return max(second.core.size + 2.0 * second.sweep, 2.0 * first.extent)
 
 
 def rims_of(numbers: Numbers) -> tuple[int, ...]:
     """Return the numbers of the rims of a frustum; a disc has one rim, an apex is not a rim."""
-    return (LOW_RIM, HIGH_RIM) if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else (LOW_RIM,)
+    return (LOW_RIM, HIGH_RIM) if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] > 0.0 else (LOW_RIM,)
 
 
 def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point, str]]:
-    """Yield radius [m], place [m] and name of each rim, of the apex of sharp bodies and of each foot.
+    """Yield radius [m], centre in the body frame [m] and name of each rim, of the apex and of each foot.
 
-    The apex of rounded bodies is a sphere, which has contacts of its own.
+    Apex and feet have the radius 0.  The apex is left out unless ``is_sharp``: if a body of the pair is rounded, the
+    apex is a sphere, which has contacts of its own.
     """
     for has_radius in (True, False):
         for i, (radius, place) in enumerate(first.standing_rims):
@@ -325,34 +365,36 @@ def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point
 def seen_by(first: Frustum, core: Polytope) -> Numbers:
     """Return the numbers of a frustum for the contacts with a core: set back by the feet if the core has faces.
 
-    A face lies on the feet, so the rest of the body must not touch first. A line has no face, and ignores the feet.
+    A face rests on the feet, so the rest of the body must not touch first.  A segment has no faces: its contacts ignore
+    the feet.
     """
     return set_back(first) if core.faces else without_feet(first.frustum)
 
 
 def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield position [m], edges (:data:`_WAYS` unit vectors down the side, flattened) and name of the apex of a cone.
+    """Yield position [m], edges (:data:`_N_EDGES` unit vectors down the side) and name of a cone's apex.
 
-    Other frustums, which have no apex, yield nothing.
+    Other frustums, which have no apex, yield nothing.  All vectors are in the body frame; the three components of each
+    edge follow one another.
     """
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:
-            yield place, _round(first, sine, -cosine), "apex"
+            yield place, _edges_around(first, sine, -cosine), "apex"
 
 
 def feet_of(first: Frustum) -> Iterator[Corner]:
-    """Yield position [m], edges (:data:`_WAYS` unit vectors in the cap's plane, flattened) and name of each foot."""
+    """Yield position [m], edges (:data:`_N_EDGES` unit vectors in the cap's plane) and name of each foot."""
     for i, foot in enumerate(first.feet):
-        yield foot, _round(first, 1.0, 0.0), f"foot {i}"
+        yield foot, _edges_around(first, 1.0, 0.0), f"foot {i}"
 
 
-def _round(first: Frustum, away: float, along: float) -> Numbers:
-    """Return ``_WAYS`` unit vectors at even angles around the axis, flattened: three components for each vector.
+def _edges_around(first: Frustum, radial: float, axial: float) -> Numbers:
+    """Return ``_N_EDGES`` unit vectors at even angles around the axis in the body frame, three components for each.
 
-    Each has the component ``away`` perpendicular to the axis and ``along`` along it.
+    Each has the component ``radial`` away from the axis and ``axial`` along it.
     """
     axes = np.array(first.frustum[AXIS - 2 : AXIS + 7]).reshape(3, 3)
-    angles = [2.0 * math.pi * i / _WAYS for i in range(_WAYS)]
-    ways = [axes @ np.array([away * math.cos(angle), away * math.sin(angle), along]) for angle in angles]
-    return tuple(float(x) for way in ways for x in way)
+    angles = [2.0 * math.pi * i / _N_EDGES for i in range(_N_EDGES)]
+    edges = [axes @ np.array([radial * math.cos(angle), radial * math.sin(angle), axial]) for angle in angles]
+    return tuple(float(x) for edge in edges for x in edge)

@@ -11,7 +11,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import FEET, SIDE, SWEEP, Frustum, without_feet
+from ...shapes.frustum import FEET, HIGH_RADIUS, SIDE, SWEEP, Frustum, without_feet
 from ...vectors import minus, opposite, plus_scaled, scaled, vector_at
 from ..features.frames import across, point_in_world
 from ..features.vertex_face import CLOSED, REACH
@@ -54,7 +54,7 @@ def evaluate_rim_over_cap(
 ) -> None:
     """Write the geometry block of a cap of one body and the point of a rim of the other that is lowest over the cap.
 
-    Feet and apices are rims of radius 0.
+    Feet and apices are rims of radius 0.  The contact ends at the border of the cap.
 
     Parameters
     ----------
@@ -74,31 +74,31 @@ def evaluate_rim_over_cap(
         Size of the bodies [m].
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
-    axis, cap_axis, place = axis_in_world(own, first), axis_in_world(other, second), center_in_world(other, second)
-    wide, height, up = cap_of(second, cap)
+    axis, cap_axis, cap_center = axis_in_world(own, first), axis_in_world(other, second), center_in_world(other, second)
+    cap_radius, height, up = cap_of(second, cap)
     n, middle = scaled(-up, cap_axis), point_in_world(own, vector_at(center, 0))
     _, sine, outward = across(n, axis)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
     if radius > 0.0 and sine < FLATTEST:
-        # if no foot is over the cap, a flat rim touches it on the line of centres, in an area that is more than a
-        # point. This place moves no faster than the bodies
-        _, _, outward = across(minus(place, middle), axis)
+        # a rim parallel to the cap has no lowest point: take the one towards the cap's centre, which moves no faster
+        # than the bodies. Feet touch first, if they are over the cap
+        _, _, outward = across(minus(cap_center, middle), axis)
         margin, sine = -4.0 * CLOSED, 1.0
     p = plus_scaled(middle, radius, outward)
-    along, away, from_axis = across(minus(p, place), cap_axis)
+    along, away, from_axis = across(minus(p, cap_center), cap_axis)
     gap = up * (along - height)
-    past = away - wide - margin * size
+    past = away - cap_radius - margin * size
     if gap > first[SWEEP] + second[SWEEP]:
         past = past_of_rim(past, radius, sine)
     if second[SIDE] == 0.0:
         past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))
     else:
-        # the feet of a disc stand out of its core
+        # the feet of a disc protrude from its core
         foot = first[FEET] if first[SIDE] == 0.0 and radius == 0.0 else 0.0
         past = max(past, past_depth(own, first, other, second, gap + foot, size))
         if gap < 0.0:
-            # of the body with the cap another part may separate the bodies better
+            # another part of the body with the cap may separate the bodies by a shorter translation
             best = separation_by_second(own, first, other, second)
             past = max(past, best - separation_along(own, first, other, second, n) - REACH * size)
     write_two(a, out, swap, first, second, gap, past, n, p)
@@ -131,7 +131,7 @@ class FrustumFrustum(ContactKinematics):
 
 
 def _names(swap: float, own: str, other: str) -> str:
-    """Return the names of a feature of the body with the rim and of one of the other body, the first body first."""
+    """Return the name of a contact, of the first body's feature and the second's: ``own`` is first unless ``swap``."""
     return f"{other} and {own}" if swap else f"{own} and {other}"
 
 
@@ -141,10 +141,10 @@ def _over_caps(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
     for swap, own, other in ((0.0, first, second), (1.0, second, first)):
         inner = set_back(other)
         for radius, center, name in rims_and_tips(own, is_sharp):
-            # feet of either body carry it on a cap of the other: between rims and caps is the height of both
+            # a foot touches the cap itself. The cap for a rim is set back, so that feet of either body touch first
             numbers = other.frustum if name.startswith("foot") else inner
             values: dict[str, Value] = {"swap": swap, "first": own.frustum, "radius": radius, "center": center}
-            for cap, sign in ((LOW_CAP, "-"), (HIGH_CAP, "+"))[: 2 if other.frustum[1] > 0.0 else 1]:
+            for cap, sign in ((LOW_CAP, "-"), (HIGH_CAP, "+"))[: 2 if other.frustum[HIGH_RADIUS] > 0.0 else 1]:
                 yield FeaturePair(
                     evaluate_rim_over_cap,
                     {**values, "second": numbers, "cap": float(cap), "size": size},
@@ -154,27 +154,29 @@ def _over_caps(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
 
 def _crossing(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
     """Yield the contacts of the sides, of the rims and sharp apices of either body with the side, and of the rims."""
-    size, one, two = 2.0 * max(first.extent, second.extent), set_back(first), set_back(second)
-    if one[SIDE] > 0.0 and two[SIDE] > 0.0:
-        yield FeaturePair(evaluate_sides, {"first": one, "second": two, "size": size}, ("side and side",))
+    size, core_a, core_b = 2.0 * max(first.extent, second.extent), set_back(first), set_back(second)
+    if core_a[SIDE] > 0.0 and core_b[SIDE] > 0.0:
+        yield FeaturePair(evaluate_sides, {"first": core_a, "second": core_b, "size": size}, ("side and side",))
     values: dict[str, Value]
-    for swap, own, other in ((0.0, one, two), (1.0, two, one)):
+    for swap, own, other in ((0.0, core_a, core_b), (1.0, core_b, core_a)):
         halves = [*itertools.product(rims_of(own), (1.0, -1.0))]
-        if own[SIDE] > 0.0 and own[1] == 0.0 and one[SWEEP] + two[SWEEP] == 0.0:
+        # a sharp apex is a rim of radius 0, which has no halves
+        if own[SIDE] > 0.0 and own[HIGH_RADIUS] == 0.0 and core_a[SWEEP] + core_b[SWEEP] == 0.0:
             halves.append((HIGH_RIM, 1.0))
         for rim, half in halves if other[SIDE] > 0.0 else ():
             values = {"swap": swap, "first": own, "rim": float(rim), "half": half, "second": other, "size": size}
             yield FeaturePair(evaluate_rim_over_side, values, (_names(swap, RIM_NAMES[rim], "side"),))
-    for i, j, half in itertools.product(rims_of(one), rims_of(two), (1.0, -1.0)):
-        values = {"first": one, "rim_a": float(i), "second": two, "rim_b": float(j), "half": half, "size": size}
+    for i, j, half in itertools.product(rims_of(core_a), rims_of(core_b), (1.0, -1.0)):
+        values = {"first": core_a, "rim_a": float(i), "second": core_b, "rim_b": float(j), "half": half, "size": size}
         yield FeaturePair(evaluate_rims, values, (f"{RIM_NAMES[i]} and {RIM_NAMES[j]}",))
 
 
 def _of_apices(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
-    """Yield the contacts of the apices if a body is rounded."""
-    one, two = without_feet(first.frustum), without_feet(second.frustum)
-    for swap, own, other in ((0.0, one, two), (1.0, two, one)) if one[SWEEP] + two[SWEEP] > 0.0 else ():
-        if own[1] == 0.0:
+    """Yield the contacts of the apices, which are spheres or points, if a body is rounded."""
+    core_a, core_b = without_feet(first.frustum), without_feet(second.frustum)
+    is_rounded = core_a[SWEEP] + core_b[SWEEP] > 0.0
+    for swap, own, other in ((0.0, core_a, core_b), (1.0, core_b, core_a)) if is_rounded else ():
+        if own[HIGH_RADIUS] == 0.0:
             values: dict[str, Value] = {"swap": swap, "first": own, "second": other}
             values["size"] = 2.0 * max(first.extent, second.extent)
             names = tuple(_names(swap, "apex", part) for part in part_names(other))

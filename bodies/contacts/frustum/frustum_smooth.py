@@ -5,6 +5,8 @@ that are extreme along n.  Each part of the frustum (cap, side, rim) has a range
 :mod:`bodies.contacts.frustum.frustum_stops` searches one part for a local maximum.  Bodies that are apart have only one
 local maximum, because both are convex.  Bodies that overlap may have several; the largest gives the shortest
 translation that separates the bodies.
+
+Points and normals are in the axes of the frustum, from its centre; the arguments are those of :data:`Bodies`.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
+from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import Core
 from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, vector_at
@@ -27,6 +29,7 @@ from ..smooth.inscribed import gauge, no_shorter_way
 from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import (
     CENTER,
+    POINT,
     RADIUS,
     Axes,
     NearestPoint,
@@ -57,16 +60,17 @@ from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
 from .frustum_writing import write_contact
 
 Bodies: TypeAlias = tuple[Floats, Floats, Floats, Core, Core, Axes, Vector3, float]
-"""Arguments of the searches for both bodies, in the axes of the frustum.
+"""Arguments of the searches for both bodies: ``frustum, low, high, point, core, turn, place, size``.
 
-In this order: frustum, lower rim, upper rim and a point (each as a core), core of the smooth body, axes of the smooth
-body, its centre [m], size of both bodies [m].
+``low``, ``high`` and ``point`` are the rims and a point, each as a core.  ``core`` is the core of the smooth body,
+``place`` its centre in the axes of the frustum and from the frustum's centre [m]; ``turn`` converts components along
+the axes of the core to those of the frustum.  ``size`` is the size of both bodies [m].
 """
 
-_SHALLOW, _SLIGHT = 1e-6, 1e-8
+_SHALLOW, _SHALLOW_OF_SHARP = 1e-6, 1e-8
 """Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size.
 
-``_SHALLOW`` is for smooth bodies without ridges, ``_SLIGHT`` for bodies with ridges (a power of the core above 2).
+``_SHALLOW`` is for smooth bodies without ridges, the smaller one for bodies with ridges (a power of the core above 2).
 """
 _CLOSE = 1e-12
 """Least distance of the smooth body's centre from the frustum's axis, relative to the size of both bodies.
@@ -79,25 +83,28 @@ _SAMPLES, _PROJECTIONS = 8, 16
 ``_SAMPLES`` is the number of intervals between the two contact points, whose ends are tried first.  ``_PROJECTIONS`` is
 the largest number of points from alternating projections, which are tried then.
 """
-_HIGHER = 1e-14
+_LARGER = 1e-14
 """Least difference of two local maxima of the gap, relative to the size; a smaller difference is round-off."""
 _NEARBY = 1e-3
 """Angle to a maximum of the gap at which the ascent may end [rad], because Newton's method continues from there."""
 _DEEP = 0.9
-"""Gauge below which an overlap is deep, at the point of the frustum that is nearest to the core's centre.
+"""Gauge of the core below which an overlap is deep, at the frustum's point nearest to the core's centre.
 
-The gauge of the core is 0 at its centre and 1 on its surface.  At a deep overlap some searches are left out,
-because they may end at a smaller local maximum of the gap.
+The gauge is 0 at the centre and 1 on the surface.  At a deep overlap some searches are left out, because they may end
+at a smaller local maximum of the gap.
 """
 _ON_SURFACE = 1e-12
 """Round-off by which the gauge of a core (1 on its surface) may exceed 1 at a point inside of the core."""
 _TURNS = 8
-"""Number of directions around the axis at which searches start, if the direction to the core's centre is in vain."""
+"""Number of directions around the axis at which searches start, if the direction to the core's centre fails."""
 
 
 @compiled
-def _is_before(core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
-    """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there."""
+def _is_centre_outside(core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
+    """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there.
+
+    If the core has no ridges, such an overlap is taken as the one with the smallest depth.
+    """
     g, p, n = found
     from_centre = minus(plus_scaled(p, -g, n), place)
     return bool(dot(n, from_centre) < 0.0 and gauge(core, rotated_back(turn, from_centre)) < 1.0)
@@ -112,21 +119,22 @@ def is_over_cap(frustum: Floats, part: int, place: Vector3, found: NearestPoint)
     the height d above the cap.  If both are at least d inside of the rim, in any direction one of the two is at least d
     behind a point of the rim, so that no translation by less than d separates the bodies.
     """
-    g, (px, py, _), _ = found
-    if g >= 0.0:
+    gap, (px, py, _), _ = found
+    if gap >= 0.0:
         return True
     x, y, z = place
-    radius, level, up = cap_of(frustum, part)
-    height, inside = up * (z - level), radius + g
-    if g != g or height < -g or inside < 0.0:
+    radius, cap_height, up = cap_of(frustum, part)
+    height, most_away = up * (z - cap_height), radius + gap
+    if math.isnan(gap) or height < -gap or most_away < 0.0:
         return False
-    way = -2.0 * g / (height - g)
-    wx, wy = px + way * (x - px), py + way * (y - py)
-    return bool(max(px * px + py * py, wx * wx + wy * wy) <= inside * inside)
+    # the second point, at this fraction of the line from the lowest point to the centre
+    fraction = -2.0 * gap / (height - gap)
+    qx, qy = px + fraction * (x - px), py + fraction * (y - py)
+    return bool(max(px * px + py * py, qx * qx + qy * qy) <= most_away * most_away)
 
 
 @compiled
-def _has_room(frustum: Floats, part: int, found: NearestPoint, near: float) -> bool:
+def _contains_ball(frustum: Floats, part: int, found: NearestPoint, near: float) -> bool:
     """True if the gap found over a cap or the side is proved to be the largest over all normals.
 
     The proof is a ball about the smooth body's point, with the depth of the overlap as its radius: if the ball lies
@@ -141,15 +149,16 @@ def _has_room(frustum: Floats, part: int, found: NearestPoint, near: float) -> b
 
 
 @compiled
-def _into(frustum: Floats, point: Vector3) -> Vector3:
-    """Return the point of the frustum nearest to a point [m], both in the axes of the frustum."""
+def _nearest_point(frustum: Floats, point: Vector3) -> Vector3:
+    """Return the point of the frustum nearest to a point [m]; a point inside of the frustum is its own."""
     x, y, z = point
     away = math.sqrt(x * x + y * y)
-    outside, radial, axial, _ = nearest_part(frustum, z, away)
-    if outside <= 0.0:
+    distance, radial, axial, _ = nearest_part(frustum, z, away)
+    if distance <= 0.0:
         return point
-    across = outside * radial / away if away > 0.0 else 0.0
-    return x - across * x, y - across * y, z - outside * axial
+    # relative change of the distance from the axis
+    inwards = distance * radial / away if away > 0.0 else 0.0
+    return x - inwards * x, y - inwards * y, z - distance * axial
 
 
 @compiled
@@ -168,13 +177,13 @@ def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: 
         elif i == _SAMPLES + 1:
             p = place
         else:
-            # p is outside of the core: behind its surface, farther each time
-            way = minus(place, p)
-            off, way, _ = widest_of_round(point, core, turn, way, way)
-            if not off > 0.0:
+            # p is outside of the core: go to the core's nearest point and on into the core, farther each time
+            to_center = minus(place, p)
+            distance, to_core, _ = widest_of_round(point, core, turn, to_center, to_center)
+            if not distance > 0.0:
                 return False
-            p = plus_scaled(p, float(i - _SAMPLES), way)
-        p = _into(frustum, p)
+            p = plus_scaled(p, float(i - _SAMPLES), to_core)
+        p = _nearest_point(frustum, p)
         if gauge(core, rotated_back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE:
             return True
     return False
@@ -182,36 +191,34 @@ def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: 
 
 @compiled
 def _nearest(
-    frustum: Floats,
-    low: Floats,
-    high: Floats,
-    point: Core,
-    core: Core,
-    turn: Axes,
-    place: Vector3,
+    frustum: Floats, low: Floats, high: Floats, point: Core, core: Core, turn: Axes, place: Vector3
 ) -> tuple[NearestPoint, int]:
     """Return the largest gap found over all normals, with point and normal, and the part of the frustum it belongs to.
 
     The first result holds the gap of the cores [m], the smooth body's point [m] and the normal, in the axes of the
     frustum.  The part is a cap, the side or a rim, such as ``LOW_CAP``.  The gap is nan if no local maximum was found.
     A negative gap needs a common point of both bodies as a proof.
+
+    All parts are searched, from several starts, until a local maximum is proved to be the largest, or until all starts
+    are done.
     """
     x, y, z = place
-    size = spread(place) + largest_semi_axis(core) + frustum[0] + frustum[HIGH] - frustum[LOW]
+    size = spread(place) + largest_semi_axis(core) + frustum[LOW_RADIUS] + frustum[HIGH] - frustum[LOW]
     bodies = frustum, low, high, point, core, turn, place, size
     near = ON_BORDER * size
     away = math.sqrt(x * x + y * y)
+    # direction from the axis at which the searches start
     sx, sy = (x, y) if away > _CLOSE * size else (1.0, 0.0)
-    _, _, _, guess = nearest_part(frustum, z, away)
+    _, _, _, first_part = nearest_part(frustum, z, away)
     if z > frustum[HIGH] or z < frustum[LOW]:
         part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
-        over = on_cap(frustum, core, turn, place, part, near)
-        if is_over_cap(frustum, part, place, over):
-            return over, part
+        found = on_cap(frustum, core, turn, place, part, near)
+        if is_over_cap(frustum, part, place, found):
+            return found, part
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
-    where = LOW_CAP
+    best_part = LOW_CAP
     is_deep, is_sharp = False, max(core[3], core[4]) > 2.0
-    shallow = _SLIGHT * size if is_sharp else _SHALLOW * size
+    shallow = _SHALLOW_OF_SHARP * size if is_sharp else _SHALLOW * size
     for start in range(_TURNS + 4):
         if start == 1:
             is_deep = _is_deep(frustum, core, turn, place)
@@ -223,11 +230,11 @@ def _nearest(
             sx, sy = math.cos(2.0 * math.pi * start / _TURNS), math.sin(2.0 * math.pi * start / _TURNS)
         for i in range(9):
             # first the part nearest to the centre, then the others in the order of their distance from this part
-            part = guess + ((i + 1) // 2 if i % 2 == 1 else -(i // 2))
-            rim = part == LOW_RIM or part == HIGH_RIM
+            part = first_part + ((i + 1) // 2 if i % 2 == 1 else -(i // 2))
+            is_rim = part == LOW_RIM or part == HIGH_RIM
             if part < LOW_CAP or part > HIGH_CAP or (frustum[SIDE] == 0.0 and (part == FLANK or part == HIGH_RIM)):
                 continue
-            if not rim and (start == 2 or start == 3):
+            if not is_rim and (start == 2 or start == 3):
                 continue
             if start == 1:
                 if is_deep:
@@ -241,37 +248,39 @@ def _nearest(
             else:
                 circle = low if part == LOW_RIM else high
                 found = on_rim(frustum, circle, core, turn, place, (sx, sy), part, tilt)
-            if found[0] == found[0] and not found[0] <= best[0]:
-                best, where = found, part
-                if found[0] >= -shallow or _has_room(frustum, part, found, near):
-                    return best, where
-                if not is_sharp and _is_before(core, turn, place, found):
-                    return best, where
-        if is_sharp and (best[0] >= -_SHALLOW * size or _is_before(core, turn, place, best)):
-            # a tip or ridge next to an edge or apex: another local maximum of the gap may have a smaller depth
-            rim = where == LOW_RIM or where == HIGH_RIM
-            if rim and (is_deep or _is_deep(frustum, core, turn, place)):
-                return best, where
-            best, where = _higher(bodies, best, where)
-            return best, where
+            # a comparison with nan is false, so that the first maximum replaces the gap nan
+            if not math.isnan(found[0]) and not found[0] <= best[0]:
+                best, best_part = found, part
+                if found[0] >= -shallow or _contains_ball(frustum, part, found, near):
+                    return best, best_part
+                if not is_sharp and _is_centre_outside(core, turn, place, found):
+                    return best, best_part
+        if is_sharp and (best[0] >= -_SHALLOW * size or _is_centre_outside(core, turn, place, best)):
+            # a tip or ridge of the core next to a rim or apex: another local maximum may have a smaller depth
+            is_rim = best_part == LOW_RIM or best_part == HIGH_RIM
+            if is_rim and (is_deep or _is_deep(frustum, core, turn, place)):
+                return best, best_part
+            best, best_part = _larger_gap(bodies, best, best_part)
+            return best, best_part
     if is_sharp and not is_deep and best[0] < 0.0:
-        # the local maximum with the smallest depth may have been missed: seek larger gaps
-        best, where = _higher(bodies, best, where)
-    if best[0] != best[0] or not _share_a_point(frustum, point, core, turn, place, best):
-        best, where = _on_hills(bodies)
-        if is_sharp and best[0] != best[0] and frustum[SIDE] > 0.0:
-            best, where = _beside_apex(bodies), FLANK
-    return best, where
+        # the local maximum with the smallest depth may have been missed: search for larger gaps
+        best, best_part = _larger_gap(bodies, best, best_part)
+    if math.isnan(best[0]) or not _share_a_point(frustum, point, core, turn, place, best):
+        # the searches missed the largest gap: ascend the gap of the rims, then that of the side from the apex
+        best, best_part = _on_rims(bodies)
+        if is_sharp and math.isnan(best[0]) and frustum[SIDE] > 0.0:
+            best, best_part = _beside_apex(bodies), FLANK
+    return best, best_part
 
 
 @compiled
 def _is_deep(frustum: Floats, core: Core, turn: Axes, place: Vector3) -> bool:
     """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
-    return bool(gauge(core, rotated_back(turn, minus(_into(frustum, place), place))) < _DEEP)
+    return bool(gauge(core, rotated_back(turn, minus(_nearest_point(frustum, place), place))) < _DEEP)
 
 
 @compiled
-def _higher(bodies: Bodies, best: NearestPoint, where: int) -> tuple[NearestPoint, int]:
+def _larger_gap(bodies: Bodies, best: NearestPoint, best_part: int) -> tuple[NearestPoint, int]:
     """Return the larger of the gap ``best`` and the gaps of further local maxima, and the part it belongs to.
 
     No further search is made if a ball inside of the smooth body proves that ``best`` is the largest
@@ -279,14 +288,14 @@ def _higher(bodies: Bodies, best: NearestPoint, where: int) -> tuple[NearestPoin
     """
     frustum, _, _, point, core, turn, place, size = bodies
     if not no_shorter_way(point, core, turn, place, best):
-        found, part = _on_hills(bodies)
-        if found[0] > best[0] + _HIGHER * size:
-            best, where = found, part
+        found, part = _on_rims(bodies)
+        if found[0] > best[0] + _LARGER * size:
+            best, best_part = found, part
         if frustum[SIDE] > 0.0:
             found = _beside_apex(bodies)
-            if found[0] > best[0] + _HIGHER * size:
-                best, where = found, FLANK
-    return best, where
+            if found[0] > best[0] + _LARGER * size:
+                best, best_part = found, FLANK
+    return best, best_part
 
 
 @compiled
@@ -302,57 +311,58 @@ def _beside_apex(bodies: Bodies) -> NearestPoint:
         _, (nx, ny, _) = uphill(high, core, turn, from_apex, start, _NEARBY)
         if nx != 0.0 or ny != 0.0:
             found = on_flank(frustum, core, turn, place, (nx, ny), ON_BORDER * size)
-            if found[0] == found[0] and not found[0] <= best[0]:
+            if not math.isnan(found[0]) and not found[0] <= best[0]:
                 best = found
     return best
 
 
 @compiled
-def _on_hills(bodies: Bodies) -> tuple[NearestPoint, int]:
-    """Return the largest local maximum that the gap has, as a function of the normal, over each rim; and this rim.
+def _on_rims(bodies: Bodies) -> tuple[NearestPoint, int]:
+    """Return the largest local maximum of the gap over the normals of both rims, by ascents, and this rim.
 
-    The gap of two convex bodies is the largest separation over all normals.  The searches ascend from several normals.
-    A rim of radius 0 is an apex.  The gap is nan if no maximum was found, or if the gap is negative and no common point
-    of both bodies proves the overlap.
+    The ascents start from several normals (:func:`bodies.contacts.smooth.round_search.up_hills`).  A rim of radius 0 is
+    an apex.  The gap is nan if no maximum was found, or if the gap is negative and no common point of both bodies
+    proves the overlap.
     """
     frustum, low, high, point, core, turn, place, size = bodies
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
-    where = LOW_RIM
+    best_part = LOW_RIM
     for part in (LOW_RIM, HIGH_RIM):
         if part == HIGH_RIM and frustum[SIDE] == 0.0:
             continue
         _, height, up = rim_of(frustum, part)
-        lean = frustum[COS], frustum[SIN], size
+        # the normals of a rim end at the normal of the side; a disc has none, so that all normals are allowed
+        limit, side = (frustum[COS], frustum[SIN], size), up if frustum[SIDE] > 0.0 else 0.0
         from_rim = (place[0], place[1], place[2] - height)
-        g, p, n = up_hills(
-            low if part == LOW_RIM else high, core, turn, from_rim, up if frustum[SIDE] > 0.0 else 0.0, lean
-        )
-        if g == g and not g <= best[0]:
-            best, where = (g, (p[0], p[1], p[2] + height), n), part
+        gap, p, n = up_hills(low if part == LOW_RIM else high, core, turn, from_rim, side, limit)
+        if not math.isnan(gap) and not gap <= best[0]:
+            best, best_part = (gap, (p[0], p[1], p[2] + height), n), part
     if not best[0] >= 0.0 and not _share_a_point(frustum, point, core, turn, place, best):
         best = math.nan, best[1], best[2]
-    return best, where
+    return best, best_part
 
 
 def evaluate_frustum_smooth(
     a: Floats, b: Floats, out: Floats, first: Floats, low: Floats, high: Floats, point: Floats, second: Floats
 ) -> None:
-    """Write the geometry block of a frustum, whose rims are the cores ``low`` and ``high``, and a core.
+    """Write the geometry block of a frustum ``first`` and a smooth body with the core ``second``.
 
-    The gap is nan where no part can be proved to be the nearest.
+    ``low``, ``high`` and ``point`` are the rims and a point as cores.  The gap is nan if no part is proved to be the
+    nearest.  The pair has one contact, which has no boundary.
     """
     axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
     center = center_in_world(a, first)
     place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
     turn = relative_rotation(axes_a, axes_b)
-    (g, p, n), part = _nearest(first, low, high, point, second, turn, place)
-    gap, normal = g - second[RADIUS] - first[SWEEP], rotated(axes_a, n)
+    (core_gap, p, n), part = _nearest(first, low, high, point, second, turn, place)
+    gap, normal = core_gap - second[RADIUS] - first[SWEEP], rotated(axes_a, n)
     point_b = plus_scaled(plus(center, rotated(axes_a, p)), -second[RADIUS], normal)
     write_contact(a, out, gap, 0.0, part_number(first, part), normal, point_b, True)
     write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, place)))
     radial = math.sqrt(n[0] * n[0] + n[1] * n[1])
     ex, ey = (n[0] / radial, n[1] / radial) if radial > 0.0 else (1.0, 0.0)
-    away = max(ex * p[0] + ey * p[1] - g * radial, 0.0)
+    # distance of the frustum's contact point from the axis: exact on a rim
+    away = max(ex * p[0] + ey * p[1] - core_gap * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away, _, _ = rim_of(first, part)
     write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), rotated(axes_a, (ex, ey, 0.0)), radial, away)
@@ -371,8 +381,8 @@ class FrustumSmooth(ContactKinematics):
         assert isinstance(first, Frustum)
         assert isinstance(second, SmoothShape)
         frustum = first.frustum
-        # a flat ellipsoid, or a point
-        low, high = ((radius, radius, 0.0, 2.0, 2.0, 0.0) for radius in frustum[:2])
-        values = {"first": frustum, "low": low, "high": high, "point": (0.0, 0.0, 0.0, 2.0, 2.0, 0.0)}
+        # the rims as cores: flat ellipsoids, or a point
+        low, high = ((radius, radius, 0.0, 2.0, 2.0, 0.0) for radius in frustum[:LOW])
+        values = {"first": frustum, "low": low, "high": high, "point": POINT}
         names = tuple(f"{part} and smooth" for part in part_names(frustum))
         return (FeaturePair(evaluate_frustum_smooth, {**values, "second": second.core}, names),)

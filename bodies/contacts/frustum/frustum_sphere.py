@@ -22,9 +22,11 @@ from .frustum import axis_in_world, center_in_world, nearest_part, part_names, p
 def write_frustum_ball(
     a: Floats, b: Floats, out: Floats, first: Floats, radius: float, place: Vector3
 ) -> tuple[Vector3, float, int]:
-    """Write the geometry block of a frustum and a ball about a point of the second body.
+    """Write the geometry block of a frustum and a ball about a point of the second body; return three results.
 
-    Return the point in the world [m], its distance from the frustum's core [m], and the number of the nearest part.
+    ``place`` is the point in the frame of the second body [m], ``radius`` the radius of the ball [m].  The results are
+    the point in the world [m], its signed distance from the frustum's core [m], and the nearest part, such as
+    ``FLANK``.
     """
     axis, point = axis_in_world(a, first), point_in_world(b, place)
     along, away, outward = across(minus(point, center_in_world(a, first)), axis)
@@ -32,6 +34,7 @@ def write_frustum_ball(
     write_vector(out, NORMAL, plus_scaled(scaled(radial, outward), axial, axis))
     out[FEATURE] = part_number(first, part)
     place_sphere(a, out, point, distance - first[SWEEP], radius)
+    # the last argument is the distance of the core's contact point from the axis
     write_part(out, SIDE_A, part, axis, outward, radial, away - distance * radial)
     write_sweep(out, SIDE_A, first[SWEEP])
     write_round(out, SIDE_B, radius)
@@ -41,7 +44,7 @@ def write_frustum_ball(
 def evaluate_frustum_sphere(
     a: Floats, b: Floats, out: Floats, first: Floats, radius: float, x: float, y: float, z: float
 ) -> None:
-    """Write the geometry block of a frustum and a sphere with the centre (x, y, z) in the frame of the second body."""
+    """Write the geometry block of a frustum and a sphere with the centre (x, y, z) [m] in the frame of its body."""
     write_frustum_ball(a, b, out, first, radius, (x, y, z))
 
 

@@ -5,6 +5,9 @@ side has normals of one unknown angle, a rim has a normal cone at each of its po
 normal, is a local maximum of the gap over the normals of all parts if the smooth body's point lies opposite the part.
 Otherwise the gap is nan.  The angle on the side is found by Newton's method on the support function, or by halving if
 the body is boxy.  A rim is searched as a flat ellipsoid, an apex as a point.
+
+All points and normals are in the axes of the frustum, from its centre.  ``core`` is the core of the smooth body,
+``place`` its centre [m]; ``turn`` converts components along the axes of the core to those of the frustum.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, LOW, SIDE, SIN
+from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN
 from ...shapes.support_function import Core, is_round, support_of
 from ...vectors import Vector3, dot, opposite, plus
 from ..smooth.boxy_line import across_line
@@ -31,10 +34,10 @@ second is the sine of the angle of its normal outside of the normal cone of the 
 """
 _NEAR_BORDER = 1e-10
 """Tolerance of `by_search` in place of ``ON_BORDER``; the error of the gap, which is stationary, is only its square."""
-_LEAST_LEAN, _MOST_LEAN, _TURNS = 1e-16, 1e-7, 4
+_LEAST_TILT, _MOST_TILT, _AZIMUTHS = 1e-16, 1e-7, 4
 """Least and largest tilt of the normal from the axis tried at the border of a cap [rad]; number of azimuths tried."""
 _STEPS, _HALVINGS = 60, 40
-"""Largest numbers: of Newton steps in a search on the side, and of halvings of a Newton step or of a tilt."""
+"""Largest number of Newton steps in a search on the side; largest number of halvings of a Newton step or a tilt."""
 _ROUND_OFF, _SEEN, _CLOSE, _RIGHT = 2e-16, 1e-14, 1e-12, 1e-13
 """Tolerances of Newton's method, for residuals and gaps relative to the size of both bodies.
 
@@ -46,7 +49,7 @@ result needs a residual below ``_RIGHT``.
 
 @compiled
 def point_against(core: Core, turn: Axes, place: Vector3, n: Vector3) -> Vector3:
-    """Return the smooth body's farthest point in the direction -n [m], in the axes of the frustum."""
+    """Return the smooth body's farthest point in the direction -n [m], its lowest one over a face with the normal n."""
     return plus(place, rotated(turn, support_of(core, rotated_back(turn, opposite(n)))[1]))
 
 
@@ -55,14 +58,14 @@ def on_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part: int, n
     """Return gap, smooth body's point [m] and normal at the point that is lowest over a cap.
 
     ``part`` is ``LOW_CAP`` or ``HIGH_CAP``.  The gap is nan if the point lies more than ``near`` [m] outside of the
-    cap's border.
+    cap's border, or if the frustum has no such cap.
     """
-    radius, level, up = cap_of(frustum, part)
+    radius, height, up = cap_of(frustum, part)
     p = point_against(core, turn, place, (0.0, 0.0, up))
-    g = up * (p[2] - level)
+    gap = up * (p[2] - height)
     if radius == 0.0 or p[0] * p[0] + p[1] * p[1] > (radius + near) * (radius + near):
-        g = math.nan
-    return g, p, (0.0, 0.0, up)
+        gap = math.nan
+    return gap, p, (0.0, 0.0, up)
 
 
 @compiled
@@ -71,60 +74,64 @@ def _on_end_of_cap(frustum: Floats, core: Core, turn: Axes, place: Vector3, part
 
     If round-off moved the lowest point past the border of the cap, the normal is tilted outwards: the larger the tilt,
     the farther inwards is the lowest point.  Two tilts are bisected, with lowest points inside and outside of the
-    border.  Between these two points, a point over the border is interpolated.
+    border.  Between these two points, a point over the border is interpolated.  It is accepted if its gap, an upper
+    bound, exceeds the gap along the tilted normal, a lower bound, by at most ``near`` [m].
     """
-    found = on_cap(frustum, core, turn, place, part, near)
+    untilted = on_cap(frustum, core, turn, place, part, near)
     radius, height, up = cap_of(frustum, part)
-    cx, cy, _ = found[1]
-    if found[0] == found[0] or not 0.0 < radius * radius < cx * cx + cy * cy:
-        return found
-    for _ in range(_TURNS):
+    cx, cy, _ = untilted[1]
+    if not math.isnan(untilted[0]) or not 0.0 < radius * radius < cx * cx + cy * cy:
+        return untilted
+    for _ in range(_AZIMUTHS):
+        # tilt towards the last point found at the border
         away = math.sqrt(cx * cx + cy * cy)
         ex, ey = cx / away, cy / away
-        px, py, pz = found[1]
-        low, high, lean = 0.0, 0.0, _LEAST_LEAN
-        gap, below = 0.0, -math.inf
+        px, py, pz = untilted[1]
+        low, high, tilt = 0.0, 0.0, _LEAST_TILT
+        gap, least_gap = 0.0, -math.inf
         for _ in range(_HALVINGS):
-            qx, qy, qz = point_against(core, turn, place, (lean * ex, lean * ey, up))
+            qx, qy, qz = point_against(core, turn, place, (tilt * ex, tilt * ey, up))
             inside = radius * radius - qx * qx - qy * qy
             if inside > 0.0:
-                high = lean
+                high = tilt
                 # the point over the border, on the line from q (inside of the border) to p (outside of it)
                 wx, wy = px - qx, py - qy
                 along, across = qx * wx + qy * wy, wx * wx + wy * wy
-                share = inside / (along + math.sqrt(along * along + across * inside))
-                cx, cy = qx + share * wx, qy + share * wy
-                cz = qz + share * (pz - qz)
-                gap, below = up * (cz - height), lean * (ex * qx + ey * qy - radius) + up * (qz - height)
-                if gap - below <= near:
-                    return gap, (cx, cy, cz), (lean * ex, lean * ey, up)
+                fraction = inside / (along + math.sqrt(along * along + across * inside))
+                cx, cy = qx + fraction * wx, qy + fraction * wy
+                cz = qz + fraction * (pz - qz)
+                gap, least_gap = up * (cz - height), tilt * (ex * qx + ey * qy - radius) + up * (qz - height)
+                if gap - least_gap <= near:
+                    return gap, (cx, cy, cz), (tilt * ex, tilt * ey, up)
             else:
-                low, px, py, pz = lean, qx, qy, qz
-            lean = 0.5 * (low + high) if high > 0.0 else 10.0 * lean
-            if lean > _MOST_LEAN:
-                return found
-    return found
+                low, px, py, pz = tilt, qx, qy, qz
+            tilt = 0.5 * (low + high) if high > 0.0 else 10.0 * tilt
+            if tilt > _MOST_TILT:
+                return untilted
+    return untilted
 
 
 @compiled
 def _if_on_flank(frustum: Floats, near: float, found: NearestPoint) -> NearestPoint:
-    """Return a maximum of the gap over the side, continued beyond its rims; the gap is nan if it is not on the side.
+    """Return the maximum ``found`` of the gap over the side continued past its rims; the gap is nan off the side.
 
-    Its point on the side must not have crossed the axis.  ``near`` is the tolerance at the rims [m].
+    The side's contact point must be on the same half of the axis as the normal, and between the rims.  ``near`` is the
+    tolerance at the rims [m].
     """
     g, p, n = found
     cosine, sine = frustum[COS], frustum[SIN]
+    # coordinates of the smooth body's point: along the normal's radial direction, and along the side from its lower rim
     away = (n[0] * p[0] + n[1] * p[1]) / cosine
-    up = cosine * (p[2] - frustum[LOW]) - sine * (away - frustum[0])
+    up = cosine * (p[2] - frustum[LOW]) - sine * (away - frustum[LOW_RADIUS])
     return (g, p, n) if away >= g * cosine and -near <= up <= frustum[SIDE] + near else (math.nan, p, n)
 
 
 @compiled
 def _along_side(frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: float, ey: float) -> NearestPoint:
-    """Return the maximum of the gap over the side, continued beyond its rims, by halving."""
+    """Return the maximum of the gap over the side, continued past its rims, by halving from the direction (ex, ey)."""
     cosine, sine = frustum[COS], frustum[SIN]
-    reach = cosine * frustum[0] + sine * frustum[LOW]
-    return across_line(core, turn, place, (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach)
+    support = cosine * frustum[LOW_RADIUS] + sine * frustum[LOW]
+    return across_line(core, turn, place, (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, support)
 
 
 @compiled
@@ -133,7 +140,8 @@ def on_flank(
 ) -> NearestPoint:
     """Return gap, smooth body's point [m] and normal of a local maximum of the gap over the side.
 
-    The gap is nan if there is no maximum.  The search starts at the normal in ``direction`` from the axis.
+    The gap is nan if there is no maximum.  The search starts at the normal in ``direction``, two components of any
+    length perpendicular to the axis.  ``near`` is the tolerance at the rims [m], ``ON_BORDER`` times the size.
     """
     sx, sy = direction
     length = math.sqrt(sx * sx + sy * sy)
@@ -149,26 +157,29 @@ def on_flank(
 def _on_round_flank(
     frustum: Floats, core: Core, turn: Axes, place: Vector3, ex: float, ey: float, near: float
 ) -> NearestPoint:
-    """Return the maximum of the gap over the side, continued beyond its rims, by Newton's method for one angle.
+    """Return the maximum of the gap over the side, continued past its rims, by Newton's method for one angle.
 
-    The angle is the angle of the normal round the axis.
+    It is the angle of the normal round the axis; the unit vector (ex, ey) is the radial direction of the first normal.
+    A step that lowers the gap is halved.  The gap is nan without convergence.
     """
     cosine, sine = frustum[COS], frustum[SIN]
-    reach = cosine * frustum[0] + sine * frustum[LOW]
+    support = cosine * frustum[LOW_RADIUS] + sine * frustum[LOW]
     size = near / ON_BORDER
+    # (lx, ly): radial direction of the last accepted normal, with the gap g
     lx, ly, step, p = ex, ey, 0.0, place
     g, before, halvings = -math.inf, math.inf, 0
     for _ in range(_STEPS):
         n = (cosine * ex, cosine * ey, sine)
         s = support_of(core, rotated_back(turn, opposite(n)))
         p = plus(place, rotated(turn, s[1]))
-        found = dot(n, p) - reach
-        if found < g - _SEEN * size and halvings < _HALVINGS:
+        next_gap = dot(n, p) - support
+        if next_gap < g - _SEEN * size and halvings < _HALVINGS:
             halvings += 1
             step *= 0.5
         else:
-            g, halvings = found, 0
+            g, halvings = next_gap, 0
             lx, ly = ex, ey
+            # first and second derivative of the gap by the angle
             rate = cosine * (ex * p[1] - ey * p[0])
             t = rotated_back(turn, (-ey, ex, 0.0))
             second = -cosine * (ex * p[0] + ey * p[1]) - cosine * cosine * bend(s[2], t, t)
@@ -188,15 +199,16 @@ def _on_round_flank(
 
 
 @compiled
-def _if_in_fan(frustum: Floats, up: float, height: float, least: float, found: NearestPoint) -> NearestPoint:
-    """Return a maximum of the gap over the circle of a rim, from the centre of the frustum.
+def _if_in_cone(frustum: Floats, up: float, height: float, least: float, found: NearestPoint) -> NearestPoint:
+    """Return the maximum ``found`` of the gap over a rim's circle; the gap is nan outside of the rim's normal cone.
 
-    The gap is nan if the sine of the angle of its normal over the side is below ``least``; a disc has no side.
-    ``height`` is the height of the rim [m], ``up`` is 1 for the upper rim and -1 for the lower one.
+    The cone ends at the normal of the side; a disc has no side.  The sine of the angle from there, positive towards the
+    cap, must be at least ``least``.  ``height`` is the height of the rim [m], ``up`` is 1 for the upper rim and -1 for
+    the lower one.  The point found is from the centre of the circle, the point returned from that of the frustum.
     """
     g, p, n = found
-    lean = frustum[COS] * n[2] - frustum[SIN] * math.sqrt(n[0] * n[0] + n[1] * n[1])
-    is_outside = frustum[SIDE] > 0.0 and up * lean < least
+    from_side = frustum[COS] * n[2] - frustum[SIN] * math.sqrt(n[0] * n[0] + n[1] * n[1])
+    is_outside = frustum[SIDE] > 0.0 and up * from_side < least
     return math.nan if is_outside else g, (p[0], p[1], p[2] + height), n
 
 
@@ -214,29 +226,30 @@ def on_rim(
     """Return gap, smooth body's point [m] and normal of a local maximum of the gap over a rim, or over the apex.
 
     The gap is nan if there is no maximum.  ``part`` is ``LOW_RIM`` or ``HIGH_RIM``; the apex is an upper rim of radius
-    0.  The search starts with a normal in the plane of the axis and ``direction``, a vector perpendicular to the axis.
-    |tilt| interpolates this normal between the normal of the side (0) and the normal of the cap (1).  If ``tilt`` is
-    negative and the direction from the rim to the core's centre lies between these two normals, the search starts with
-    this direction.
+    0.  ``circle`` is the rim as a core.  The search starts with a normal in the plane of the axis and ``direction``, a
+    vector perpendicular to the axis. |tilt| interpolates this normal between the normal of the side (0) and the normal
+    of the cap (1).  If ``tilt`` is negative and the direction from the rim to the core's centre lies between these two
+    normals, the search starts with this direction.
     """
     (sx, sy), (x, y, z) = direction, place
     radius, height, up = rim_of(frustum, part)
     if radius > 0.0:
-        # where the centre of the cap is nearest, the normal of the circle is the axis
+        # if the smooth body's lowest point is over the disc in the circle, the largest gap is along the axis
         for sign in (-1.0, 1.0):
             p = point_against(core, turn, place, (0.0, 0.0, sign))
             if sign * (p[2] - height) >= 0.0 and p[0] * p[0] + p[1] * p[1] <= radius * radius:
                 return math.nan, p, (0.0, 0.0, sign)
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
-    flat = frustum[SIDE] == 0.0
+    is_disc = frustum[SIDE] == 0.0
+    # direction from the rim's point to the core's centre, or else the interpolated normal
     radial, axial = ex * x + ey * y - radius, z - height
-    if tilt >= 0.0 or radial <= 0.0 or not (flat or up * (frustum[COS] * axial - frustum[SIN] * radial) > 0.0):
+    if tilt >= 0.0 or radial <= 0.0 or not (is_disc or up * (frustum[COS] * axial - frustum[SIN] * radial) > 0.0):
         tilt = abs(tilt)
-        cap = math.copysign(1.0, axial) if flat else up
+        cap = math.copysign(1.0, axial) if is_disc else up
         radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
     found = widest_of_round(circle, core, turn, (x, y, z - height), (radial * ex, radial * ey, axial))
-    return _if_in_fan(frustum, up, height, -ON_BORDER, found)
+    return _if_in_cone(frustum, up, height, -ON_BORDER, found)
 
 
 @compiled
@@ -252,8 +265,9 @@ def by_search(
 ) -> NearestPoint:
     """Return a local maximum of the gap over a part (cap, side or rim), by searches round the axis.
 
-    It serves if `on_cap`, `on_flank` and `on_rim` found no maximum.  The tolerance at the border of a part is larger
-    here, because the gaps of both parts there differ only by the square of the distance to the border.
+    It is used if `on_cap`, `on_flank` and `on_rim` found no maximum.  The tolerance at the border of a part is larger
+    here, because the gaps of both parts there differ only by the square of the distance to the border.  The arguments
+    are those of these functions; ``point`` is the core of a point, ``size`` the size of both bodies [m].
     """
     (sx, sy), (x, y, z) = direction, place
     near = _NEAR_BORDER * size
@@ -264,12 +278,13 @@ def by_search(
         length = math.sqrt(sx * sx + sy * sy)
         return _if_on_flank(frustum, near, _along_side(frustum, core, turn, place, sx / length, sy / length))
     radius, height, up = rim_of(frustum, part)
+    # a disc has normals on both sides of its plane: take the side of the smooth body's centre
     side = math.copysign(1.0, z - height) if frustum[SIDE] == 0.0 else up
     px, py, _ = point_against(core, turn, place, (0.0, 0.0, side))
     if px * px + py * py == 0.0:
         px, py = sx, sy
     if is_round(core) and radius > 0.0:
         found = next_to_axis(core, turn, (x, y, z - height), radius, (px, py, 0.0), side)
-    if found[0] != found[0]:
+    if math.isnan(found[0]):
         found = round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0))
-    return _if_in_fan(frustum, up, height, -_NEAR_BORDER, found)
+    return _if_in_cone(frustum, up, height, -_NEAR_BORDER, found)

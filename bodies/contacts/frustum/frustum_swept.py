@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, PAST_END
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import SIDE, SWEEP, Frustum
+from ...shapes.frustum import HIGH_RADIUS, SIDE, SWEEP, Frustum
 from ...shapes.polyhedron import SweptPolytope
 from ...vectors import vector_at
 from ..features.polytope_tables import core_numbers, star_lengths, star_of
@@ -42,12 +42,13 @@ def evaluate_rounded_vertex(
 ) -> None:
     """Write the geometry block of a vertex, with a radius [m], and a frustum's nearest cap, rim, side or apex.
 
-    ``place`` is the vertex in the frame of the second body [m].  ``star`` holds the unit vectors along its edges.
+    ``place`` is the vertex in the frame of the second body [m].  ``star`` holds ``n_star`` unit vectors along its
+    edges.  ``size`` is the size of the bodies [m].
     """
     point, distance, part = write_frustum_ball(a, b, out, first, radius, vector_at(place, 0))
     # over a cap the contact does not end at the vertex: an edge over the cap touches with both ends, also if it tilts
     is_flat = part in (LOW_CAP, HIGH_CAP)
-    past = past_star(b, star, 0.0 if is_flat else n_star, distance, (out[1], out[2], out[3]), size)
+    past = past_star(b, star, 0.0 if is_flat else n_star, distance, vector_at(out, NORMAL), size)
     gap, out[PAST_END] = ended_gap(out[GAP], past, size)
     place_sphere(a, out, point, gap + radius, radius)
 
@@ -83,7 +84,7 @@ class FrustumSwept(ContactKinematics):
 
 
 def _check_number(edges: int) -> None:
-    """Raise InvalidInput if there are too many contacts."""
+    """Raise InvalidInput if there are too many contacts: an edge has one with the side and four with halves of rims."""
     if 5 * edges > MOST_CONTACTS:
         raise InvalidInput(
             "contact of a polyhedron with a round body",
@@ -94,7 +95,7 @@ def _check_number(edges: int) -> None:
 
 
 def _of_faces(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
-    """Yield the contacts of all rims and feet, and of the apex of two sharp bodies; a segment has no faces."""
+    """Yield the contacts of all rims, feet and a sharp apex with the faces; a segment has no faces, and no contacts."""
     numbers, n_faces = seen_by(first, second.core), len(second.core.planes)
     values: dict[str, Value] = {"frustum": numbers, "sweep": second.sweep, **_core_of(first, second)}
     for radius, center, name in rims_and_tips(first, second.sweep + numbers[SWEEP] == 0.0) if n_faces else ():
@@ -115,7 +116,7 @@ def _of_edges(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
 
 
 def _core_of(first: Frustum, second: SweptPolytope) -> dict[str, Value]:
-    """Return the core of the second body, and the size of the larger body, by the names of the evaluators."""
+    """Return the core of the second body, and the size of the larger body, by the parameter names of the evaluators."""
     return {"core": core_numbers(second.core), "size": size_of_both(first, second)}
 
 
@@ -140,12 +141,7 @@ def _of_vertices(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]
 
 
 def rounded_vertex(
-    numbers: tuple[float, ...],
-    radius: float,
-    place: tuple[float, ...],
-    star: tuple[float, ...],
-    size: float,
-    name: str,
+    numbers: tuple[float, ...], radius: float, place: tuple[float, ...], star: tuple[float, ...], size: float, name: str
 ) -> FeaturePair:
     """Return the contact of a vertex with a frustum.
 
@@ -163,7 +159,7 @@ def _of_apex(first: Frustum, second: SweptPolytope) -> Iterator[FeaturePair]:
     Vertices have names only so that the numbers of the features agree with the tables.
     """
     numbers = first.frustum
-    if numbers[SIDE] > 0.0 and numbers[1] == 0.0:
+    if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] == 0.0:
         core, values = second.core, _core_of(first, second)
         counts = ("face", len(core.planes)), ("edge", len(core.edges)), ("vertex", len(core.vertices))
         names = tuple(f"apex and {kind} {i}" for kind, n in counts for i in range(n))

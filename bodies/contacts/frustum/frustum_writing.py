@@ -13,7 +13,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, HIGH, LOW, SIN, SWEEP
+from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIN, SWEEP
 from ...vectors import Vector3, divided, dot, minus, norm, plus_scaled, scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, PARALLEL, sine_off_cone
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
@@ -34,21 +34,23 @@ from .frustum import (
 
 
 @compiled
-def past_border(over: float, off_cone: float, size: float) -> float:
+def past_border(past_ends: float, off_cone: float, size: float) -> float:
     """Return the distance of a contact of two frustums past the boundary of its features [m]; negative if it is valid.
 
-    ``over`` is the distance past the ends of both features [m].  ``off_cone`` is the sine of the angle between the
-    contact normal and the normal cones of the features.
+    ``past_ends`` is the distance past the ends of both features [m].  ``off_cone`` is the sine of the angle between the
+    contact normal and the normal cones of the features, negative inside of them.  Both have a margin, so that neither
+    round-off nor a small rotation ends the contact.  ``size`` is the size of the bodies [m].
     """
-    return max(over - REACH * size, size * (off_cone - CONE_MARGIN))
+    return max(past_ends - REACH * size, size * (off_cone - CONE_MARGIN))
 
 
 @compiled
 def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, size: float) -> float:
     """Return a length [m] that is positive if two cores overlap by less than -``gap`` along another direction.
 
-    The directions are those of :func:`bodies.contacts.frustum.frustum.separation_by_second`.  If the cores do not
-    overlap, the length is negative.
+    The contact is then not valid, because another one separates the bodies by a shorter translation.  The directions
+    are those of :func:`bodies.contacts.frustum.frustum.separation_by_second` for either frustum.  ``gap`` is the gap of
+    the cores [m].  If it is not negative, up to round-off, the result is negative.
     """
     if gap >= -REACH * size:
         return -size
@@ -58,7 +60,7 @@ def past_depth(a: Floats, first: Floats, b: Floats, second: Floats, gap: float, 
 
 @compiled
 def past_disc(
-    one: Floats,
+    own: Floats,
     first: Floats,
     other: Floats,
     second: Floats,
@@ -70,9 +72,11 @@ def past_disc(
 ) -> float:
     """Return the distance of a contact of a disc's face past its boundary [m]; negative if it is valid.
 
-    The face is that of the disc ``second`` towards its axis if ``up`` is 1, else the other one.  ``p`` is the point of
-    the frustum ``one`` that is lowest over the face, or the tip of a foot or cone (``is_tip``); ``gap`` is its height
-    [m].  If p lies below the face, one of two conditions must hold:
+    The face is the upper one of the disc ``second`` if ``up`` is 1, the lower one if it is -1.  ``p`` is the point of
+    the frustum ``first`` that is lowest over the face, or the tip of a foot or cone (``is_tip``), in the world [m];
+    ``gap`` is its height over the face [m].  ``own`` and ``other`` are the frame blocks of both bodies.
+
+    If p lies below the face, one of two conditions must hold:
 
     - the line from p to the middle of the frustum leads back through the disc, and the rim of the disc lies below it;
     - the point of the face above p is inside of the frustum, and no other direction separates the bodies better.
@@ -81,34 +85,37 @@ def past_disc(
     Discs in one plane touch with the faces of both sides; the engine takes the face on the side from which the other
     disc came.
     """
-    axis, own_axis = axis_in_world(other, second), axis_in_world(one, first)
-    center, middle = center_in_world(other, second), on_axis_in_world(one, first, 0.5 * (first[LOW] + first[HIGH]))
+    axis, own_axis = axis_in_world(other, second), axis_in_world(own, first)
+    center, middle = center_in_world(other, second), on_axis_in_world(own, first, 0.5 * (first[LOW] + first[HIGH]))
     height, to_middle = up * dot(axis, minus(middle, center)), minus(middle, p)
     # the end of a frustum with a tip must face the disc; a raised foot may be higher than the middle
     if is_tip and up * dot(to_middle, own_axis) * dot(own_axis, axis) < 0.0:
         return size
     if gap >= -REACH * size:
         return -size
-    # rounded bodies on the other side of the plane are apart
+    # a frustum with its middle below the face touches the other face, and so does a rounded one with its core below it
     if height <= REACH * size or first[SWEEP] + second[SWEEP] > 0.0:
         return size
+    # first condition: distance from the disc's axis at which the line from p to the middle crosses the face, and
+    # distance of the disc's rim from the line, negative if the line crosses the disc. The margin keeps a disc whose rim
+    # only touches the frustum
     _, away, _ = across(minus(plus_scaled(p, gap / (gap - height), to_middle), center), axis)
-    # the rim of a disc that only touches the frustum lies below its surface by round-off
-    behind = REACH * size - (second[0] - away) * (height - gap) / norm(to_middle)
-    along, away, _ = across(minus(plus_scaled(p, -up * gap, axis), center_in_world(one, first)), own_axis)
+    past_rim = REACH * size - (second[LOW_RADIUS] - away) * (height - gap) / norm(to_middle)
+    # second condition: distance of the point of the face above p from the frustum
+    along, away, _ = across(minus(plus_scaled(p, -up * gap, axis), center_in_world(own, first)), own_axis)
     outside = nearest_part(first, along, away)[0] - REACH * size
-    return float(min(behind, max(outside, past_depth(one, first, other, second, gap, size))))
+    return float(min(past_rim, max(outside, past_depth(own, first, other, second, gap, size))))
 
 
 @compiled
-def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float, flat: bool) -> float:
+def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float, is_disc: bool) -> float:
     """Return the sine of the angle between a contact normal and the normal cone of a rim; negative inside this cone.
 
     The contact normal points out of the frustum; ``radial`` and ``axial`` are its components away from the axis and
     along it.  The cone lies between the normals of side and cap.  ``up`` is 1 for the upper rim and -1 for the lower
-    one; ``flat`` means a disc, which has no side.
+    one.  ``is_disc``: the frustum has no side, and the cone reaches from one cap's normal to the other's.
     """
-    if flat:
+    if is_disc:
         return -radial
     return float(max(-radial, -up * (frustum[COS] * axial - frustum[SIN] * radial)))
 
@@ -154,8 +161,8 @@ def write_two(
     a: Floats,
     out: Floats,
     swap: float,
-    one: Floats,
-    two: Floats,
+    first: Floats,
+    second: Floats,
     distance: float,
     past: float,
     normal: Vector3,
@@ -163,39 +170,45 @@ def write_two(
 ) -> None:
     """Write the geometry block of two frustums, except the curvature matrices.
 
-    ``distance`` is the distance of the cores [m] along ``normal``, from the point p on the core of ``one`` to the core
-    of ``two``.  ``one`` is the first body, or the second if ``swap`` is 1.  ``past`` is the distance past the boundary
-    of the features [m].
+    ``distance`` is the distance of the cores [m] along the unit vector ``normal``, from the point p on the core of the
+    frustum ``first`` to the core of ``second``; vectors are in the world.  If ``swap`` is 1, ``first`` belongs to the
+    second body, so that the contact normal is opposite to ``normal``.  ``past`` is the distance past the boundary of
+    the features [m].  The feature number is 0.
     """
-    sweep = one[SWEEP]
-    gap, point = gap_past_end(distance - sweep - two[SWEEP], past), plus_scaled(p, sweep, normal)
+    sweep = first[SWEEP]
+    gap, point = gap_past_end(distance - sweep - second[SWEEP], past), plus_scaled(p, sweep, normal)
     write_contact(a, out, gap, past, 0.0, scaled(1.0 - 2.0 * swap, normal), point, swap == 1.0)
 
 
 @compiled
 def write_side(
-    out: Floats, second: float, frustum: Floats, part: int, axis: Vector3, place: Vector3, normal: Vector3, away: float
+    out: Floats, swap: float, frustum: Floats, part: int, axis: Vector3, offset: Vector3, normal: Vector3, away: float
 ) -> None:
-    """Write the curvature matrices of a part of a frustum, the second body if ``second`` is 1, else the first.
+    """Write the curvature matrices of a part of a frustum, of the second body if ``swap`` is 1.
 
-    ``part`` is the number of the part, such as ``FLANK``.  ``place`` is a vector from the axis of the frustum towards
-    the contact point, of any length.  ``normal`` is the outward normal there, ``away`` the distance of the point from
-    the axis [m].
+    ``part`` is the number of the part, such as ``FLANK``.  ``axis`` is the unit axis of the frustum, ``offset`` a
+    vector of any length from a point of the axis towards the contact point, and ``normal`` the frustum's outward normal
+    there, all in the world.  ``away`` is the distance of the contact point from the axis [m].
     """
-    outward = plus_scaled(place, -dot(place, axis), axis)
+    outward = plus_scaled(offset, -dot(offset, axis), axis)
     length = norm(outward)
+    # a point on the axis has no radial direction: its normal is along the axis
     radial = 0.0
     if length > 0.0:
         outward = divided(outward, length)
         radial = dot(normal, outward)
-    side = SIDE_B if second == 1.0 else SIDE_A
+    side = SIDE_B if swap == 1.0 else SIDE_A
     write_part(out, side, part, axis, outward, radial, away)
     write_sweep(out, side, frustum[SWEEP])
 
 
 @compiled
 def edge_in_frustum(b: Floats, edge: Floats, axes: Axes, center: Vector3) -> tuple[Vector3, Vector3]:
-    """Return the start of an edge [m] and its unit vector, from the centre and in the axes of the frustum."""
+    """Return the first end of an edge [m] and its unit vector, in the axes of the frustum and from its centre.
+
+    ``edge`` is the row of the edge in the frame ``b`` (:data:`bodies.contacts.features.polytope_tables.EDGE`).
+    ``axes`` and ``center`` [m] are those of the frustum in the world.
+    """
     start = minus(point_in_world(b, vector_at(edge, START)), center)
     return rotated_back(axes, start), rotated_back(axes, vector_in_world(b, vector_at(edge, ALONG)))
 
@@ -204,8 +217,8 @@ def edge_in_frustum(b: Floats, edge: Floats, axes: Axes, center: Vector3) -> tup
 def off_cone_of_edge(b: Floats, edge: Floats, axes: Axes, normal: Vector3) -> float:
     """Return the sine of the angle between a contact normal and an edge's normal cone; negative inside the cone.
 
-    The contact normal, in the axes of the frustum, points from the frustum to the edge.  The cone lies between the
-    normals of the two faces of the edge.
+    The contact normal, in the axes of the frustum, points from the frustum to the edge: against the outward normals of
+    the edge.  The cone lies between the normals of the two faces of the edge.  ``edge`` is the row of the edge.
     """
     return float(sine_off_cone(b, edge, 0, -1.0, rotated(axes, normal)))
 
@@ -218,20 +231,22 @@ def past_end(
     core: Floats,
     is_convex: bool,
     gap: float,
-    over_end: float,
+    past_ends: float,
     sine: float,
     off_cone: float,
     size: float,
 ) -> float:
     """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
-    The features are an edge, and a rim or a side.  ``gap`` is the gap of the cores, ``over_end`` the distance past the
-    ends of the edge and of the rim or side [m].  ``sine`` is the sine of the angle between the two features.
-    ``off_cone`` is the sine of the angle between the contact normal and the normal cones of the features.  If the
-    body with the edge is convex, it has a ``core``.  A crossing below zero is then not valid if the cores overlap less
-    along the normal of a cap of the frustum or of a face of the core.
+    The features are an edge of the second body, and a rim or a side of the first.  A crossing has no definite point if
+    both features are parallel.  A negative gap of convex bodies is not valid if the cores overlap less along the normal
+    of a cap of the frustum or of a face of the core: another contact then separates the bodies.
+
+    ``core`` is the core with the edge, which is used only if the second body ``is_convex``.  ``gap`` is the gap of the
+    cores, ``past_ends`` the distance past the ends of the edge and of the rim or side [m].  ``sine`` is the sine of the
+    angle between the two features, ``off_cone`` that between the contact normal and the normal cones of the features.
     """
-    past = max(over_end - REACH * size, size * max(PARALLEL - sine, off_cone - CONE_MARGIN))
+    past = max(past_ends - REACH * size, size * max(PARALLEL - sine, off_cone - CONE_MARGIN))
     if past <= 0.0 and gap < -REACH * size and is_convex:
         best = max(separation_over_faces(a, b, frustum, core), separation_over_caps(a, b, frustum, core))
         past = max(past, best - gap - REACH * size)
@@ -256,11 +271,14 @@ def write_crossing(
 ) -> None:
     """Write the geometry block of an edge that crosses a rim or a side, except the curvature matrices of the frustum.
 
-    ``distance`` is the distance of the cores [m], ``past`` the distance past the boundary of edge and rim or side [m].
-    p is the point on the core of the frustum in the world.  ``sine`` is the sine of the angle between both features.
-    If it is small, the point of crossing moves 1 / sine times as fast as the bodies.  Past the boundary, the gap is
-    therefore hypot(gap, sine * past): its rate stays of the order of the bodies' velocities.  A negative gap is kept if
-    the body with the edge is convex (:func:`gap_past_end`).
+    The point of crossing moves up to 1 / sine times as fast as the bodies, with the sine of the angle between both
+    features.  Past the boundary, the gap is therefore hypot(gap, sine * past): its rate stays of the order of the
+    bodies' velocities.  A negative gap is kept if the second body is convex (:func:`gap_past_end`).
+
+    ``edge`` is the row of the edge of the second body, ``radius`` its rounding radius [m].  ``axes`` are the axes of
+    the frustum in the world.  ``distance`` is the distance of the cores, ``past`` the distance past the boundary of
+    both features [m].  ``normal`` is the unit normal from the frustum to the edge, in the axes of the frustum.  ``p``
+    is the contact point on the core of the frustum, in the world [m].
     """
     sweep, outward = frustum[SWEEP], rotated(axes, normal)
     gap = distance - radius - sweep

@@ -52,32 +52,35 @@ def evaluate_rim_over_faces(
         Size of the bodies [m].
     """
     axis, place = axis_in_world(a, frustum), point_in_world(a, vector_at(center, 0))
-    own_place = point_in_body(b, place)
-    own_axis, middle = vector_in_body(b, axis), point_in_body(b, center_in_world(a, frustum))
+    # centre and axis of the rim, and centre of the frustum, in the axes of the second body
+    center_in_b = point_in_body(b, place)
+    axis_in_b, middle = vector_in_body(b, axis), point_in_body(b, center_in_world(a, frustum))
     margin, best, own = REACH * size, separation_over_faces(a, b, frustum, core), frustum[SWEEP]
     n_faces, faces = faces_of(core)
-    found, gap, past = 0, 0.0, math.inf
+    # of the faces that separate the bodies equally well, take the one whose border the rim's point is least past
+    nearest, distance, past = 0, 0.0, math.inf
     for i in range(int(n_faces)):
-        f = FACE * i
-        if least_height(frustum, plane_height(faces, f, middle), own_axis, vector_at(faces, f)) < best - margin:
+        row = FACE * i
+        face_normal = vector_at(faces, row)
+        if least_height(frustum, plane_height(faces, row, middle), axis_in_b, face_normal) < best - margin:
             continue
-        _, sine, outward = across(opposite(vector_at(faces, f)), own_axis)
-        p = plus_scaled(own_place, radius, outward)
-        height = plane_height(faces, f, p)
-        beyond = past_face(faces, n_faces, f, height, p)
+        _, sine, outward = across(opposite(face_normal), axis_in_b)
+        p = plus_scaled(center_in_b, radius, outward)
+        height = plane_height(faces, row, p)
+        past_border = past_face(faces, n_faces, row, height, p)
         if height < 0.0:
             # a rim's point below the plane of a face touches the face only if it is inside of the polyhedron
             for j in range(int(n_faces)):
-                beyond = max(beyond, plane_height(faces, FACE * j, p))
-        beyond -= margin
+                past_border = max(past_border, plane_height(faces, FACE * j, p))
+        past_border -= margin
         if height > own + sweep:
-            beyond = past_of_rim(beyond, radius, sine)
-        if beyond < past:
-            found, gap, past = i, height, beyond
-    gap = gap_past_end(gap - (own + sweep), past)
-    n = vector_in_world(b, vector_at(faces, FACE * found))
+            past_border = past_of_rim(past_border, radius, sine)
+        if past_border < past:
+            nearest, distance, past = i, height, past_border
+    gap = gap_past_end(distance - (own + sweep), past)
+    n = vector_in_world(b, vector_at(faces, FACE * nearest))
     _, _, outward = across(opposite(n), axis)
     point = plus_scaled(plus_scaled(place, radius, outward), -own, n)
-    write_contact(a, out, gap, past, float(found), opposite(n), point, False)
+    write_contact(a, out, gap, past, float(nearest), opposite(n), point, False)
     write_flat(out, SIDE_B)
     write_side(out, 0.0, frustum, LOW_RIM, axis, outward, opposite(n), radius)

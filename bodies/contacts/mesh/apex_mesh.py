@@ -18,21 +18,21 @@ from ..frustum.apex_swept import past_apex
 from ..frustum.frustum import axis_in_world, on_axis_in_world
 from ..frustum.frustum_writing import gap_past_end, write_contact
 from ..surface.surface_ball import out_of_surface, write_feature
-from ..surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, nearest_in_patch
-from ..surface.surface_tables import EDGE, EDGES, N_PATCHES
+from ..surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, edge_at, nearest_in_patch
+from ..surface.surface_tables import N_PATCHES
 
 
 @compiled
-def _within(surface: Floats, found: Found) -> float:
+def _distance_from_ends(surface: Floats, found: Found) -> float:
     """Return the distance of a nearest point from the nearer end of its edge [m]: 0 at a corner, infinite on a face."""
     _, _, kind, number, x, y, z = found
     if kind == ON_CORNER:
         return 0.0
     if kind != ON_EDGE:
         return math.inf
-    e = int(surface[EDGES]) + EDGE * number
-    along = dot(minus((x, y, z), vector_at(surface, e)), vector_at(surface, e + ALONG))
-    return float(min(along, surface[e + LENGTH] - along))
+    row = edge_at(surface, number)
+    along = dot(minus((x, y, z), vector_at(surface, row)), vector_at(surface, row + ALONG))
+    return float(min(along, surface[row + LENGTH] - along))
 
 
 def evaluate_apex_over_patch(
@@ -64,18 +64,19 @@ def write_apex(
     axis, apex = axis_in_world(a, first), on_axis_in_world(a, first, first[HIGH])
     place = point_in_body(b, apex)
     found = nearest_in_patch(surface, patch, place, reach)
-    # if there is one patch only, it is the whole surface, which has no end
+    # one patch is the whole surface, which has no end
     past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
     n = opposite(out_of_surface(b, surface, found, past, place))
     radius = first[SWEEP]
     gap = found[0] - radius
-    beyond = past_apex(first, found[0], dot(n, axis), size)
-    past = max(past, min(beyond, -END * size) if gap > NEAR * size else beyond)
+    side_nearer = past_apex(first, found[0], dot(n, axis), size)
+    # the sphere of the apex is a part of the cone, so that a large gap is valid as a bound of the bodies' gap
+    past = max(past, min(side_nearer, -END * size) if gap > NEAR * size else side_nearer)
     # a corner has a contact of its own
-    shared = END * size - _within(surface, found)
+    shared = END * size - _distance_from_ends(surface, found)
     past = max(past, shared)
     if past > 0.0:
-        # write a large gap for a small distance past the end, so that the contact is not taken for a closed one
+        # a large gap for a small distance past the end: the contact is open
         gap = gap_past_end(max(gap, 0.0), max(past, OPEN * shared))
     write_contact(a, out, gap, past, 0.0, n, plus_scaled(apex, radius, n), False)
     write_round(out, SIDE_A, radius)

@@ -17,7 +17,7 @@ from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball, patches_for_body
 from ...meshes.triangles import Triangles
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import SIDE, SWEEP, Frustum
+from ...shapes.frustum import HIGH_RADIUS, SIDE, SWEEP, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
 from ...vectors import vector_at
 from ..frustum.frustum import apex_of, feet_of, part_names, rims_of, set_back
@@ -43,7 +43,7 @@ def evaluate_rim_over_patch(
     surface: Floats,
     patch: float,
 ) -> None:
-    """Write the geometry block of a rim, at its lowest point, and a patch of a mesh.
+    """Write the geometry block of a rim of the first body, at its lowest point, and a patch of the second body's mesh.
 
     Parameters
     ----------
@@ -112,7 +112,8 @@ class FrustumMesh(ContactKinematics):
 def _of_rims(first: Frustum, numbers: Numbers, second: Features) -> Iterator[FeaturePair]:
     """Yield the contacts of rims with patches.
 
-    A rim touches faces here; edges and corners have contacts of their own, so patches without faces are left out.
+    A rim touches faces here; edges and corners have contacts of their own, so patches without faces are left out.  The
+    patches are made for a sphere as large as the rim.
     """
     for number, (radius, center) in enumerate(first.standing_rims):
         if radius > 0.0:
@@ -130,7 +131,7 @@ def _of_apex(numbers: Numbers, second: Features, size: float) -> Iterator[Featur
     Corners of the mesh have contacts of their own.  They have names only so that the numbers of the features agree with
     the tables.
     """
-    if numbers[SIDE] > 0.0 and numbers[1] == 0.0:
+    if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] == 0.0:
         patches = patches_for_ball(second, numbers[SWEEP])
         values: dict[str, Value] = {"first": numbers, "surface": surface_numbers(second, patches), "size": size}
         counts = ("face", len(second.planes)), ("edge", len(second.edges)), ("corner", len(second.corners))

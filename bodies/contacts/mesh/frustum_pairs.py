@@ -10,7 +10,7 @@ from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 from ...meshes.patches import patches_for_ball
-from ...shapes.frustum import HIGH, SIDE, SWEEP, Frustum
+from ...shapes.frustum import HIGH, HIGH_RADIUS, SIDE, SWEEP, Frustum
 from ...shapes.triangle_mesh import TriangleMesh
 from ...vectors import minus, norm, plus_scaled, vector_at
 from ..features.writing import NO_CANDIDATE, write_apart
@@ -19,39 +19,23 @@ from ..frustum.frustum_swept import write_rounded_vertex
 from ..surface.mesh_point import write_over
 from ..surface.surface_near import NARROW, patches_near, patches_under, room_ahead
 from ..surface.surface_pairs import MOST_NEAR
-from ..surface.surface_search import edge_at
+from ..surface.surface_search import ON_EDGE, ON_FACE, edge_at, feature_of, member_of, node_at
 from ..surface.surface_tables import (
     CORNER,
     CORNERS,
-    FACE_NUMBER,
-    FIRST_MEMBER,
-    MEMBERS,
-    N_EDGES,
     N_MEMBERS,
     N_NODES,
     N_STAR,
-    N_TRIANGLES,
-    NODE,
-    NODES,
     SKIP,
     STAR,
     STARS,
-    TRIANGLE,
-    TRIANGLES,
     UPPER,
     star_lengths,
     surface_numbers,
 )
 from .apex_mesh import write_apex
 from .frustum_corner import write_corner
-from .frustum_near import (
-    FrustumPose,
-    corner_is_near,
-    edge_is_near,
-    from_core,
-    frustum_in_surface,
-    rim_is_near,
-)
+from .frustum_near import FrustumPose, corner_is_near, edge_is_near, from_core, frustum_in_surface, rim_is_near
 from .mesh_crossing import write_across_rim, write_across_side
 from .surface_rim import rim_in_surface, rim_over, write_rim
 
@@ -61,15 +45,19 @@ RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0
 In this order: rim over a face, point over a patch, round apex over a patch, corner of the surface, edge of the surface
 across the side, edge across the first half of a rim, edge across the second half.
 """
-POINT_ROW = 4
-"""Floats in the row of a point (foot or apex) before its unit vectors: position (3) [m], number of unit vectors."""
+POINT_ROW, N_DIRECTIONS = 4, 3
+"""Floats in the row of a point (foot or apex) before its unit vectors: position (3) [m], number of unit vectors.
+
+``N_DIRECTIONS`` is the offset of this number, which all points of a frustum have in common.
+"""
 
 
 @compiled
 def _add(kind: float, second: float, third: float, out: Floats, n: int, most: int) -> int:
     """Append a candidate to the ``n`` candidates in ``out``, unless n exceeds ``most``; return the new number.
 
-    ``kind``, ``second`` and ``third`` are the three numbers of the candidate: its kind and its two features.
+    ``kind``, ``second`` and ``third`` are the three numbers of the candidate: its kind and its two features.  One
+    candidate more than ``most`` may be appended; it means that there are too many.
     """
     if n > most:
         return n
@@ -79,7 +67,10 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 
 @compiled
 def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Append a rim over a face to the ``n`` candidates, unless it is one of them; return their new number."""
+    """Append a rim over a face to the ``n`` candidates, unless it is one of them; return their new number.
+
+    A face of several triangles is found once for each of them.  ``upper`` is 1 for the upper rim, 0 for the lower one.
+    """
     for i in range(n):
         if out[1 + 3 * i] == RIM and out[2 + 3 * i] == face and out[3 + 3 * i] == upper:
             return n
@@ -114,29 +105,26 @@ def _member_near(
 
     ``member`` counts triangles first, then edges, then corners.  A feature may touch if it is within ``reach`` [m] of
     the core, the frustum without its rounding, and if its normals agree with those of the frustum after a rotation by
-    up to ``turn`` [rad], the largest until the next search.  ``out`` holds ``n`` candidates.  Return the new number of
-    candidates; a number above ``most`` means that there are too many.
+    up to ``turn`` [rad], the largest until the next search.  ``size`` is the size of the bodies [m].  ``out`` holds
+    ``n`` candidates.  Return the new number of candidates; a number above ``most`` means that there are too many.
     """
-    n_triangles, n_edges = int(surface[N_TRIANGLES]), int(surface[N_EDGES])
-    if member < n_triangles:
-        t = int(surface[TRIANGLES]) + TRIANGLE * member
-        for upper in range(2 if frustum[SIDE] > 0.0 and frustum[1] > 0.0 else 1):
-            if rim_is_near(surface, t, frustum, upper, pose, reach, turn):
-                n = _add_face(surface[t + FACE_NUMBER], float(upper), out, n, most)
+    kind, number, row = feature_of(surface, member)
+    if kind == ON_FACE:
+        for upper in range(2 if frustum[SIDE] > 0.0 and frustum[HIGH_RADIUS] > 0.0 else 1):
+            if rim_is_near(surface, row, frustum, upper, pose, reach, turn):
+                n = _add_face(float(number), float(upper), out, n, most)
         return n
-    if member < n_triangles + n_edges:
-        e = member - n_triangles
-        flank, lower, upper_rim = edge_is_near(surface, edge_at(surface, e), frustum, pose, reach, turn, size)
+    if kind == ON_EDGE:
+        flank, lower, upper_rim = edge_is_near(surface, row, frustum, pose, reach, turn, size)
         if flank:
-            n = _add(ACROSS_FLANK, float(e), 0.0, out, n, most)
+            n = _add(ACROSS_FLANK, float(number), 0.0, out, n, most)
         if lower:
-            n = _add_halves(float(e), LOW_RIM, out, n, most)
+            n = _add_halves(float(number), LOW_RIM, out, n, most)
         if upper_rim:
-            n = _add_halves(float(e), HIGH_RIM, out, n, most)
+            n = _add_halves(float(number), HIGH_RIM, out, n, most)
         return n
-    c = member - n_triangles - n_edges
-    if corner_is_near(surface, c, frustum, pose, reach, turn, size):
-        n = _add(UNDER, float(c), 0.0, out, n, most)
+    if corner_is_near(surface, number, frustum, pose, reach, turn, size):
+        n = _add(UNDER, float(number), 0.0, out, n, most)
     return n
 
 
@@ -163,28 +151,28 @@ def find_near_frustum(
     """
     reach, limit, n, node = out[0], room_ahead(out[0], narrow, int(most)), 0, 0
     turn, sweep = turning * reach, frustum[SWEEP]
+    # distances are measured from the core
+    core_reach = sweep + reach
     pose = frustum_in_surface(a, b, frustum)
     while node < int(surface[N_NODES]) and n <= limit:
-        at = int(surface[NODES]) + NODE * node
+        at = node_at(surface, node)
         corner = vector_at(surface, at)
         diagonal = minus(vector_at(surface, at + UPPER), corner)
-        if from_core(frustum, pose, plus_scaled(corner, 0.5, diagonal)) > sweep + reach + 0.5 * norm(diagonal):
+        # a ball about the box of the node
+        if from_core(frustum, pose, plus_scaled(corner, 0.5, diagonal)) > core_reach + 0.5 * norm(diagonal):
             node = int(surface[at + SKIP])
             continue
-        members = int(surface[MEMBERS]) + int(surface[at + FIRST_MEMBER])
         for i in range(int(surface[at + N_MEMBERS])):
-            n = _member_near(
-                surface, int(surface[members + i]), frustum, pose, sweep + reach, turn, size, out, n, limit
-            )
+            member = member_of(surface, at, i)
+            n = _member_near(surface, member, frustum, pose, core_reach, turn, size, out, n, limit)
         node += 1
     for i in range(int(n_points)):
-        v = (POINT_ROW + 3 * int(points[3])) * i
-        place, star = vector_at(points, v), block_at(points, v + POINT_ROW)
-        n = patches_under(
-            b, a, surface, place, points[v + 3], star, sweep + reach, turn, POINT, float(i), out, n, limit
-        )
-    if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[1] == 0.0:
-        n = patches_near(surface, plus_scaled(pose[0], frustum[HIGH], pose[1]), sweep + reach, APEX, 0.0, out, n, limit)
+        row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * i
+        place, n_star, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
+        n = patches_under(b, a, surface, place, n_star, star, core_reach, turn, POINT, float(i), out, n, limit)
+    # the apex of a rounded cone is a sphere
+    if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[HIGH_RADIUS] == 0.0:
+        n = patches_near(surface, plus_scaled(pose[0], frustum[HIGH], pose[1]), core_reach, APEX, 0.0, out, n, limit)
     out[0] = float(n) if n <= limit else most + 1.0
 
 
@@ -219,29 +207,28 @@ def evaluate_frustum_and_candidate(
     size : float
         Size of the larger body [m].
     """
+    # kind, numbers of the two features, and distance from the core up to which the candidate is valid
     kind, i, j, reach = candidate[0], int(candidate[1]), int(candidate[2]), frustum[SWEEP] + candidate[3]
     if kind == RIM:
+        # the numbers of a rim: radius, centre
         radius, place = rims[4 * j], vector_at(rims, 4 * j + 1)
         gap, past = rim_over(surface, i, frustum, radius, 2.0 * j - 1.0, rim_in_surface(a, b, frustum, place), reach)
         write_rim(a, b, out, frustum, radius, place, surface, i, gap, past)
     elif kind == POINT:
-        v = (POINT_ROW + 3 * int(points[3])) * j
-        place, n, star = vector_at(points, v), points[v + 3], block_at(points, v + POINT_ROW)
+        row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * j
+        place, n, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
         write_over(a, b, out, 1.0, surface, float(i), place, n, star, reach, frustum[SWEEP])
     elif kind == APEX:
         write_apex(a, b, out, frustum, surface, float(i), size, reach)
     elif kind == UNDER:
-        c = int(surface[CORNERS]) + CORNER * i
-        corner, n, star = (
-            block_at(surface, c),
-            surface[c + N_STAR],
-            block_at(surface, int(surface[STARS]) + int(surface[c + STAR])),
-        )
+        row = int(surface[CORNERS]) + CORNER * i
+        corner, n = block_at(surface, row), surface[row + N_STAR]
+        star = block_at(surface, int(surface[STARS]) + int(surface[row + STAR]))
         if frustum[SWEEP] > 0.0:
             write_rounded_vertex(a, b, out, frustum, 0.0, corner, n, star, size)
         else:
             # only a disc uses the lengths of the edges at its corner; for other frustums the table is a single 0
-            own = block_at(lengths, int(surface[c + STAR]) // 3 if frustum[SIDE] == 0.0 else 0)
+            own = block_at(lengths, int(surface[row + STAR]) // 3 if frustum[SIDE] == 0.0 else 0)
             write_corner(a, b, out, frustum, corner, n, star, own, surface, size)
     elif kind == ACROSS_FLANK:
         write_across_side(a, b, out, frustum, block_at(surface, edge_at(surface, i)), surface, size)
@@ -253,7 +240,7 @@ def evaluate_frustum_and_candidate(
 
 
 def frustum_pairs(first: Frustum, second: TriangleMesh) -> tuple[FeaturePair, ...]:
-    """Return the contacts of a frustum and a mesh, for pairs of features that a search finds near each other."""
+    """Return the contacts of a frustum and a mesh: ``MOST_NEAR`` of them, to which a search assigns near pairs."""
     numbers, own, extents = set_back(first), second.features, (first.extent, second.extent)
     points = [*feet_of(first), *(apex_of(first) if numbers[SWEEP] == 0.0 else ())]
     patches = patches_for_ball(own, numbers[SWEEP])

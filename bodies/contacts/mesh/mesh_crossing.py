@@ -30,50 +30,55 @@ from ..surface.surface_search import depth_inside
 from ..surface.surface_tables import Numbers, edge_row, surface_numbers
 
 _CONE_MARGIN = 1e-6
-"""Sine of the largest angle between a contact normal and the edge's normal cone.  If it is larger, a face is nearer.
-"""
+"""Sine of the largest angle between a contact normal and the edge's normal cone; if it is larger, a face is nearer."""
 
 
 @compiled
-def _is_aside(b: Floats, out: Floats, frustum: Floats, axes: Axes, place: Vector3, surface: Floats) -> bool:
-    """Return whether both contact points of a crossing are outside of the other body.
+def _is_apart(b: Floats, out: Floats, frustum: Floats, axes: Axes, center: Vector3, surface: Floats) -> bool:
+    """Return whether both contact points of a crossing, in the geometry block ``out``, are outside of the other body.
 
-    ``place`` is the centre of the frustum in the world, ``axes`` are its axes.
+    ``center`` [m] and ``axes`` are those of the frustum in the world; the surface belongs to the body with the frame
+    ``b``.
     """
     if depth_inside(surface, point_in_body(b, vector_at(out, POINT_A))) > 0.0:
         return False
-    along, away, _ = across(minus(vector_at(out, POINT_B), place), (axes[2], axes[5], axes[8]))
+    along, away, _ = across(minus(vector_at(out, POINT_B), center), (axes[2], axes[5], axes[8]))
     outside, _, _, _ = nearest_part(frustum, along, away)
     return bool(outside >= frustum[SWEEP])
 
 
 @compiled
-def _judge(a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float) -> None:
-    """Open the contact of a frustum and a crossing edge of a mesh in two cases.
+def _open_if_invalid(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
+) -> None:
+    """Change the geometry block of a frustum and an edge of a mesh to an open contact in two cases.
 
-    If the contact normal is outside of the edge's normal cone, a face is nearer, and has its own contact with the
-    frustum.  If the gap shows an overlap but neither contact point is inside of the other body, the bodies do not
-    overlap there.  Overlaps within the margin ``CLOSED`` are judged by the normal, deeper ones by the points.
+    - The bodies are apart or overlap by less than the margin ``CLOSED``, and the contact normal is outside of the
+      edge's normal cone: a face is nearer, and has its own contact with the frustum.
+    - The bodies overlap by more, but neither contact point is inside of the other body: they do not overlap there.
+
+    ``edge`` is the row of the edge, ``size`` the size of the bodies [m].
     """
-    gap, beyond = out[GAP], 0.0
+    gap, past = out[GAP], 0.0
     if out[PAST_END] > 0.0:
         return
     if gap >= -CLOSED * size:
         off_cone = sine_off_cone(b, edge, 0, -1.0, vector_at(out, NORMAL))
-        beyond = size * (off_cone - _CONE_MARGIN)
-    elif _is_aside(b, out, frustum, axes_in_world(a, frustum), center_in_world(a, frustum), surface):
-        beyond = -gap
-    if beyond > 0.0:
-        out[GAP], out[PAST_END] = math.hypot(gap, beyond), beyond
+        past = size * (off_cone - _CONE_MARGIN)
+    elif _is_apart(b, out, frustum, axes_in_world(a, frustum), center_in_world(a, frustum), surface):
+        past = -gap
+    if past > 0.0:
+        out[GAP], out[PAST_END] = math.hypot(gap, past), past
         write_vector(out, POINT_B, plus_scaled(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
 
 
 def evaluate_mesh_edge_across_side(
     a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
 ) -> None:
-    """Write the geometry block of an edge of a surface that crosses the side of a frustum."""
+    """Write the geometry block of an edge of a surface, by its row ``edge``, that crosses the side of a frustum."""
+    # a sharp edge of a body that need not be convex: no radius, and no convex core
     write_edge_across_side(a, b, out, frustum, edge, 0.0, edge, False, size)
-    _judge(a, b, out, frustum, edge, surface, size)
+    _open_if_invalid(a, b, out, frustum, edge, surface, size)
 
 
 def evaluate_mesh_edge_across_rim(
@@ -87,9 +92,12 @@ def evaluate_mesh_edge_across_rim(
     surface: Floats,
     size: float,
 ) -> None:
-    """Write the geometry block of an edge of a surface that crosses one half of a rim."""
+    """Write the geometry block of an edge of a surface, by its row ``edge``, that crosses one half of a rim.
+
+    ``rim`` and ``half`` are those of :func:`bodies.contacts.frustum.rim_edge.write_edge_across_rim`.
+    """
     write_edge_across_rim(a, b, out, frustum, rim, half, edge, 0.0, edge, False, size)
-    _judge(a, b, out, frustum, edge, surface, size)
+    _open_if_invalid(a, b, out, frustum, edge, surface, size)
 
 
 write_across_side, write_across_rim = compiled(evaluate_mesh_edge_across_side), compiled(evaluate_mesh_edge_across_rim)

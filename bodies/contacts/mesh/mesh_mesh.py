@@ -32,16 +32,16 @@ class MeshMesh(ContactKinematics):
         return sharp_contacts(first.features, second.features, (first.extent, second.extent))
 
 
-def sharp_contacts(one: Features, two: Features, extents: tuple[float, float]) -> tuple[FeaturePair, ...]:
-    """Return the contacts of two surfaces, of more than :data:`MOST_EACH` pairs of features those of near pairs.
+def sharp_contacts(first: Features, second: Features, extents: tuple[float, float]) -> tuple[FeaturePair, ...]:
+    """Return a contact for each pair of features of two surfaces, or for near pairs if there are too many.
 
-    ``extents`` are the radii about the frames of the bodies [m].
+    ``extents`` are the radii of balls about the frames of the bodies, which contain them [m].
     """
-    if are_many(count_pairs(one, two)):
-        return contacts_near(one, two, extents)
-    return tuple(contacts_each(one, two))
+    if are_many(count_pairs(first, second)):
+        return contacts_near(first, second, extents)
+    return tuple(contacts_each(first, second))
 
 
 def are_many(contacts: int) -> bool:
-    """Return whether there are too many pairs of features for a contact each, so that near pairs are searched for."""
+    """Return whether there are too many pairs of features for a contact each; a search then finds near pairs."""
     return contacts > MOST_EACH

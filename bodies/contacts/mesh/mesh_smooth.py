@@ -21,7 +21,11 @@ POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 def evaluate_smooth_over_surface(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, second: Floats, point: Floats, size: float
 ) -> None:
-    """Write the geometry block of a smooth body and a patch, the present candidate; ``point`` is :data:`POINT`."""
+    """Write the geometry block of a smooth body ``second`` and a patch of the mesh, the present candidate.
+
+    ``candidate`` holds a kind (0: no candidate), the number of the patch, an unused number, and the distance up to
+    which it is valid [m].  ``point`` is :data:`POINT`.
+    """
     if candidate[0] == 0.0:
         write_apart(a, out, size)
     else:

@@ -20,7 +20,11 @@ from ..surface.surface_ball import write_ball
 def evaluate_sphere_over_surface(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, radius: float, place: Floats, size: float
 ) -> None:
-    """Write the geometry block of a sphere, with its centre at ``place`` [m], and a patch, the present candidate."""
+    """Write the geometry block of a sphere, with its centre at ``place`` [m] in its body, and a patch of the mesh.
+
+    ``candidate`` holds a kind (0: no candidate), the number of the patch, an unused number, and the distance up to
+    which it is valid [m].
+    """
     if candidate[0] == 0.0:
         write_apart(a, out, size)
     else:

@@ -17,7 +17,7 @@ from ...vectors import minus, norm, opposite, plus, plus_scaled, scaled, vector_
 from ..features.bounds import edges_bound
 from ..features.frames import vector_in_body, vector_in_world
 from ..features.polytope_tables import N_EDGES as N_CORE_EDGES
-from ..features.polytope_tables import N_FACES, N_VERTICES, SWEEP, core_numbers, vertex_at
+from ..features.polytope_tables import N_FACES, N_STAR, N_VERTICES, STAR, SWEEP, core_numbers, vertex_at
 from ..features.polytope_tables import edge_at as core_edge_at
 from ..features.polytope_tables import part_names as parts_of_core
 from ..features.swept_vertex import write_vertex
@@ -28,16 +28,7 @@ from ..surface.surface_ball import write_ball
 from ..surface.surface_edges import crossing_of, past_surface, write_edges
 from ..surface.surface_near import NARROW, Near, patches_near, room_ahead, seen_from
 from ..surface.surface_pairs import MOST_NEAR
-from ..surface.surface_search import (
-    FAR,
-    ON_CORNER,
-    corner_at,
-    edge_at,
-    feature_of,
-    member_of,
-    node_at,
-    steepest,
-)
+from ..surface.surface_search import FAR, ON_CORNER, corner_at, edge_at, feature_of, member_of, node_at, steepest
 from ..surface.surface_tables import N_MEMBERS, N_NODES, SKIP, UPPER, part_names, surface_numbers
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
@@ -50,30 +41,34 @@ rounded body.  ACROSS: an edge of the mesh and an edge of the rounded body.
 
 @compiled
 def corners_over(a: Floats, b: Floats, surface: Floats, core: Floats, near: Near, out: Floats, n: int) -> int:
-    """Append the corners of the surface in ``a`` that may soon touch a core in ``b``; return the number of candidates.
+    """Append the corners of the first body's surface that may soon touch the second body's core; return the new number.
 
     A corner touches if a face of the core is nearest to it, or if none of its edges leads towards the nearest point of
-    the core.  A corner is a candidate if one of these may hold before the next search, ``near``.  ``out`` holds ``n``
-    candidates.
+    the core.  A corner is a candidate if one of these may hold before the next search.  ``near`` holds the distance
+    from the rounded core up to which features are near [m], the largest rotation until the next search [rad], and the
+    largest number of candidates.  ``out`` holds ``n`` candidates.
     """
     (reach, turn, most), sweep, node = near, core[SWEEP], 0
     while node < int(surface[N_NODES]) and n <= most:
         at = node_at(surface, node)
         half = scaled(0.5, minus(vector_at(surface, at + UPPER), vector_at(surface, at)))
-        found = nearest_of_core(core, seen_from(b, a, plus(vector_at(surface, at), half)))
-        if found[1] > sweep + reach + norm(half):
+        # a ball about the box of the node: distance of its middle from the core
+        nearest = nearest_of_core(core, seen_from(b, a, plus(vector_at(surface, at), half)))
+        if nearest[1] > sweep + reach + norm(half):
             node = int(surface[at + SKIP])
             continue
         for i in range(int(surface[at + N_MEMBERS])):
-            what, corner, c = feature_of(surface, member_of(surface, at, i))
-            if what != ON_CORNER or n > most:
+            kind, corner, row = feature_of(surface, member_of(surface, at, i))
+            if kind != ON_CORNER or n > most:
                 continue
-            number, distance, x, y, z, _ = nearest_of_core(core, seen_from(b, a, vector_at(surface, c)))
+            number, distance, x, y, z, _ = nearest_of_core(core, seen_from(b, a, vector_at(surface, row)))
             if distance > sweep + reach:
                 continue
             to_core = opposite(vector_in_body(a, vector_in_world(b, (x, y, z))))
+            # the unit vector to the core's nearest point, times the distance, changes by at most reach + turn *
+            # distance
             is_over_face = number < int(core[N_FACES]) or distance <= 0.0
-            if is_over_face or distance * steepest(surface, c, to_core) <= reach + turn * distance:
+            if is_over_face or distance * steepest(surface, row, to_core) <= reach + turn * distance:
                 write_vector(out, 1 + 3 * n, (UNDER, float(corner), 0.0))
                 n += 1
         node += 1
@@ -91,26 +86,31 @@ def find_near_swept(
     [m], the limit is smaller (:func:`bodies.contacts.surface.surface_near.room_ahead`).
     """
     reach, limit, n = out[0], room_ahead(out[0], narrow, int(most)), 0
-    turn, around = turning * reach, core[SWEEP] + reach
+    turn, core_reach = turning * reach, core[SWEEP] + reach
     for i in range(int(core[N_VERTICES])):
         point = seen_from(a, b, vector_at(core, vertex_at(core, i)))
-        n = patches_near(surface, point, around, BALL, float(i), out, n, limit)
+        n = patches_near(surface, point, core_reach, BALL, float(i), out, n, limit)
     n = corners_over(a, b, surface, core, (reach, turn, limit), out, n)
     for j in range(int(core[N_CORE_EDGES])):
-        n = edges_across(a, b, surface, core, core_edge_at(core, j), float(j), (around, turn, limit), ACROSS, out, n)
+        row, near = core_edge_at(core, j), (core_reach, turn, limit)
+        n = edges_across(a, b, surface, core, row, float(j), near, ACROSS, out, n)
     out[0] = float(n) if n <= limit else most + 1.0
 
 
 @compiled
 def _write_crossing(
-    a: Floats, b: Floats, out: Floats, surface: Floats, one: int, core: Floats, two: int, size: float
+    a: Floats, b: Floats, out: Floats, surface: Floats, row_a: int, core: Floats, row_b: int, size: float
 ) -> None:
-    """Write the geometry block of an edge of a surface and one of a core; their rows begin at ``one`` and ``two``."""
+    """Write the geometry block of an edge of the first body's surface and an edge of the second body's core.
+
+    The rows of the edges begin at the indices ``row_a`` and ``row_b``; ``size`` is the size of the bodies [m].
+    """
     sweep = core[SWEEP]
-    crossing = crossing_of(a, b, surface, one, core, two, sweep, size)
+    crossing = crossing_of(a, b, surface, row_a, core, row_b, sweep, size)
     p, _, _, n, gap, _, past = crossing
     if gap < 0.0 and past <= 0.0:
-        past = max(past, past_surface(a, b, surface, core, two, (0.0, 0.0), -gap, plus_scaled(p, gap, n)))
+        # an overlap is real only if the core's point is inside of the surface's body
+        past = max(past, past_surface(a, b, surface, core, row_b, (0.0, 0.0), -gap, plus_scaled(p, gap, n)))
     write_edges(a, out, crossing, past, sweep)
 
 
@@ -120,13 +120,13 @@ def evaluate_swept_features(
     """Write the geometry block of a feature of a surface and one of a rounded core.
 
     ``candidate`` holds the kind of the pair, the numbers of its features, and the distance up to which it is valid [m].
+    Without a candidate, the contact is written as wide open.
     """
     kind, i, j, sweep = candidate[0], int(candidate[1]), int(candidate[2]), core[SWEEP]
     if kind == BALL:
-        v = vertex_at(core, j)
-        star = block_at(core, int(core[v + 4]))
-        reach = sweep + candidate[3]
-        write_ball(a, b, out, surface, float(i), sweep, vector_at(core, v), core[v + 3], star, size, reach)
+        row, reach = vertex_at(core, j), sweep + candidate[3]
+        n_star, star = core[row + N_STAR], block_at(core, int(core[row + STAR]))
+        write_ball(a, b, out, surface, float(i), sweep, vector_at(core, row), n_star, star, size, reach)
     elif kind == UNDER:
         write_vertex(a, b, out, 1.0, core, (0.0, block_at(core, 0)), *corner_at(surface, i), 0.0, size)
     elif kind == ACROSS:
@@ -138,11 +138,14 @@ def evaluate_swept_features(
 def bound_of_swept_features(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, core: Floats, size: float
 ) -> None:
-    """Write by how much the bodies must move before two edges, or a corner and the core, touch [m]."""
+    """Write a lower bound of the gap of two edges, or of a corner and the core [m]: the distance of the features.
+
+    The bodies cannot touch there before they have moved by this length.
+    """
     i = int(candidate[1])
     if candidate[0] == ACROSS:
-        two = core_edge_at(core, candidate[2])
-        out[0] = edges_bound(a, b, surface, edge_at(surface, i), core, two) - core[SWEEP]
+        row = core_edge_at(core, candidate[2])
+        out[0] = edges_bound(a, b, surface, edge_at(surface, i), core, row) - core[SWEEP]
     else:
         place, _, _ = corner_at(surface, i)
         out[0] = nearest_of_core(core, seen_from(b, a, place))[1] - core[SWEEP]
@@ -160,26 +163,28 @@ def contacts_each(first: TriangleMesh, second: SweptPolytope) -> Iterator[Featur
     (values, patches), own, core = _values(first, second), first.features, second.core
     parts, bound = parts_of_core(core), bound_of_swept_features
 
-    def numbers(kind: float, i: int, j: int) -> dict[str, Value]:
+    def of_pair(kind: float, i: int, j: int) -> dict[str, Value]:
+        """Return the parameters for one pair of features, without a limit of the distance."""
         return {**values, "candidate": (kind, float(i), float(j), FAR)}
 
+    # the edge of a capsule's segment is its side
     side = [f"edge {j}" for j in range(len(core.edges))] if core.planes else ["side"]
     for i, j in itertools.product(range(len(own.edges)), range(len(core.edges))):
         edges = (f"edge {i} and {side[j]}",)
-        yield FeaturePair(evaluate_swept_features, numbers(ACROSS, i, j), edges, None, bound)
+        yield FeaturePair(evaluate_swept_features, of_pair(ACROSS, i, j), edges, None, bound)
     for j, i in itertools.product(range(len(core.vertices)), range(patches.count)):
         names = tuple(f"{part} and vertex {j}" for part in part_names(own))
-        yield FeaturePair(evaluate_swept_features, numbers(BALL, i, j), names)
+        yield FeaturePair(evaluate_swept_features, of_pair(BALL, i, j), names)
     for i in range(len(own.corners)):
         names = tuple(f"corner {i} and {part}" for part in parts)
-        yield FeaturePair(evaluate_swept_features, numbers(UNDER, i, 0), names, bound=bound)
+        yield FeaturePair(evaluate_swept_features, of_pair(UNDER, i, 0), names, bound=bound)
 
 
 def contacts_near(first: TriangleMesh, second: SweptPolytope) -> tuple[FeaturePair, ...]:
     """Return contacts to which a search assigns pairs of near features, as the bodies move."""
     (values, patches), own, core = _values(first, second), first.features, second.core
     extents = first.extent, second.extent
-    sought = {
+    search_values = {
         **{key: values[key] for key in ("surface", "core")},
         "most": float(MOST_NEAR),
         "turning": 0.5 / extents[0] + 0.5 / extents[1],
@@ -190,7 +195,7 @@ def contacts_near(first: TriangleMesh, second: SweptPolytope) -> tuple[FeaturePa
         UNDER: (len(own.corners), 1),
         ACROSS: (len(own.edges), len(core.edges)),
     }
-    search = CandidateSearch(find_near_swept, sought, counts)
+    search = CandidateSearch(find_near_swept, search_values, counts)
     n = max(len(own.planes) + len(own.edges) + len(own.corners), len(parts_of_core(core)))
-    names, numbers = tuple(f"feature {i}" for i in range(n)), {**values, "candidate": NO_CANDIDATE}
-    return (FeaturePair(evaluate_swept_features, numbers, names, search),) * MOST_NEAR
+    names = tuple(f"feature {i}" for i in range(n))
+    return (FeaturePair(evaluate_swept_features, {**values, "candidate": NO_CANDIDATE}, names, search),) * MOST_NEAR
