@@ -30,8 +30,6 @@ N_STAR, STAR = 3, 4
 """Offsets in the row of a vertex: number of its edges, index of the unit vectors along them."""
 START, ALONG, LENGTH, INTO_FIRST, INTO_SECOND = 0, 3, 6, 7, 10
 """Offsets in the row of an edge: first end, unit vector, length, unit vector into the first face, into the second."""
-N_STAR, STAR = 3, 4
-"""Offsets in the row of a vertex: number of its edges, index of the unit vectors along them."""
 
 Numbers = tuple[float, ...]
 
