@@ -57,7 +57,11 @@ def core_numbers(polytope: Polytope, sweep: float = 0.0) -> SharedNumbers:
 
 
 def point_numbers(place: Point) -> SharedNumbers:
-    """Return the numbers of a point, without faces and edges."""
+    """Return the numbers of a point [m], in the layout of :func:`core_numbers`: a core with one vertex, without edges.
+
+    All rows begin after the head.
+    """
+    # head; position, number of edges, index of the unit vectors along them
     return SharedNumbers([0.0, 0.0, 0.0, 1.0, *[8.0] * 4, *place, 0.0, 0.0])
 
 

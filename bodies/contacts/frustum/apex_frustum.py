@@ -12,7 +12,7 @@ from ..features.swept_vertex import END, NEAR
 from ..features.writing import write_round
 from .apex_swept import past_apex
 from .frustum import HIGH_RIM, LOW_RIM, axis_in_world, center_in_world, nearest_part, on_axis_in_world, part_number
-from .frustum_writing import write_side, write_two
+from .frustum_writing import write_rounded_part, write_two
 
 
 def evaluate_apex_over_frustum(
@@ -45,4 +45,4 @@ def evaluate_apex_over_frustum(
     if part == LOW_RIM or part == HIGH_RIM:
         point_away = second[LOW_RADIUS] if part == LOW_RIM else second[HIGH_RADIUS]
     write_round(out, SIDE_B if swap == 1.0 else SIDE_A, first[SWEEP])
-    write_side(out, 1.0 - swap, second, part, other_axis, outward, opposite(n), max(point_away, 0.0))
+    write_rounded_part(out, 1.0 - swap, second, part, other_axis, outward, opposite(n), max(point_away, 0.0))

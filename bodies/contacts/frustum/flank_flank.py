@@ -12,7 +12,7 @@ from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus
 from ..features.edge_crossing import least_round_sine
 from ..features.frames import tangent_of
 from .frustum import FLANK, axis_in_world, center_in_world
-from .frustum_writing import past_border, past_depth, write_side, write_two
+from .frustum_writing import past_border, past_depth, write_rounded_part, write_two
 
 
 @compiled
@@ -85,5 +85,5 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
     away_a, away_b = first[LOW_RADIUS] - first[SIN] * s, second[LOW_RADIUS] - second[SIN] * t
     past = max(past_border(past_ends, 0.0, size), past_depth(a, first, b, second, gap, size))
     write_two(a, out, 0.0, first, second, gap, past, n, p)
-    write_side(out, 0.0, first, FLANK, axis_a, minus(p, center_a), n, max(away_a, 0.0))
-    write_side(out, 1.0, second, FLANK, axis_b, minus(q, center_b), opposite(n), max(away_b, 0.0))
+    write_rounded_part(out, 0.0, first, FLANK, axis_a, minus(p, center_a), n, max(away_a, 0.0))
+    write_rounded_part(out, 1.0, second, FLANK, axis_b, minus(q, center_b), opposite(n), max(away_b, 0.0))

@@ -35,7 +35,7 @@ from .frustum import (
     separation_by_second,
     set_back,
 )
-from .frustum_writing import past_depth, past_disc, write_side, write_two
+from .frustum_writing import past_depth, past_disc, write_rounded_part, write_two
 from .rim_flank import evaluate_rim_over_side
 from .rim_rim import evaluate_rims
 
@@ -102,8 +102,8 @@ def evaluate_rim_over_cap(
             best = separation_by_second(own, first, other, second)
             past = max(past, best - separation_along(own, first, other, second, n) - REACH * size)
     write_two(a, out, swap, first, second, gap, past, n, p)
-    write_side(out, swap, first, LOW_RIM, axis, outward, n, radius)
-    write_side(out, 1.0 - swap, second, int(cap), cap_axis, from_axis, opposite(n), away)
+    write_rounded_part(out, swap, first, LOW_RIM, axis, outward, n, radius)
+    write_rounded_part(out, 1.0 - swap, second, int(cap), cap_axis, from_axis, opposite(n), away)
 
 
 @final

@@ -181,14 +181,15 @@ def write_two(
 
 
 @compiled
-def write_side(
+def write_rounded_part(
     out: Floats, swap: float, frustum: Floats, part: int, axis: Vector3, offset: Vector3, normal: Vector3, away: float
 ) -> None:
-    """Write the curvature matrices of a part of a frustum, of the second body if ``swap`` is 1.
+    """Write the curvature matrices of a part of a frustum, with its rounding: of the second body if ``swap`` is 1.
 
     ``part`` is the number of the part, such as ``FLANK``.  ``axis`` is the unit axis of the frustum, ``offset`` a
     vector of any length from a point of the axis towards the contact point, and ``normal`` the frustum's outward normal
-    there, all in the world.  ``away`` is the distance of the contact point from the axis [m].
+    there, all in the world.  ``away`` is the distance of the point of the core, without rounding, from the axis [m].
+    The geometry block ``out`` must already hold the normal and the first tangent.
     """
     outward = plus_scaled(offset, -dot(offset, axis), axis)
     length = norm(outward)

@@ -14,7 +14,7 @@ from ..features.polytope_tables import FACE, faces_of
 from ..features.vertex_face import REACH, past_face, plane_height
 from ..features.writing import write_flat
 from .frustum import LOW_RIM, axis_in_world, center_in_world, least_height, past_of_rim, separation_over_faces
-from .frustum_writing import gap_past_end, write_contact, write_side
+from .frustum_writing import gap_past_end, write_contact, write_rounded_part
 
 
 def evaluate_rim_over_faces(
@@ -83,4 +83,4 @@ def evaluate_rim_over_faces(
     point = plus_scaled(plus_scaled(place, radius, outward), -own, n)
     write_contact(a, out, gap, past, float(nearest), opposite(n), point, False)
     write_flat(out, SIDE_B)
-    write_side(out, 0.0, frustum, LOW_RIM, axis, outward, opposite(n), radius)
+    write_rounded_part(out, 0.0, frustum, LOW_RIM, axis, outward, opposite(n), radius)

@@ -16,7 +16,7 @@ from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_sc
 from ..features.frames import across
 from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .frustum import FLANK, center_in_world, rim_of
-from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_side, write_two
+from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_rounded_part, write_two
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
@@ -155,7 +155,7 @@ def evaluate_rim_over_side(
     past = max(past_border(past_ends, off_cone, size), past_depth(own, first, other, second, gap, size))
     write_two(a, out, swap, first, second, gap, past, normal, plus(other_center, from_axis))
     rim_axis, outward = (rim_axes[2], rim_axes[5], rim_axes[8]), rotated(axes, offset)
-    write_side(out, swap, first, int(rim), rim_axis, outward, normal, radius)
+    write_rounded_part(out, swap, first, int(rim), rim_axis, outward, normal, radius)
     # distance from the axis of the point on the side
     away = max(away - gap * cosine, 0.0)
-    write_side(out, 1.0 - swap, second, FLANK, (axes[2], axes[5], axes[8]), from_axis, opposite(normal), away)
+    write_rounded_part(out, 1.0 - swap, second, FLANK, (axes[2], axes[5], axes[8]), from_axis, opposite(normal), away)

@@ -19,7 +19,7 @@ from ..features.frames import across
 from ..features.vertex_face import CLOSED, REACH
 from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .frustum import FLANK, LOW_RIM, center_in_world, rim_of
-from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_side, write_two
+from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_rounded_part, write_two
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
@@ -230,8 +230,10 @@ def evaluate_rims(
         past = max(past, sine * (-0.5 * gap - REACH * size) - _link_depth(other_radius, radius, middle, g, h))
     normal, from_center = rotated(axes, n), rotated(axes, (point[0], point[1], point[2] + height_b))
     write_two(a, out, 0.0, first, second, gap, past, normal, plus(center_b, from_center))
-    write_side(out, 0.0, first, LOW_RIM, axis_a, rotated(axes, u), normal, radius)
+    write_rounded_part(out, 0.0, first, LOW_RIM, axis_a, rotated(axes, u), normal, radius)
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side, so that the normal stays radial
     # while one edge slips over the other
     part = FLANK if is_edge_to_edge else LOW_RIM
-    write_side(out, 1.0, second, part, (axes[2], axes[5], axes[8]), rotated(axes, e), opposite(normal), other_radius)
+    write_rounded_part(
+        out, 1.0, second, part, (axes[2], axes[5], axes[8]), rotated(axes, e), opposite(normal), other_radius
+    )

@@ -29,7 +29,7 @@ from ..surface.surface_search import (
     node_at,
 )
 from ..surface.surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SIZE, SKIP
-from ..surface.surface_vertex import over_face
+from ..surface.surface_vertex import over_triangle
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
@@ -116,7 +116,7 @@ def rim_under(
             if height * height > least_key:
                 continue
             past_cone = size * (off_cone_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - CONE_MARGIN)
-            past_triangle, past_border, past_part, square = over_face(
+            past_triangle, past_border, past_part, square = over_triangle(
                 surface, triangle_row, height, past_cone, margin, p
             )
             if past_triangle <= 0.0 and height < 0.0 and -height < depth:
@@ -157,7 +157,7 @@ def rim_over(
             kind, number, triangle_row = feature_of(surface, member_of(surface, at, i))
             if kind != ON_FACE or number != face:
                 continue
-            past_triangle, past_border, past_part, square = over_face(
+            past_triangle, past_border, past_part, square = over_triangle(
                 surface, triangle_row, height, past_cone, REACH * size, point
             )
             if past_triangle <= 0.0 and height < 0.0 and -height < depth:

@@ -138,9 +138,11 @@ def evaluate_swept_features(
 def bound_of_swept_features(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, core: Floats, size: float
 ) -> None:
-    """Write a lower bound of the gap of two edges, or of a corner and the core [m]: the distance of the features.
+    """Write by how much the bodies must move before two edges, or a corner and the rounded body, touch [m].
 
-    The bodies cannot touch there before they have moved by this length.
+    For edges this includes the turning that is needed (:func:`bodies.contacts.features.bounds.edges_bound`).  For a
+    corner it is the distance from the core.  The radius about the core is subtracted from both.  ``candidate`` holds
+    the kind, ``ACROSS`` or ``UNDER``, and the numbers of the features; a ``BALL`` has no bound.
     """
     i = int(candidate[1])
     if candidate[0] == ACROSS:

@@ -44,15 +44,17 @@ def descent(frame: Floats, other: Floats, surface: Floats, row: int, n_star: flo
 
 
 @compiled
-def over_face(
+def over_triangle(
     surface: Floats, triangle: int, height: float, least: float, margin: float, point: Vector3
 ) -> tuple[float, float, float, float]:
     """Return four numbers for a vertex and a triangle of the surface.
 
     1. Distance past the edges of the triangle [m].
     2. Distance past those of its edges that are on the border of its face [m].
-    3. Distance past the part of the face that the vertex may touch [m].  For a vertex above the plane, it is measured
-       in the plane, so that it distinguishes faces about one corner, whose distances are equal.
+    3. Distance past the triangle by which faces are compared [m].  Over the triangle it is number 2.  Above the plane
+       and beside the triangle it is measured in the plane: about a corner the distances of all faces are equal.  Below
+       the plane it is the distance from the triangle, so that a vertex outside of the body prefers faces that it is
+       above.
     4. Squared distance of the vertex from the triangle [m^2].
 
     Parameters
@@ -91,12 +93,16 @@ def past_depth(
     depth: float,
     point: Vector3,
 ) -> float:
-    """Return how far a feature of the other body is from an overlap of this depth with a surface [m].
+    """Return by how much the depth of an overlap exceeds what a surface allows [m]; not positive for a real overlap.
 
-    The result is positive if a face of the surface is less deep than the ``depth``, or if the point is outside of the
-    body by more than the margin ``CLOSED`` and the angle ``FLUSH`` of flush faces allow.  Only faces that the feature
-    may touch count, however near others are: bodies with flush faces on springs are pressed deeper into each other than
-    their sides are apart.  An edge of the feature that leads below a face, or an end below it, excludes this face.
+    The overlap at a feature of the other body is no deeper than the least deep face that the feature may touch: through
+    that face the bodies separate on a shorter way.  The result is the larger of two numbers: the ``depth`` less the
+    depth of this face, and the distance of the point outside of the body, less what the margin ``CLOSED`` and the angle
+    ``FLUSH`` of flush faces allow.
+
+    Only faces that the feature may touch count, however near others are: bodies with flush faces on springs are pressed
+    deeper into each other than their sides are apart.  An edge of the feature that leads below a face, or an end below
+    it, excludes this face.
 
     Parameters
     ----------
@@ -134,7 +140,7 @@ def past_depth(
             if square < least:
                 least, side = square, outward
             f = face_at(surface, face)
-            # a face counts as deep as its nearer points and the deeper end of the feature
+            # depth of a face: of both ends below its plane, and of the point below its triangle, the largest
             deep = max(-face_height(surface, f, ends[0]), -face_height(surface, f, ends[1]))
             deep = max(deep, math.sqrt(square))
             if deep < least_deep and descent(frame, other, surface, f, n_star, star) <= CONE_MARGIN:
@@ -187,7 +193,7 @@ def face_under(
             if surface[f + FACE_PATCH] != patch or height * height > best:
                 continue
             least = size * (descent(frame, other, surface, f, n_star, star) - CONE_MARGIN)
-            past_any, past_border, past_part, square = over_face(surface, t, height, least, margin, point)
+            past_any, past_border, past_part, square = over_triangle(surface, t, height, least, margin, point)
             if past_any <= 0.0 and height < 0.0 and -height < depth:
                 depth, depth_past, depth_face = -height, past_border, face
             key = square + max(past_part, 0.0) * max(past_part, 0.0)
