@@ -35,6 +35,9 @@ from nonsmooth.engine.native.kernel import ContactRecord, Workspace, frame_at, k
 from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
+_MOST_HITS = 10
+"""Events in a burst up to which a contact point that runs along its bodies does not accumulate bounces. Straight sides
+part after two to five hits; the lowest point of a rim may run round it for ever."""
 _PART_AT_REST = 1.0 - 1e-6
 """Part of an averaging span within which a bounce is short: all contacts come to rest at its end, up to round-off."""
 
@@ -102,12 +105,12 @@ def _approach_of_bodies(ws: Workspace, contact: ContactRecord) -> float:
     """Acceleration with which a contact approaches without contact forces [m/s^2], which an accumulation needs.
 
     A contact point that runs along its bodies turns their normal, which adds to the acceleration of the gap. Such
-    bounces do not accumulate, as the next one is elsewhere. Then at most the acceleration of the bodies at the contact
-    point counts.
+    bounces do not accumulate at first, as the next one is elsewhere. Then at most the acceleration of the bodies at the
+    contact point counts.
     """
     by_forces = row(ws, contact.index, NORMAL_ROW, ws.island.du.start)
     approach = -(contact.bias[0] + by_forces)
-    if not _runs(ws, contact):
+    if contact.burst_events > _MOST_HITS or not _runs(ws, contact):
         return approach
     fixed = 0.0, 0.0, 0.0
     of_first = acceleration_at(ws.floats, contact.frame_a, contact.point_a, fixed, fixed)
