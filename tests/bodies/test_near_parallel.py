@@ -26,7 +26,7 @@ def test_gaps_past_ends_close_no_faster_than_bodies_move(angle: float) -> None:
         rig.put(((np.zeros(3), UPRIGHT), (aside, turned)), np.zeros(12))
         gaps.append(rig.geometry[:, 0])
         past.append(rig.geometry[:, 30])
-    off_cone = np.minimum(past[1:], past[:-1]) > 0.0
-    assert np.sum(off_cone) > 100
-    closing = np.abs(np.diff(gaps, axis=0))[off_cone]
+    are_past = np.minimum(past[1:], past[:-1]) > 0.0
+    assert np.sum(are_past) > 100
+    closing = np.abs(np.diff(gaps, axis=0))[are_past]
     assert np.max(closing) <= (1.0 + 1e-9) * abs(ways[1] - ways[0])

@@ -15,7 +15,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import BoxBody, CapsuleBody, CylinderBody
+from bodies import BoxBody, CapsuleBody, CylinderBody, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 
 E, MASS, RADIUS, HALF, GAP = 0.5, 0.8, 0.05, 0.07, 0.02
@@ -30,14 +30,16 @@ BODIES: dict[str, Callable[[], Any]] = {
 }
 
 
-def _crossed(name: str, angle: float, beside: float, speed: float, world: Rotation) -> tuple[ns.System, Any, Any]:
+def _crossed(
+    name: str, restitution: float, angle: float, beside: float, speed: float, world: Rotation
+) -> tuple[ns.System, Any, Any]:
     """Return two bodies along z, the second one turned by an angle [rad] about x, at which the first one flies.
 
     Their sides cross at the distance ``beside`` from the middle of the first body [m].  ``world`` turns both.
     """
     one, two = BODIES[name](), BODIES[name]()
     system = ns.System([one, two], gravity=0.0)
-    system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(E))
+    system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(restitution))
     # the edges of a box face each other
     roll = Rotation.from_euler("z", math.pi / 4.0 if isinstance(one, BoxBody) else 0.0)
     width = 2.0 * RADIUS * (math.sqrt(2.0) if isinstance(one, BoxBody) else 1.0)
@@ -58,7 +60,7 @@ def test_a_hit_beside_the_middle_is_one_impact(name: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     angle, beside = 10.0 ** rng.uniform(-5.0, -1.5), rng.uniform(0.002, 0.008) * rng.choice([-1.0, 1.0])
     speed, world = 10.0 ** rng.uniform(-1.0, 1.0), Rotation.random(rng=rng)
-    system, one, two = _crossed(name, angle, beside, speed, world)
+    system, one, two = _crossed(name, E, angle, beside, speed, world)
     solution = ns.simulate(system, 2.0 * GAP / speed)
     assert solution.status == "done"
     assert list(solution.events.cause) == [ns.Cause.START, ns.Cause.IMPACT]
@@ -76,17 +78,50 @@ def test_a_hit_beside_the_middle_is_one_impact(name: str, seed: int) -> None:
 
 @pytest.mark.fast_cases(8)
 @pytest.mark.parametrize("name", BODIES)
+@pytest.mark.parametrize("e", [0.3, 0.5, 1.0])
 @pytest.mark.parametrize("seed", range(10))
-def test_every_hit_along_the_bodies_has_its_restitution(name: str, seed: int) -> None:
+def test_every_hit_along_the_bodies_has_its_restitution(name: str, e: float, seed: int) -> None:
     """The first hit is anywhere along them.  The other ends then come near, and further hits follow at once.
 
-    None of them is the end of an accumulation, which would take the restitution away.
+    None of them is the end of an accumulation, which would take the restitution away: with e = 1 no energy is lost.
     """
     rng = np.random.default_rng(seed)
     angle, beside = 10.0 ** rng.uniform(-5.0, -1.5), rng.uniform(-0.9, 0.9) * HALF
     speed, world = 10.0 ** rng.uniform(-1.0, 1.0), Rotation.random(rng=rng)
-    solution = ns.simulate(_crossed(name, angle, beside, speed, world)[0], 2.0 * GAP / speed)
+    system, one, _ = _crossed(name, e, angle, beside, speed, world)
+    solution = ns.simulate(system, 2.0 * GAP / speed)
     assert solution.status == "done"
     assert ns.Cause.CLOSING not in solution.events.cause
     assert np.all(np.asarray(solution.events.closing_loss) == 0.0)
     assert solution.energy.residual < 1e-8
+    energies, before = np.asarray(_kinetic(solution.events.u_after, one)), 0.5 * MASS * speed**2
+    assert np.all(np.diff(energies) <= 1e-8 * before)
+    if e == 1.0:
+        assert energies[-1] == pytest.approx(before, rel=1e-8)
+
+
+def _kinetic(velocities: Any, body: Any) -> Any:
+    """Return the kinetic energy of two equal bodies [J], shape [n], from their velocities."""
+    u = np.asarray(velocities).reshape(-1, 2, 2, 3)
+    return np.sum(0.5 * MASS * u[:, :, 0] ** 2 + 0.5 * np.array(body.inertia) * u[:, :, 1] ** 2, axis=(1, 2))
+
+
+@pytest.mark.fast_cases(2)
+@pytest.mark.parametrize("seed", range(8))
+def test_a_rim_whose_lowest_point_runs_round_comes_to_rest(seed: int) -> None:
+    """A cylinder falls on an equal one, tilted by some 1e-9 rad.  Its rim rolls on the cap, and the bounces accumulate.
+
+    The point runs round the rim faster than the bodies move, and never leaves it.
+    """
+    rng = np.random.default_rng(seed)
+    radius, half = 0.012, 0.012
+    floor, low, high = Plate(), CylinderBody(radius, half), CylinderBody(radius, half)
+    system = ns.System([floor, low, high])
+    laws = ns.ContactLaws(normal=Unilateral(), friction=Coulomb(0.8), impact=EnergeticImpact(0.5))
+    system.contact_all(laws)
+    system.place(low, position=(0.0, 0.0, half))
+    tilt = tuple(Rotation.from_rotvec(4e-9 * rng.normal(size=3)).as_quat(scalar_first=True))
+    system.place(high, position=(0.003, 0.0, 3.0 * half + 7e-6), orientation=tilt, velocity=(0.0, 0.0, -0.23))
+    solution = ns.simulate(system, 0.04)
+    assert solution.status == "done"
+    assert ns.Cause.CLOSING in solution.events.cause

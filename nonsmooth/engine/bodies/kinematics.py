@@ -439,14 +439,11 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
             stretch_bias(ws, c)
 
 
-@kernel("v3(ws, ContactRecord)")
-def sliding_of(ws: Workspace, contact: ContactRecord) -> Vector:
-    """Velocity at which the first witness point of a contact slides over its body [m/s]. Rates must be evaluated."""
-    t1, t2, slip = contact.tangent, cross(contact.normal, contact.tangent), contact.slip
-    if contact.is_anisotropic:
-        slip = contact.slip_of_tangents
-    motion = _witness_motion(ws, contact, t1, t2, slip)
-    return minus(scaled(motion.u1, t1), scaled(-motion.u2, t2))
+@kernel("WitnessMotion(ws, ContactRecord)")
+def motion_of(ws: Workspace, contact: ContactRecord) -> WitnessMotion:
+    """Sliding of the witness points and turning of the normal of a contact. Rates must be evaluated."""
+    slip = contact.slip_of_tangents if contact.is_anisotropic else contact.slip
+    return _witness_motion(ws, contact, contact.tangent, cross(contact.normal, contact.tangent), slip)
 
 
 @kernel("WitnessMotion(ws, ContactRecord, v3, v3, v2)")

@@ -8,12 +8,12 @@ is kept, a vertex over faces: its features end where its point may become two.
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.kinematics import sliding_of
+from nonsmooth.engine.bodies.kinematics import motion_of
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, kernel
 from nonsmooth.engine.numerics.tolerances import NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import ALIKE, are_alike, distance
+from nonsmooth.engine.numerics.vectors import ALIKE, Vector, are_alike, cross, distance, minus, scaled
 
 
 @kernel("b1(ContactRecord, ContactRecord)")
@@ -38,6 +38,13 @@ def leave_out_coincident(ws: Workspace) -> None:
             contact.is_touching = False
 
 
+@kernel("v3(ws, ContactRecord)")
+def _sliding_of(ws: Workspace, contact: ContactRecord) -> Vector:
+    """Velocity at which the first witness point of a contact slides over its body, in the world [m/s]."""
+    motion = motion_of(ws, contact)
+    return minus(scaled(motion.u1, contact.tangent), scaled(-motion.u2, cross(contact.normal, contact.tangent)))
+
+
 @kernel("b1(ws, ContactRecord)")
 def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
     """True if another touching contact coincides with an open one, and approaches as fast within the tolerance.
@@ -52,6 +59,6 @@ def _is_redundant(ws: Workspace, contact: ContactRecord) -> bool:
         if is_as_fast and other.pair == contact.pair and coincide(contact, other):
             if collides and other.mode == Mode.OPEN:
                 return True
-            if distance(sliding_of(ws, contact), sliding_of(ws, other)) <= slow:
+            if distance(_sliding_of(ws, contact), _sliding_of(ws, other)) <= slow:
                 return True
     return False

@@ -17,7 +17,7 @@ import math
 
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
-from nonsmooth.engine.bodies.kinematics import acceleration_at, row, sliding_of
+from nonsmooth.engine.bodies.kinematics import acceleration_at, motion_of, row
 from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
@@ -33,11 +33,8 @@ from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import ContactRecord, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.tolerances import ALLOWED, NEGLIGIBLE
-from nonsmooth.engine.numerics.vectors import dot, length, minus
+from nonsmooth.engine.numerics.vectors import cross, dot, length, minus
 
-_MOST_HITS = 10
-"""Events in a burst up to which a contact point that runs along its bodies does not accumulate bounces. Straight sides
-part after two to five hits; the lowest point of a rim may run round it for ever."""
 _PART_AT_REST = 1.0 - 1e-6
 """Part of an averaging span within which a bounce is short: all contacts come to rest at its end, up to round-off."""
 
@@ -88,16 +85,17 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
 
 @kernel("b1(ws, ContactRecord)")
 def _runs(ws: Workspace, contact: ContactRecord) -> bool:
-    """True if the contact point runs along features with an end, faster than the bodies move there.
+    """True if the contact point moves, and the normal turns, faster than the bodies do there.
 
-    That of two nearly parallel cylinders that turn has no bound of its speed. A point that slides or rolls is not
-    faster than slip and turning together.
+    Both have no bound for the sides of two nearly parallel cylinders. A point that slides or rolls is not faster than
+    slip and turning together. The normal of a rim over a face turns with the face, however fast the point runs.
     """
+    motion, t1, t2 = motion_of(ws, contact), contact.tangent, cross(contact.normal, contact.tangent)
     spin = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
-    radius, sliding = min(contact.support_radius_a, contact.support_radius_b), sliding_of(ws, contact)
-    speed = length(contact.slip) + math.sqrt(dot(spin, spin)) * radius
-    # features without an end have 0
-    return contact.past_feature != 0.0 and math.sqrt(dot(sliding, sliding)) > speed
+    size, radius = math.sqrt(dot(spin, spin)), min(contact.support_radius_a, contact.support_radius_b)
+    # turning of the normal relative to the first and to the second body
+    turning = length((motion.nu1, motion.nu2)), length((motion.nu1 - dot(spin, t2), motion.nu2 + dot(spin, t1)))
+    return length((motion.u1, motion.u2)) > length(contact.slip) + size * radius and min(turning[0], turning[1]) > size
 
 
 @kernel("f8(ws, ContactRecord)")
@@ -105,12 +103,12 @@ def _approach_of_bodies(ws: Workspace, contact: ContactRecord) -> float:
     """Acceleration with which a contact approaches without contact forces [m/s^2], which an accumulation needs.
 
     A contact point that runs along its bodies turns their normal, which adds to the acceleration of the gap. Such
-    bounces do not accumulate at first, as the next one is elsewhere. Then at most the acceleration of the bodies at the
-    contact point counts.
+    bounces do not accumulate, as the next one is elsewhere. Then at most the acceleration of the bodies at the contact
+    point counts.
     """
     by_forces = row(ws, contact.index, NORMAL_ROW, ws.island.du.start)
     approach = -(contact.bias[0] + by_forces)
-    if contact.burst_events > _MOST_HITS or not _runs(ws, contact):
+    if not _runs(ws, contact):
         return approach
     fixed = 0.0, 0.0, 0.0
     of_first = acceleration_at(ws.floats, contact.frame_a, contact.point_a, fixed, fixed)
