@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import TypeAlias, final
 
@@ -23,6 +24,14 @@ _IN_LINE = 1e-9
 _POINTED = 1e-7
 """Distance of the hull of the unit vectors along the edges of a corner from the corner, below which it has no tip."""
 _ROUNDS = 20
+PROTRUDING = 1e-9
+"""Height over the plane of another face, relative to the size of the surface, above which a face protrudes from it.
+
+A smaller height is round-off of faces in one plane.  A body may touch two faces together only if each protrudes from
+the plane of the other.
+"""
+_AT_ONCE = 1_000_000
+"""Number of pairs of a face and a vertex that are examined together, which limits the memory."""
 
 
 @final
@@ -63,6 +72,22 @@ class Features:
     def size(self) -> float:
         """Diagonal of the box round it [m]."""
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
+
+    @functools.cached_property
+    def is_convex(self) -> bool:
+        """Whether no vertex is above the plane of a face, but for round-off."""
+        return not np.any(self.protrusions > PROTRUDING * self.size)
+
+    @functools.cached_property
+    def protrusions(self) -> Vector:
+        """Largest height of a vertex over the plane of each face [m], shape [k]: 0 for a face of the convex hull."""
+        from scipy.spatial import ConvexHull
+
+        if len(self.planes) == 0:
+            return np.zeros(0)
+        tips = self.vertices[ConvexHull(self.vertices).vertices]
+        chunks = np.array_split(self.planes, 1 + len(self.planes) * len(tips) // _AT_ONCE)
+        return np.concatenate([np.max(chunk[:, :3] @ tips.T, axis=1) for chunk in chunks]) - self.planes[:, 3]
 
     @property
     def faces_at(self) -> tuple[frozenset[int], ...]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TypeAlias, final
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.notices import say
 
-from .features import Bools, Features
+from .features import PROTRUDING, Bools, Features
 from .topology import Integers
 
 _AT_ONCE, MOST_PAIRS = 1_000_000, 200_000_000
@@ -42,12 +42,6 @@ Search: TypeAlias = Callable[[int], Iterator[tuple[Integers, Integers, Bools]]]
 
 The arrays are the numbers of the first faces, the numbers of the second faces, and whether a body may touch both
 faces together (a conflict).  With ``every`` above 1, only pairs with every such face are found, as a sample.
-"""
-_ABOVE = 1e-9
-"""Height over the plane of another face, relative to the size of the surface, above which a face protrudes from it.
-
-A smaller height is round-off of faces in one plane.  A body may touch two faces together only if each protrudes from
-the plane of the other.
 """
 _AROUND = 1.1
 """Safety factor on the largest distance of two faces that a body can touch together.
@@ -77,20 +71,35 @@ class Patches:
         return 1 + max(self.of_faces + self.of_edges + self.of_corners)
 
 
-@lru_cache(maxsize=4)
+_PATCHES: WeakKeyDictionary[Features, dict[tuple[float, bool], Patches]] = WeakKeyDictionary()
+"""Patches that were made, by the size of the body and whether it is a ball, as long as their surface exists."""
+
+
 def patches_for_ball(features: Features, radius: float) -> Patches:
     """Return patches of a surface for contacts with a ball of the radius r [m].
 
     If the ball touches two faces with the normals n and m, its contact points are r |n - m| apart.
     """
     normals = features.planes[:, :3]
-    return _patches(features, 2.0 * radius, lambda i, j: radius * np.linalg.norm(normals[i] - normals[j], axis=1))
+
+    def reach(one: Integers, two: Integers) -> Vector:
+        return np.asarray(radius * np.linalg.norm(normals[one] - normals[two], axis=1))
+
+    return _made(features, 2.0 * radius, reach, is_ball=True)
 
 
-@lru_cache(maxsize=4)
 def patches_for_body(features: Features, diameter: float) -> Patches:
     """Return patches of a surface for contacts with a convex body of the given diameter [m]; for a vertex it is 0."""
-    return _patches(features, diameter, lambda i, _: np.full(len(i), diameter))
+    return _made(features, diameter, lambda i, _: np.full(len(i), diameter), is_ball=False)
+
+
+def _made(features: Features, most: float, reach: Reach, *, is_ball: bool) -> Patches:
+    """Return patches that were made before, or make them; those of a convex surface are one for all bodies."""
+    key = (0.0, True) if features.is_convex else (most, is_ball)
+    made = _PATCHES.setdefault(features, {})
+    if key not in made:
+        made[key] = _patches(features, most, reach)
+    return made[key]
 
 
 def _patches(features: Features, most: float, reach: Reach) -> Patches:
@@ -106,6 +115,8 @@ def _patches(features: Features, most: float, reach: Reach) -> Patches:
     because a body that rolls from one patch to another changes its contact.
     """
     n_faces = len(features.planes)
+    if features.is_convex:
+        return Patches((0,) * n_faces, (0,) * len(features.edges), (0,) * len(features.corners))
     search = _search(features, most, reach)
     memory, seconds = _cost(features, search)
     if memory >= _MUCH or seconds >= _LONG:
@@ -116,8 +127,6 @@ def _patches(features: Features, most: float, reach: Reach) -> Patches:
             "busy) ..."
         )
     excludes = _conflicts(n_faces, search)
-    if not any(excludes):
-        return Patches((0,) * n_faces, (0,) * len(features.edges), (0,) * len(features.corners))
     colours = _Colours(excludes)
     beside: list[list[int]] = [[] for _ in range(n_faces)]
     for _, _, left, right in features.edges:
@@ -197,8 +206,8 @@ def _search(features: Features, most: float, reach: Reach) -> Search:
     """Return a function that yields pairs of faces at most ``most`` apart [m], and whether a body may touch both."""
     points, starts = _points(features)
     low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
-    least = _ABOVE * features.size
-    rising = np.flatnonzero(_highest(features) > least)
+    least = PROTRUDING * features.size
+    rising = np.flatnonzero(features.protrusions > least)
     middles, radii = 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
 
     def search(stride: int) -> Iterator[tuple[Integers, Integers, Bools]]:
@@ -212,15 +221,6 @@ def _search(features: Features, most: float, reach: Reach) -> Search:
             yield one, two, close
 
     return search
-
-
-def _highest(features: Features) -> Vector:
-    """Return the largest height of the surface over the plane of each face [m], shape [k]: 0 on its convex hull."""
-    from scipy.spatial import ConvexHull
-
-    tips, planes = features.vertices[ConvexHull(features.vertices).vertices], features.planes
-    chunks = np.array_split(planes, 1 + len(planes) * len(tips) // _AT_ONCE)
-    return np.concatenate([np.max(chunk[:, :3] @ tips.T, axis=1) for chunk in chunks]) - planes[:, 3]
 
 
 def _points(features: Features) -> tuple[Vector, Integers]:

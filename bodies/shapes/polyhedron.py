@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from abc import abstractmethod
 from typing import final
@@ -12,10 +13,12 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexPart, ConvexShape
 from nonsmooth.interfaces.body import Vector
 
+from ..meshes.features import Features
 from .polytope import Polytope
+from .surface_shape import SurfaceShape
 
 
-class SweptPolytope(ConvexShape):
+class SweptPolytope(ConvexShape, SurfaceShape):
     """All points within the radius ``sweep`` of a polyhedron or a segment, the core; with radius 0 the core itself."""
 
     @property
@@ -23,10 +26,10 @@ class SweptPolytope(ConvexShape):
     def core(self) -> Polytope:
         """Vertices, faces and edges of the polyhedron or segment inside of the shape, in the body frame."""
 
-    @property
-    @abstractmethod
-    def sweep(self) -> float:
-        """Distance of the surface from the core, the polyhedron or segment inside of it [m]; 0 for a sharp shape."""
+    @functools.cached_property
+    def features(self) -> Features:
+        """Faces, edges and corners of the core, with the numbers that they have there."""
+        return self.core.features
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:

@@ -12,6 +12,8 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 
+from ..meshes.features import Features
+
 Point = tuple[float, float, float]
 MOST_VERTICES = 500
 """A hull with more vertices is refused: every one of them is a contact of its own."""
@@ -48,6 +50,23 @@ class Polytope:
     def triangles(self) -> tuple[tuple[int, int, int], ...]:
         """The faces as fans."""
         return tuple((f[0], f[i], f[i + 1]) for f in self.faces for i in range(1, len(f) - 1))
+
+    @property
+    def features(self) -> Features:
+        """The polyhedron as a surface, with the numbers of its faces, edges and vertices."""
+        numbers = range(len(self.vertices))
+        pairs = [(i, j) for one, two, *_ in self.edges for i, j in ((one, two), (two, one))]
+        return Features(
+            np.array(self.vertices),
+            np.array(self.triangles, dtype=np.int64).reshape(-1, 3),
+            np.repeat(np.arange(len(self.faces)), [len(face) - 2 for face in self.faces]),
+            np.array(self.planes).reshape(-1, 4),
+            # of a fan, the sides next to its first vertex are inside of the face, but for the first and the last one
+            np.array([(i > 1, False, i < len(f) - 2) for f in self.faces for i in range(1, len(f) - 1)]).reshape(-1, 3),
+            self.edges,
+            tuple(numbers),
+            tuple(tuple(j for i, j in pairs if i == vertex) for vertex in numbers),
+        )
 
     @property
     def size(self) -> float:

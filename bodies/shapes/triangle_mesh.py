@@ -9,7 +9,7 @@ from typing import Any, final
 
 import numpy as np
 
-from nonsmooth.interfaces import ConvexPart, Shape
+from nonsmooth.interfaces import ConvexPart
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
@@ -22,11 +22,12 @@ from ..meshes.topology import Integers
 from ..meshes.triangles import Triangles
 from .placement import with_axes
 from .polytope import MOST_VERTICES
+from .surface_shape import SurfaceShape
 
 
 @final
 @dataclass(frozen=True)
-class TriangleMesh(Shape):
+class TriangleMesh(SurfaceShape):
     """The solid inside a closed surface, convex or not, which stands at (x, y, z) turned by a unit quaternion.
 
     Attributes
@@ -72,6 +73,11 @@ class TriangleMesh(Shape):
         """Flat faces, convex edges and corners in the body frame."""
         mesh = self.surface.mesh
         return features_of(self._placed(mesh.vertices), mesh.faces)
+
+    @property
+    def sweep(self) -> float:
+        """0: the surface is sharp [m]."""
+        return 0.0
 
     def _touched(self) -> Vector:
         """Return the corners of the surface that contacts see [m], shape [n, 3]."""

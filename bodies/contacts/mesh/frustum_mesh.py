@@ -119,7 +119,7 @@ def _of_rims(first: Frustum, numbers: Numbers, second: Features) -> Iterator[Fea
         if radius > 0.0:
             patches = patches_for_body(second, 2.0 * (radius + numbers[SWEEP]))
             values: dict[str, Value] = {"frustum": numbers, "radius": radius, "center": center}
-            values |= {"up": 2.0 * number - 1.0, "surface": surface_numbers(second, patches)}
+            values |= {"up": 2.0 * number - 1.0, "surface": surface_numbers(second, patches, 0.0)}
             names = tuple(f"{'upper rim' if number else 'rim'} and face {i}" for i in range(len(second.planes)))
             for patch in sorted(set(patches.of_faces)):
                 yield FeaturePair(evaluate_rim_over_patch, {**values, "patch": float(patch)}, names)
@@ -133,7 +133,7 @@ def _of_apex(numbers: Numbers, second: Features, size: float) -> Iterator[Featur
     """
     if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] == 0.0:
         patches = patches_for_ball(second, numbers[SWEEP])
-        values: dict[str, Value] = {"first": numbers, "surface": surface_numbers(second, patches), "size": size}
+        values: dict[str, Value] = {"first": numbers, "surface": surface_numbers(second, patches, 0.0), "size": size}
         counts = ("face", len(second.planes)), ("edge", len(second.edges)), ("corner", len(second.corners))
         names = tuple(f"apex and {part} {i}" for part, n in counts for i in range(n))
         for patch in range(patches.count):
@@ -146,7 +146,7 @@ def _of_corners(numbers: Numbers, second: Features, size: float) -> Iterator[Fea
     A corner never touches a rim of a sharp frustum.  Rims have names only so that the numbers of the features agree
     with those of the parts.
     """
-    surface = surface_numbers(second, patches_for_body(second, 0.0))
+    surface = surface_numbers(second, patches_for_body(second, 0.0), 0.0)
     for i, place in enumerate(second.vertices[list(second.corners)].tolist()):
         star, name = tuple(star_of(second, i)), f"corner {i}"
         if numbers[SWEEP] > 0.0:

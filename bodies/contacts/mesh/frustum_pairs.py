@@ -250,7 +250,7 @@ def frustum_pairs(first: Frustum, second: TriangleMesh) -> tuple[FeaturePair, ..
         "frustum": numbers,
         "n_points": float(len(rows)),
         "points": SharedNumbers([*itertools.chain(*rows)] or [0.0]),
-        "surface": surface_numbers(own, patches),
+        "surface": surface_numbers(own, patches, 0.0),
         "size": max(own.size, 2.0 * first.extent),
         "most": float(MOST_NEAR),
         "turning": 0.5 / extents[0] + 0.5 / extents[1],

@@ -109,7 +109,7 @@ def crossings_of(numbers: Numbers, second: Features, size: float) -> Iterator[Fe
 
     ``numbers`` are those of the frustum, ``size`` is the size of the larger body [m].
     """
-    surface = surface_numbers(second, patches_for_body(second, 0.0))
+    surface = surface_numbers(second, patches_for_body(second, 0.0), 0.0)
     edges = [(i, edge_row(second, i)) for i in range(len(second.edges))]
     values: dict[str, Value] = {"frustum": numbers, "surface": surface, "size": size}
     for i, row in edges if numbers[SIDE] > 0.0 else ():

@@ -157,7 +157,7 @@ def _values(first: TriangleMesh, second: SweptPolytope) -> tuple[dict[str, Value
     """Return the parameters of the evaluator, without a candidate, and the patches of the mesh."""
     own, core, sweep = first.features, second.core, second.sweep
     patches, size = patches_for_ball(own, sweep), max(own.size, core.size + 2.0 * sweep)
-    return {"surface": surface_numbers(own, patches), "core": core_numbers(core, sweep), "size": size}, patches
+    return {"surface": surface_numbers(own, patches, 0.0), "core": core_numbers(core, sweep), "size": size}, patches
 
 
 def contacts_each(first: TriangleMesh, second: SweptPolytope) -> Iterator[FeaturePair]:

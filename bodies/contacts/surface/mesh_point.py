@@ -79,7 +79,7 @@ def vertices_over_surface(
     The vertices belong to the first body if ``swap`` is 1, else to the second.
     """
     patches = patches_for_ball(surface, radius)
-    values: dict[str, Value] = {"swap": swap, "surface": surface_numbers(surface, patches), "radius": radius}
+    values: dict[str, Value] = {"swap": swap, "surface": surface_numbers(surface, patches, 0.0), "radius": radius}
     for place, star, name in vertices:
         names = tuple(f"face {i} and {name}" for i in range(len(surface.planes)))
         vertex = *place, float(len(star) // 3), *star

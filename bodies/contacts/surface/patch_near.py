@@ -57,7 +57,7 @@ def patch_contacts(
     name : str
         Name of the second body.
     """
-    surface = surface_numbers(own, patches)
+    surface = surface_numbers(own, patches, 0.0)
     names = tuple(f"{part} and {name}" for part in part_names(own))
     offered = {**values, "surface": surface, "size": own.size}
     if patches.count <= MOST_EACH:

@@ -120,7 +120,7 @@ def bound_of_surface_edges(
 def _values(one: Features, two: Features) -> tuple[dict[str, Value], int, int]:
     """Return the surfaces and the size by the names of the evaluator's arguments, and the numbers of patches."""
     divided = [patches_for_ball(features, 0.0) for features in (one, two)]
-    surfaces = surface_numbers(one, divided[0]), surface_numbers(two, divided[1])
+    surfaces = surface_numbers(one, divided[0], 0.0), surface_numbers(two, divided[1], 0.0)
     values: dict[str, Value] = {"surface_a": surfaces[0], "surface_b": surfaces[1], "size": max(one.size, two.size)}
     return values, divided[0].count, divided[1].count
 

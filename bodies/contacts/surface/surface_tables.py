@@ -6,8 +6,7 @@ The array holds the faces, triangles, convex edges and corners of the surface, a
 from __future__ import annotations
 
 import itertools
-import math
-from functools import lru_cache
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -23,11 +22,15 @@ Numbers = tuple[float, ...]
 SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CORNERS, STARS, N_FACES, N_PATCHES = (
     range(13)
 )
+SWEEP, IS_CONVEX = 13, 14
 """Indices in the head of a surface's numbers.
 
-``SIZE`` is the index of the size [m].  Names that begin with ``N_`` are indices of a number of rows or of patches.  The
-others are indices of the offset at which the rows of that name begin.
+``SIZE`` is the index of the size [m].  Names that begin with ``N_`` are indices of a number of rows or of patches.
+``SWEEP`` is that of the radius about the surface [m], ``IS_CONVEX`` that of 1 for a convex surface, else 0.  The others
+are indices of the offset at which the rows of that name begin.
 """
+_HEAD = 15
+"""Length of the head."""
 NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 16, 6
 """Number of floats in the row of each kind.  Numbers in brackets count floats, if there are several.
 
@@ -73,17 +76,32 @@ _LEAF = 4
 """Largest number of features in a leaf of the tree."""
 
 
-@lru_cache(maxsize=4)
-def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
-    """Return the numbers of a surface whose features are divided into patches: head, rows, unit vectors at corners."""
+_NUMBERS: WeakKeyDictionary[Features, dict[tuple[Patches, float], SharedNumbers]] = WeakKeyDictionary()
+"""Numbers that were made, as long as their surface exists: contacts with the same object share one copy."""
+
+
+def surface_numbers(features: Features, patches: Patches, sweep: float) -> SharedNumbers:
+    """Return the numbers of a surface whose features are divided into patches, with a radius ``sweep`` about it [m].
+
+    They are: head, rows, unit vectors at corners.
+    """
+    made = _NUMBERS.setdefault(features, {})
+    if (patches, sweep) not in made:
+        made[patches, sweep] = _numbers(features, patches, sweep)
+    return made[patches, sweep]
+
+
+def _numbers(features: Features, patches: Patches, sweep: float) -> SharedNumbers:
+    """Return the numbers that :func:`surface_numbers` describes."""
     triangles = _triangles(features)
     ends_of = np.array(features.edges, dtype=int).reshape(-1, 4)[:, :2]
     beyond = np.where(np.isin(ends_of, features.corners), 0.0, features.size)
-    edges = np.column_stack([edge_rows(features), np.array(patches.of_edges, dtype=float), beyond])
+    edges = np.column_stack([_edge_rows(features), np.array(patches.of_edges, dtype=float), beyond])
     lengths = np.array([len(star) for star in features.stars], dtype=int)
     tips = features.vertices[list(features.corners)]
-    stars = [np.array(star_of(features, i)) for i in range(len(features.corners))]
     corners = np.column_stack([tips, patches.of_corners, 3 * (np.cumsum(lengths) - lengths), lengths])
+    ways = features.vertices[list(itertools.chain(*features.stars))] - np.repeat(tips, lengths, axis=0)
+    stars = ways / np.linalg.norm(ways, axis=1)[:, None]
     ends = features.vertices[ends_of]
     boxes = [features.vertices[features.triangles], ends, tips[:, None]]
     low = np.concatenate([box.min(axis=1) for box in boxes])
@@ -94,8 +112,8 @@ def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
     bits = np.left_shift(1, owners) if patches.count <= BITS else np.full(len(owners), (1 << BITS) - 1)
     _branch(low, high, bits, np.arange(len(low)), members, nodes)
     faces = np.column_stack([features.planes, patches.of_faces])
-    parts = [np.array(nodes), np.array(members), faces, triangles, edges, corners, np.concatenate([*stars, []])]
-    begins = list(itertools.accumulate((part.size for part in parts), initial=13))
+    parts = [np.array(nodes), np.array(members), faces, triangles, edges, corners, stars]
+    begins = list(itertools.accumulate((part.size for part in parts), initial=_HEAD))
     head = (
         features.size,
         begins[0],
@@ -107,28 +125,26 @@ def surface_numbers(features: Features, patches: Patches) -> SharedNumbers:
         *begins[5:7],
         len(faces),
         patches.count,
+        sweep,
+        float(features.is_convex),
     )
     return SharedNumbers(np.concatenate([head, *(part.ravel() for part in parts)]))
 
 
-def edge_rows(features: Features) -> Vector:
+def _edge_rows(features: Features) -> Vector:
     """Return a row for each convex edge, shape [n, 13]: the first numbers of an ``EDGE`` row."""
     edges = np.array(features.edges, dtype=int).reshape(-1, 4)
     start, way = features.vertices[edges[:, 0]], features.vertices[edges[:, 1]] - features.vertices[edges[:, 0]]
     length = np.linalg.norm(way, axis=1, keepdims=True)
     along = way / length
-    left, right = features.planes[edges[:, 2], :3], features.planes[edges[:, 3], :3]
-    return np.hstack([start, along, length, np.cross(left, along), np.cross(along, right)])
+    # a segment has no faces
+    normals = np.vstack([features.planes[:, :3], np.zeros(3)])[edges[:, 2:]]
+    return np.hstack([start, along, length, np.cross(normals[:, 0], along), np.cross(along, normals[:, 1])])
 
 
 def edge_row(features: Features, number: int) -> Numbers:
     """Return the row of one convex edge, 13 numbers: the first numbers of an ``EDGE`` row."""
-    one, two, left, right = features.edges[number]
-    start, way = features.vertices[one], features.vertices[two] - features.vertices[one]
-    length = math.hypot(*way)
-    along = way / length
-    inward = np.cross(features.planes[left, :3], along), np.cross(along, features.planes[right, :3])
-    return tuple(np.concatenate([start, along, [length], *inward]).tolist())
+    return tuple(_edge_rows(features)[number].tolist())
 
 
 def star_of(features: Features, number: int) -> list[float]:
@@ -138,7 +154,7 @@ def star_of(features: Features, number: int) -> list[float]:
 
 
 def star_lengths(features: Features, number: int) -> list[float]:
-    """Return the lengths of the edges of a corner [m], in the order of :func:`star_of`."""
+    """Return the lengths of the edges of a corner [m], in the order of its unit vectors."""
     ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]
     return [float(x) for x in np.linalg.norm(ways, axis=1)]
 
@@ -150,6 +166,7 @@ def part_names(features: Features) -> list[str]:
 
 
 def _triangles(features: Features) -> Vector:
+    """Return the rows of all triangles, shape [n, 43]."""
     corners = features.vertices[features.triangles]
     normals = features.planes[features.face_of, :3]
     along = np.roll(corners, -1, axis=1) - corners
