@@ -20,6 +20,7 @@ from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.claims import GIVEN, Claim, Claims, Inapplicable, claim, rows
 from nonsmooth.testing.differences import slope
+from nonsmooth.testing.every_pair import every_pair
 from nonsmooth.testing.functions import CheckedFunction, function_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
@@ -62,7 +63,8 @@ def check_contact_kinematics(
     first, second : Shape
         Two shapes of the classes in its ``pair``.
     contacts : sequence of int, optional
-        Numbers of the contacts in ``between(first, second)``; by default the first with each evaluator.
+        Numbers of the contacts in ``between(first, second)``, with every pair of features of a search as a contact
+        (:func:`nonsmooth.testing.every_pair.every_pair`); by default the first of each evaluator and kind of pair.
     reach : float, optional
         Largest distance of the bodies along each axis [m]; by default the sum of the shapes' finite extents, or 1 m if
         that is zero.
@@ -71,11 +73,13 @@ def check_contact_kinematics(
     ------
     InvalidInput
         The shapes are not of the classes in ``pair``. There are no contacts between them. A contact has no names of
-        features. A contact searches for its features, so that it has no given ones that can be checked.
+        features.
     """
     made = _between(kinematics, first, second)
     if contacts is None:
-        firsts = {contact.evaluator: number for number, contact in reversed(list(enumerate(made)))}
+        firsts = dict[tuple[Callable[..., None], float], int]()
+        for number, contact in enumerate(made):
+            firsts.setdefault((contact.evaluator, _kind(contact)), number)
         contacts = sorted(firsts.values())
     lengths = [shape.extent for shape in (first, second) if math.isfinite(shape.extent)]
     options = {"shapes": (first, second), "reach": reach or sum(lengths) or 1.0}
@@ -95,25 +99,24 @@ def _between(kinematics: type[ContactKinematics], first: Shape, second: Shape) -
             name = kind.__name__
             rule = f"must be a {name}, as `pair` says"
             raise InvalidInput(f"{kinematics.__name__}: shape", rule, shape, f"Give a {name}.")
-    made = kinematics.between(first, second)
+    made = tuple(every_pair(kinematics.between(first, second)))
     if not made:
         raise InvalidInput(f"{kinematics.__name__}.between", "must return a contact", made, "Return at least one.")
     return made
 
 
 def _check_record(kinematics: type[ContactKinematics], contact: FeaturePair) -> None:
-    """Raise InvalidInput if a contact has no names of features, or searches for them."""
+    """Raise InvalidInput if a contact has no names of features."""
     names = contact.features
     if not names or len(set(names)) != len(names):
         remedy = "Name every pair of features, each differently."
         raise InvalidInput(f"{kinematics.__name__}: features", "must be different names, at least one", names, remedy)
-    if contact.candidates is not None:
-        raise InvalidInput(
-            f"{kinematics.__name__}: a contact",
-            "must be of given features (`candidates` None) to be checked",
-            contact.candidates,
-            "Check the contacts of small shapes, whose features are given, and compare runs of both.",
-        )
+
+
+def _kind(contact: FeaturePair) -> float:
+    """Kind of the pair of features of a contact that a search would find, 0 of any other."""
+    candidate = contact.values.get("candidate", (0.0,))
+    return float(candidate[0]) if isinstance(candidate, Sequence) else 0.0
 
 
 def _rows(contact: FeaturePair, shapes: tuple[Shape, Shape], reach: float) -> list[Row]:

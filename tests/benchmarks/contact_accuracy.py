@@ -36,6 +36,7 @@ from nonsmooth.interfaces import ConvexShape, FeaturePair, Shape
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.system.pairing import nearest_pair
+from nonsmooth.testing.every_pair import every_pair
 from nonsmooth.testing.puck import ContactRig
 from tests.benchmarks.mesh_pairs import MESHES
 from tests.benchmarks.round_pairs import ROUND_PAIRS
@@ -206,7 +207,7 @@ def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[FeaturePair, ...]:
     found = nearest_pair(registry.load_all("kinematics").values(), *shapes)
     if found is None or not found[1]:
         raise LookupError(f"no kinematics for {shapes}")
-    return tuple(found[0].between(*shapes))
+    return tuple(every_pair(found[0].between(*shapes)))
 
 
 def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float], tuple[float, ...] | None]:

@@ -30,6 +30,7 @@ from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY, PAST_END
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
 from nonsmooth.system.pairing import nearest_pair
+from nonsmooth.testing.every_pair import every_pair
 from tests.benchmarks.gap_draws import MODES, PAIRS, Array, Pose, back, directions, shapes_of
 from tests.benchmarks.outlines import Outline, outline_of
 
@@ -62,7 +63,7 @@ class Gaps:
         shapes = (first, second) if self._in_order else (second, first)
         function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
         self._calls = []
-        for contact in kinematics.between(*shapes):
+        for contact in every_pair(kinematics.between(*shapes)):
             address, heap = bind(contact.evaluator, "pair", contact.parameters(), "gap_poses")
             self._calls.append((function(address), np.array(heap)))
 

@@ -19,6 +19,7 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.testing.functions import plain_caller
 from tests.benchmarks.head_on.measured import Pose, separation
 from tests.benchmarks.random_systems.pieces import pieces_of, rotations
+from tests.bodies.every_pair import all_features
 
 _REACH = 0.1
 """Distance from the origin of either body that no point of it exceeds [m]."""
@@ -74,7 +75,8 @@ def _moved(pose: Pose, rng: np.random.Generator, size: float) -> tuple[Pose, flo
 def _contacts(first: Body, second: Body) -> Iterator[Any]:
     """Yield the kinematics of the contacts that have a bound."""
     system = ns.System([first, second])
-    system.contact(first, second, normal=Unilateral(), friction=Coulomb(0.2), impact=EnergeticImpact(0.5))
+    with all_features():
+        system.contact(first, second, normal=Unilateral(), friction=Coulomb(0.2), impact=EnergeticImpact(0.5))
     assert any(contact.kinematics.bound is not None for contact in system.contacts)
     for contact in system.contacts:
         if contact.kinematics.bound is not None:

@@ -15,22 +15,21 @@ from bodies import (
     Capsule,
     ConvexHull,
     Ellipsoid,
-    MeshSmooth,
-    MeshSphere,
     Point,
     Sphere,
     Superellipsoid,
+    SurfacePoint,
+    SurfaceSphere,
     TriangleMesh,
     Triangles,
 )
-from bodies.contacts.surface import patch_near
-from bodies.contacts.surface.mesh_point import MeshPoint
 from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import SharedNumbers
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
+from tests.bodies.every_pair import pairs_of, parts_of
 from tests.bodies.meshes.parts import box, bracket, hills, torus
 from tests.bodies.polytopes import random_shapes
 from tests.bodies.surfaces import distances, is_inside, segment_distance
@@ -96,8 +95,8 @@ def test_a_ball_whose_centre_is_inside_overlaps(build: Any) -> None:
 @pytest.mark.slow
 def test_contacts_with_points_and_balls_have_the_properties_of_the_kit() -> None:
     pairs: list[tuple[Any, Shape, Shape]] = [
-        (MeshSphere, BRACKET, Sphere(4e-3)),
-        (MeshPoint, BRACKET, Point(1e-3, 2e-3)),
+        (SurfaceSphere, BRACKET, Sphere(4e-3)),
+        (SurfacePoint, BRACKET, Point(1e-3, 2e-3)),
     ]
     for kinematics, first, second in pairs:
         for check in check_contact_kinematics(kinematics, first, second, contacts=[0]):
@@ -194,7 +193,7 @@ def test_a_capsule_has_the_distance_of_its_axis(build: Any) -> None:
         nearest = facing[np.argmin(rig.geometry[facing, 0])]
         # a fifth of a tenth of a millimetre between two of the points
         assert -1e-6 < rig.geometry[nearest, 0] - (distance - capsule.radius) < 1e-15
-        compared.add(rig.contacts[nearest].kinematics.features[int(rig.geometry[nearest, 29])].split()[0])
+        compared.add(parts_of(rig.contacts[nearest].kinematics, rig.geometry[nearest, 29])[0])
     assert compared == {"face", "edge", "corner"}
 
 
@@ -207,7 +206,7 @@ def test_a_rounded_box_has_the_distance_of_its_core(build: Any) -> None:
     edges = BRACKET.features.vertices[BRACKET.features.triangles[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2, 3)
     part = np.linspace(0.0, 1.0, 21)[:, None, None]
     low, high = BRACKET.bounds
-    compared = set[str]()
+    compared = set[tuple[str, str]]()
     for place in rng.uniform(low - 12e-3, high + 12e-3, (200, 3)):
         turn = Rotation.random(random_state=rng)
         points = turn.apply(core.vertices) + place
@@ -221,13 +220,9 @@ def test_a_rounded_box_has_the_distance_of_its_core(build: Any) -> None:
         facing = np.flatnonzero(rig.geometry[:, 30] <= 0.0)
         nearest = facing[np.argmin(rig.geometry[facing, 0])]
         assert rig.geometry[nearest, 0] == pytest.approx(distance - box.rounding, abs=1e-15)
-        names = rig.contacts[nearest].kinematics.features[int(rig.geometry[nearest, 29])].split()
-        compared.add(f"{names[0]} {names[3]}")
-    assert compared == {f"{part} vertex" for part in ("face", "edge", "corner")} | {
-        "edge edge",
-        "corner face",
-        "corner edge",
-    }
+        compared.add(parts_of(rig.contacts[nearest].kinematics, rig.geometry[nearest, 29]))
+    over = {(part, "corner") for part in ("face", "edge", "corner")}
+    assert compared == over | {("edge", "edge"), ("corner", "face"), ("corner", "edge")}
 
 
 def test_what_is_inside_by_more_than_the_radius_overlaps(build: Any) -> None:
@@ -270,10 +265,11 @@ def test_rates_of_the_side_of_a_capsule_are_derivatives(build: Any) -> None:
 
         put(0.0)
         for i in np.flatnonzero((rig.geometry[:, 30] <= 0.0) & (rig.geometry[:, 0] < 5e-3)):
-            name = rig.contacts[i].kinematics.features[0]
-            if "side" not in name:
+            part, other = parts_of(rig.contacts[i].kinematics, rig.geometry[i, 29])
+            # the side of the capsule is its edge
+            if other != "edge":
                 continue
-            seen.add(name.split()[0])
+            seen.add(part)
             rate, bias = rig.rate[i, 0], rig.bias[i, 0]
             values = {}
             for k in (-2, -1, 1, 2):
@@ -293,7 +289,7 @@ def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> No
     radius, rng = 0.02, np.random.default_rng(12)
     rig = Rig((TriangleMesh(Triangles(points, triangles)), Sphere(radius)), build.laws())
     assert len(rig.contacts) > 10
-    surface = rig.contacts[0].kinematics.parameters()["surface"]
+    surface = rig.contacts[0].kinematics.parameters()["surface_a"]
     assert isinstance(surface, SharedNumbers)
     # and not once for each contact
     assert len(surface) < len(rig._model.memory.floats) < 3 * len(surface)
@@ -309,13 +305,12 @@ def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> No
 @pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="thousands of searches")
 @pytest.mark.parametrize("body", [Sphere(0.03), Ellipsoid(0.03, 0.025, 0.02)], ids=["ball", "ellipsoid"])
-def test_a_body_changes_from_face_to_edge_and_on_once_each(body: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_body_changes_from_face_to_edge_and_on_once_each(body: Any) -> None:
     """Over the border both hold for a margin, with distances that are the same but for round-off: no flicker."""
     rng, seen = np.random.default_rng(5), 0
-    monkeypatch.setattr(patch_near, "MOST_EACH", 1000)
     ground = TriangleMesh(Triangles(*hills(6)))
     features = ground.features
-    contacts = (MeshSphere if isinstance(body, Sphere) else MeshSmooth).between(ground, body)
+    contacts = pairs_of(ground, body)
     calls = [pair_caller(one.evaluator, one.parameters(), "contact") for one in contacts]
     a, b, out = np.zeros(FRAME), np.zeros(FRAME), np.zeros(GEOMETRY)
     a[3:12] = np.eye(3).ravel()

@@ -59,13 +59,15 @@ def test_rates_are_derivatives(build: Any, name: str, kind: str) -> None:
     """Gap rate against differences of the gap to 1e-8, second-order term against those of the rate to 1e-6."""
     rng = np.random.default_rng(8)
     shapes = random_shapes(rng)[name]
-    rig = Rig(shapes, build.laws())
+    rig, compared = Rig(shapes, build.laws()), 0
     for gap in (1e-3, 1e-5, 1e-9):
         for _ in range(_MOTIONS):
             posed = Posed(rng, shapes, kind, gap)
             u = np.concatenate([rng.normal(size=3) * scale for scale in (0.05, 3.0, 0.05, 3.0)])
 
-            def at(t: float, posed: Posed = posed, u: Any = u) -> tuple[float, float]:
+            faces = set[float]()
+
+            def at(t: float, posed: Posed = posed, u: Any = u, faces: Any = faces) -> tuple[float, float]:
                 poses = []
                 for i, (place, q) in enumerate(posed.poses):
                     v, spin = u[6 * i : 6 * i + 3], u[6 * i + 3 : 6 * i + 6]
@@ -73,10 +75,16 @@ def test_rates_are_derivatives(build: Any, name: str, kind: str) -> None:
                     poses.append((place + t * v, np.roll(turn.as_quat(), 1)))
                 rig.put(poses, u)
                 assert rig.geometry[posed.number, 30] < 0.0
+                faces.add(rig.geometry[posed.number, 29])
                 return rig.geometry[posed.number, 0], rig.rate[posed.number, 0]
 
             near = {i: np.subtract(at(i * _STEP), at(-i * _STEP)) / _STEP for i in _WEIGHTS}
             rate, second = np.sum([weight * near[i] for i, weight in _WEIGHTS.items()], axis=0)
             at(0.0)
+            if len(faces) > 1:
+                # the face under a vertex changes on the way
+                continue
+            compared += 1
             assert rig.rate[posed.number, 0] == pytest.approx(rate, rel=1e-8, abs=1e-10)
             assert rig.bias[posed.number, 0] == pytest.approx(second, rel=1e-6, abs=1e-8)
+    assert compared >= 2 * _MOTIONS

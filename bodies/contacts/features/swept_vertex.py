@@ -3,35 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from nonsmooth.compiled import block_at, compiled
+from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
-from nonsmooth.interfaces import FeaturePair
-from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-from ...shapes.polyhedron import SweptPolytope
 from ...shapes.polytope import Point
-from ...vectors import Vector3, cross, dot, minus, scaled, vector_at, write_vector
-from .edge_crossing import CONE_MARGIN
-from .frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
-from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
+from ...vectors import Vector3, dot, minus, scaled, vector_at, write_vector
+from .frames import vector_in_body, vector_in_world, write_tangent
 from .polytope_tables import (
     ALONG,
     EDGE,
-    EDGES,
-    N_FACES,
-    N_STAR,
-    STAR,
-    SWEEP,
-    core_numbers,
-    edges_of,
-    faces_of,
-    part_names,
-    vertex_at,
 )
-from .vertex_face import Nearest, nearest_of_core
+from .vertex_face import Nearest
 from .writing import write_flat, write_principal, write_round
 
 END = 3e-10
@@ -118,119 +102,6 @@ def write_vertex_over(
     write_tangent(a, out)
     write_swept(other, out, SIDE_B if swap == 1.0 else SIDE_A, number, n_faces, n_edges, edges, sweep)
     write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
-
-
-@compiled
-def _is_along_side(own: Floats, other: Floats, core: Floats, number: int, n_star: float, star: Floats) -> bool:
-    """Return whether the nearest feature of a core is the side of a capsule, nearly parallel to the vertex's own.
-
-    The vertex is the end of a segment, with the single unit vector ``star`` in the frame ``own``.  The largest sine of
-    the angle is ``CONE_MARGIN``.
-    """
-    if n_star != 1.0 or core[N_FACES] > 0.0 or number > 0:
-        return False
-    along = vector_in_world(other, vector_at(core, int(core[EDGES]) + ALONG))
-    across = cross(along, vector_in_world(own, vector_at(star, 0)))
-    return bool(dot(across, across) <= CONE_MARGIN * CONE_MARGIN)
-
-
-@compiled
-def write_vertex(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    core: Floats,
-    own_faces: tuple[float, Floats],
-    place: Vector3,
-    n_star: float,
-    star: Floats,
-    radius: float,
-    size: float,
-) -> None:
-    """Write the geometry block of a vertex, with its radius, against the nearest feature of a swept core.
-
-    If two vertices touch, only the contact of the second body's vertex closes; that of the first body's vertex is open.
-
-    Parameters
-    ----------
-    a, b, out : Floats
-        Frame blocks and geometry block.
-    swap : float
-        1 if the vertex belongs to the first body, else 0.
-    core : Floats
-        Core of the other body (:func:`bodies.contacts.features.polytope_tables.core_numbers`).
-    own_faces : tuple
-        Number and rows of the faces of the core to which the vertex belongs; none if its body is not convex.
-    place : tuple of float
-        The vertex in its body frame [m].
-    n_star, star : float and Floats
-        Unit vectors along the edges that begin at the vertex, in the body frame.
-    radius : float
-        Radius about the vertex [m].
-    size : float
-        Size of the larger body [m].
-    """
-    own_frame, other, sweep = (a, b, core[SWEEP]) if swap == 1.0 else (b, a, core[SWEEP])
-    p = point_in_world(own_frame, place)
-    point = point_in_body(other, p)
-    number, distance, x, y, z, within = nearest_of_core(core, point)
-    n = vector_in_world(other, (x, y, z))
-    # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
-    past = past_star(own_frame, star, n_star if number >= int(core[N_FACES]) else 0.0, distance, n, size)
-    # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
-    part = part_of_overlap(radius + sweep - distance, size)
-    if distance > 0.0 and part > 0.0:
-        # the contact normal and the common direction u point from the first body to the second
-        sign = 1.0 - 2.0 * swap
-        first, second = (own_faces, faces_of(core)) if swap == 1.0 else (faces_of(core), own_faces)
-        u = common_direction(a, b, *first, *second, scaled(sign, n))
-        if dot(u, u) > 0.0:
-            past_corner, within = vertex_past_corner(
-                own_frame, other, swap == 1.0, scaled(sign, u), core, n_star, star, point, size
-            )
-            past = (1.0 - part) * past + part * past_corner
-        elif _is_along_side(own_frame, other, core, number, n_star, star):
-            # a side along a side touches with both ends, also if it tilts
-            past = (1.0 - part) * past - part * size
-    found = number, distance, x, y, z, within
-    write_vertex_over(a, b, out, swap, p, radius, found, past, core[N_FACES], *edges_of(core), sweep, size)
-
-
-def evaluate_vertex_over_swept(
-    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
-) -> None:
-    """Write the geometry block of a vertex of a core over another core; arguments as in :func:`write_vertex`."""
-    v = vertex_at(own, vertex)
-    place, star = vector_at(own, v), block_at(own, int(own[v + STAR]))
-    write_vertex(a, b, out, swap, core, faces_of(own), place, own[v + N_STAR], star, own[SWEEP], size)
-
-
-def bound_of_vertex(
-    a: Floats, b: Floats, out: Floats, swap: float, core: Floats, own: Floats, vertex: float, size: float
-) -> None:
-    """Write the distance of a vertex from a core, less both radii [m]."""
-    own_frame, other = (a, b) if swap == 1.0 else (b, a)
-    place = point_in_world(own_frame, vector_at(own, vertex_at(own, vertex)))
-    out[0] = nearest_of_core(core, point_in_body(other, place))[1] - core[SWEEP] - own[SWEEP]
-
-
-def size_of_both(first: SweptPolytope, second: SweptPolytope) -> float:
-    """Return the size of the larger of two shapes [m]."""
-    return max(shape.core.size + 2.0 * shape.sweep for shape in (first, second))
-
-
-def vertices_over_swept(first: SweptPolytope, second: SweptPolytope) -> Iterator[FeaturePair]:
-    """Yield the contacts of all vertices of the second shape, then those of the first, with the other's core."""
-    size = size_of_both(first, second)
-    cores = core_numbers(first.core, first.sweep), core_numbers(second.core, second.sweep)
-    for swap, own, other in ((0, second, first), (1, first, second)):
-        values: dict[str, Value] = {"swap": float(swap), "core": cores[swap], "own": cores[1 - swap], "size": size}
-        for i in range(len(own.core.vertices)):
-            pairs = ((f"vertex {i}", part) if swap else (part, f"vertex {i}") for part in part_names(other.core))
-            names = tuple(f"{one} and {two}" for one, two in pairs)
-            numbers = {**values, "vertex": float(i)}
-            yield FeaturePair(evaluate_vertex_over_swept, numbers, names, bound=bound_of_vertex)
 
 
 @compiled

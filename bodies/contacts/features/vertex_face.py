@@ -5,23 +5,17 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import block_at, compiled
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, divided, dot, minus, norm, scaled, vector_at
-from .frames import point_in_body, tangent_of, vector_in_body, vector_in_world
+from .frames import point_in_body, tangent_of
 from .polytope_tables import (
     ALONG,
     EDGE,
     ENDS,
     FACE,
-    FACES,
     LENGTH,
-    N_FACES,
-    N_VERTICES,
     OFFSET,
-    VERTEX,
-    VERTICES,
     edges_of,
     faces_of,
 )
@@ -49,39 +43,6 @@ def plane_height(faces: Floats, row: int, point: Vector3) -> float:
 
 
 @compiled
-def _least_height(frame: Floats, other: Floats, core: Floats, row: int, own: Floats, enough: float) -> float:
-    """Return the least height of the other body's vertices over a face [m], or any height below ``enough`` [m].
-
-    The row of the face begins at index ``row`` of ``core``, the core in ``frame``; ``own`` is the core of the body
-    ``other``.
-    """
-    n = vector_in_body(other, vector_in_world(frame, vector_at(core, row)))
-    # height of the origin of the other body
-    base, least = plane_height(core, row, point_in_body(frame, vector_at(other, POSITION))), math.inf
-    for i in range(int(own[N_VERTICES])):
-        v = int(own[VERTICES]) + VERTEX * i
-        height = base + n[0] * own[v] + n[1] * own[v + 1] + n[2] * own[v + 2]
-        if height < least:
-            least = height
-            if least < enough:
-                break
-    return least
-
-
-@compiled
-def separation_of_faces(frame: Floats, other: Floats, core: Floats, own: Floats) -> float:
-    """Return the largest separation of two bodies along the normals of the first body's faces [m].
-
-    It is negative if none of the planes of the faces separates the bodies.  The faces belong to the core in ``frame``,
-    ``own`` is the core of the body ``other``.
-    """
-    best = -math.inf
-    for i in range(int(core[N_FACES])):
-        best = max(best, _least_height(frame, other, core, int(core[FACES]) + FACE * i, own, best))
-    return best
-
-
-@compiled
 def past_face(faces: Floats, n_faces: float, row: int, height: float, point: Vector3) -> float:
     """Return the distance of a point's projection on a face past the face's borders [m]; negative inside them.
 
@@ -104,47 +65,6 @@ def height_over(frame: Floats, n_faces: float, faces: Floats, point: Vector3) ->
     for i in range(int(n_faces)):
         highest = max(highest, plane_height(faces, FACE * i, point))
     return highest
-
-
-@compiled
-def nearest_face(
-    frame: Floats, other: Floats, core: Floats, own: Floats, point: Vector3, size: float
-) -> tuple[float, float, float]:
-    """Return the number of the face paired with a vertex of the body ``other``, gap, and distance past its border [m].
-
-    The face is the one that best separates the bodies: the least height of all vertices over it is the largest.  So all
-    vertices get the same face.  If several faces are equal in this, as in contact at an edge, the vertex gets the face
-    on which it projects, and of several the one over which it is highest.  A vertex below its face does not touch it if
-    a face of its own body separates the bodies better.  Past the border of its face, a gap that is not negative becomes
-    hypot(gap, past); a negative gap is kept.
-
-    ``point`` is the vertex in the world [m].  The face belongs to the core in ``frame``; ``own`` is the core of body
-    ``other``, ``size`` the size of the bodies [m].
-    """
-    n_faces, faces = faces_of(core)
-    place = point_in_body(frame, point)
-    # a point by itself has no edges beside it
-    margin = (CLOSED if own[N_VERTICES] > 1.0 else REACH) * size
-    enough = separation_of_faces(frame, other, core, own) - margin
-    highest = height_over(frame, n_faces, faces, point)
-    found, gap, past = 0, 0.0, math.inf
-    for i in range(int(n_faces)):
-        height = plane_height(faces, FACE * i, place)
-        if height < enough or _least_height(frame, other, core, int(core[FACES]) + FACE * i, own, enough) < enough:
-            continue
-        past_border = past_face(faces, n_faces, FACE * i, height, place)
-        if height < 0.0:
-            # a vertex below the plane of a face touches it from inside of the polyhedron only
-            past_border = max(past_border, highest)
-        past_border -= margin
-        # between the borders of both faces the height decides, else the distance past the border
-        if height > gap if max(past, past_border) <= 0.0 else past_border < past:
-            found, gap, past = i, height, past_border
-    if past <= 0.0 and gap < -margin:
-        past = max(past, separation_of_faces(other, frame, own, core) - gap - margin)
-    if past > 0.0 and gap >= 0.0:
-        gap = math.hypot(gap, past)
-    return float(found), gap, past
 
 
 Nearest = tuple[int, float, float, float, float, float]

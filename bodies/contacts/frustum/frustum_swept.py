@@ -19,7 +19,6 @@ from ...vectors import vector_at
 from ..features.polytope_tables import core_numbers, star_lengths, star_of
 from ..features.swept_vertex import ended_gap, past_star
 from ..features.writing import place_sphere
-from ..polyhedron.swept_swept import MOST_CONTACTS
 from .apex_swept import evaluate_apex_over_core
 from .flank_edge import evaluate_edge_across_side
 from .frustum import HIGH_CAP, LOW_CAP, RIM_NAMES, part_names, rims_and_tips, rims_of, seen_by, size_of_both
@@ -27,6 +26,9 @@ from .frustum_polyhedron import evaluate_vertex_over_frustum
 from .frustum_sphere import write_frustum_ball
 from .rim_edge import evaluate_edge_across_rim
 from .rim_face import evaluate_rim_over_faces
+
+MOST_CONTACTS = 4000
+"""Largest number of contacts of a frustum and a polyhedron."""
 
 
 def evaluate_rounded_vertex(

@@ -16,7 +16,6 @@ from ...vectors import minus, norm, plus_scaled, vector_at
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
 from ..frustum.frustum_swept import write_rounded_vertex
-from ..surface.mesh_point import write_over
 from ..surface.surface_near import NARROW, patches_near, patches_under, room_ahead
 from ..surface.surface_pairs import MOST_NEAR
 from ..surface.surface_search import ON_EDGE, ON_FACE, edge_at, feature_of, member_of, node_at
@@ -33,6 +32,7 @@ from ..surface.surface_tables import (
     star_lengths,
     surface_numbers,
 )
+from ..surface.surface_vertex import write_sharp_corner
 from .apex_mesh import write_apex
 from .frustum_corner import write_corner
 from .frustum_near import FrustumPose, corner_is_near, edge_is_near, from_core, frustum_in_surface, rim_is_near
@@ -217,7 +217,7 @@ def evaluate_frustum_and_candidate(
     elif kind == POINT:
         row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * j
         place, n, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
-        write_over(a, b, out, 1.0, surface, float(i), place, n, star, reach, frustum[SWEEP])
+        write_sharp_corner(a, b, out, 1.0, surface, float(i), place, n, star, reach, frustum[SWEEP])
     elif kind == APEX:
         write_apex(a, b, out, frustum, surface, float(i), size, reach)
     elif kind == UNDER:

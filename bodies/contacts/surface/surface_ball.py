@@ -1,55 +1,102 @@
-"""Writes the geometry block of a ball against a patch of a surface.
-
-It also writes the curvature matrices of the feature in contact: a face, an edge or a corner.
-"""
+"""A ball of one body against the nearest feature of a patch of another body's surface, sharp or rounded."""
 
 from __future__ import annotations
 
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, PAST_END, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, divided, minus, vector_at, write_vector
-from ..features.frames import point_in_body, point_in_world, vector_in_world
+from ...vectors import Vector3, cross, divided, dot, minus, scaled, vector_at, write_vector
+from ..features.edge_crossing import CONE_MARGIN
+from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG
-from ..features.swept_vertex import END, NEAR, past_star
-from ..features.writing import place_sphere, write_flat, write_principal, write_round
-from .surface_search import ON_EDGE, ON_FACE, Found, edge_at, face_at, nearest_in_patch
-from .surface_tables import N_EDGES, N_FACES, N_PATCHES
+from ..features.writing import gap_past_end, write_flat, write_principal, write_round
+from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
+from .surface_search import ON_EDGE, ON_FACE, Found, distance_from_ends, edge_at, face_at, nearest_in_patch
+from .surface_tables import N_EDGES, N_FACES, N_PATCHES, SIZE, SWEEP
+
+END = 3e-10
+"""Distance from a corner, along an edge, at which the contact of the edge ends; relative to the size of the bodies.
+
+The contact of the corner ends at twice this distance.  Both contacts are valid between the two distances, so that a
+point that slides from the edge to the corner always has a contact.  If two bodies are pressed into each other with
+flush faces, the corners of their overlap replace this rule (:mod:`bodies.contacts.surface.overlap_corners`).
+"""
+OPEN = 100.0
+"""Gap of a contact that another contact replaces, over its distance past the end of an edge; large, so it is open."""
+NEAR = 1e-6
+"""Gap, relative to the size of the bodies, above which the contact of a corner stays valid wherever its point is.
+
+The ball about the corner is a part of its body, so that its gap is always an upper bound of the gap of the bodies.
+"""
 
 
 @compiled
 def out_of_surface(frame: Floats, surface: Floats, found: Found, past: float, point: Vector3) -> Vector3:
     """Return the unit normal, in world axes, at a surface's nearest point to a point of the body frame.
 
-    On a face it is the normal of the face; else it points from the nearest point to ``point``.  ``found`` is the result
-    of :func:`nearest_in_patch`, and ``past`` the distance past the end of the feature [m].
+    On a face it is the normal of the face; else it points from the nearest point to ``point``.  If both are one point
+    of an edge or a corner, it is a vector across an edge.  ``found`` is the result of :func:`nearest_in_patch`, and
+    ``past`` the distance past the end of the feature [m].
     """
     distance, _, kind, number, px, py, pz = found
-    n = vector_at(surface, face_at(surface, number))
-    if not (kind == ON_FACE and (past <= 0.0 or distance == 0.0)):
+    if kind == ON_FACE and (past <= 0.0 or distance == 0.0):
+        n = vector_at(surface, face_at(surface, number))
+    elif distance == 0.0:
+        n = tangent_of(vector_at(surface, edge_at(surface, number if kind == ON_EDGE else 0) + ALONG))
+    else:
         n = divided(minus(point, (px, py, pz)), distance)
     return vector_in_world(frame, n)
 
 
 @compiled
 def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: int, number: int) -> None:
-    """Write the curvature matrices and the number of a face, an edge or a corner (faces first, then edges, corners).
+    """Write the number of a face, an edge or a corner (faces first, then edges, corners), and its curvature matrices.
 
-    The geometry block ``out`` must already hold the normal and the first tangent.
+    About an edge, a rounded surface is a cylinder, about a corner a sphere.  The geometry block ``out`` must already
+    hold the normal and the first tangent.
     """
     out[FEATURE] = float(number)
     if kind == ON_FACE:
         write_flat(out, side)
     elif kind == ON_EDGE:
         along = vector_in_world(frame, vector_at(surface, edge_at(surface, number) + ALONG))
-        write_principal(out, side, along, 0.0, 1.0, 1.0, 0.0)
+        write_principal(out, side, along, 0.0, 1.0, 1.0, surface[SWEEP])
         out[FEATURE] += surface[N_FACES]
     else:
-        write_round(out, side, 0.0)
+        write_round(out, side, surface[SWEEP])
         out[FEATURE] += surface[N_FACES] + surface[N_EDGES]
+
+
+@compiled
+def past_star(frame: Floats, star: Floats, n_star: float, distance: float, n: Vector3, size: float) -> float:
+    """Return the distance of a contact past a corner [m], less the tolerance ``2 END size``; negative if it is valid.
+
+    The nearest point of the other body's core is at ``distance`` [m] from the corner, against the normal n.
+    The distance past the corner is the largest coordinate of this point along an edge of the corner, measured from
+    the corner.  If it is positive, this edge is nearer to the point than the corner.  For a corner inside of the other
+    core the result is negative.
+    """
+    n, past = vector_in_body(frame, n), -size
+    for i in range(int(n_star) if distance > 0.0 else 0):
+        past = max(past, -distance * dot(n, vector_at(star, 3 * i)))
+    return past - 2.0 * END * size
+
+
+@compiled
+def _is_along_side(own: Floats, other: Floats, surface: Floats, found: Found, n_star: float, star: Floats) -> bool:
+    """Return whether the nearest feature of a surface is the side of a capsule, nearly parallel to the corner's own.
+
+    The corner is the end of a segment, with the single unit vector ``star`` in the frame ``own``.  The largest sine of
+    the angle is ``CONE_MARGIN``.
+    """
+    if n_star != 1.0 or surface[N_FACES] > 0.0 or found[2] != ON_EDGE:
+        return False
+    along = vector_in_world(other, vector_at(surface, edge_at(surface, 0) + ALONG))
+    across = cross(along, vector_in_world(own, vector_at(star, 0)))
+    return bool(dot(across, across) <= CONE_MARGIN * CONE_MARGIN)
 
 
 @compiled
@@ -57,37 +104,114 @@ def write_ball(
     a: Floats,
     b: Floats,
     out: Floats,
+    swap: float,
+    surface: Floats,
+    found: Found,
+    n: Vector3,
+    past: float,
+    shared: float,
+    center: Vector3,
+    radius: float,
+) -> None:
+    """Write the geometry block of a ball of one body and the nearest feature of the other body's surface.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of both bodies, and the geometry block.
+    swap : float
+        1 if the ball belongs to the first body, else 0.
+    surface, found : Floats, tuple
+        Surface of the other body, and its nearest feature (:func:`nearest_in_patch`).
+    n : Vector3
+        Unit normal out of the surface, in the world.
+    past : float
+        Distance past the end of the contact [m].
+    shared : float
+        If positive, another contact has the same two corners: length by which this one is past its end [m].
+    center, radius : Vector3, float
+        Centre of the ball in the world, and its radius [m].
+    """
+    gap = found[0] - surface[SWEEP] - radius
+    gap = math.hypot(gap, OPEN * shared) if shared > 0.0 else gap_past_end(gap, past)
+    sign = 1.0 - 2.0 * swap
+    near, far = (POINT_A, POINT_B) if swap == 1.0 else (POINT_B, POINT_A)
+    out[GAP], out[PAST_END] = gap, past
+    write_vector(out, NORMAL, scaled(sign, n))
+    write_vector(out, near, minus(center, scaled(radius, n)))
+    write_vector(out, far, minus(vector_at(out, near), scaled(gap, n)))
+    write_tangent(a, out)
+    write_feature(b if swap == 1.0 else a, out, SIDE_B if swap == 1.0 else SIDE_A, surface, found[2], found[3])
+    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
+
+
+@compiled
+def past_patch(surface: Floats, found: Found) -> float:
+    """Return the distance past the end of a patch's nearest feature [m]; one patch is all, and has no end."""
+    return found[1] if surface[N_PATCHES] > 1.0 else -surface[SIZE]
+
+
+@compiled
+def write_round_corner(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
     surface: Floats,
     patch: float,
-    radius: float,
+    own: Floats,
     place: Vector3,
     n_star: float,
     star: Floats,
     size: float,
     reach: float,
 ) -> None:
-    """Write the geometry block of a ball about a ``place`` of the second body [m] and a patch of the first body.
+    """Write the geometry block of a corner, with its radius, against the nearest feature of a patch.
 
-    Features of the patch are searched up to the distance ``reach`` from the ball's centre [m].  A ball about a vertex
-    has its ``n_star`` edges: ``star`` holds unit vectors along them, in the axes of the second body.  ``radius`` is
-    that of the ball, ``size`` that of the bodies [m].
+    If two corners touch, only the contact of the second body's corner closes; that of the first body's corner is open.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks and geometry block.
+    swap : float
+        1 if the corner belongs to the first body, else 0.
+    surface, patch : Floats, float
+        Surface of the other body, and number of the patch.
+    own : Floats
+        Surface of the body with the corner.
+    place, n_star, star : Vector3, float, Floats
+        The corner [m], the number of its edges, and unit vectors along them, in the axes of its body.
+    size : float
+        Size of the larger body [m].
+    reach : float
+        Distance of the cores up to which features are searched [m].
     """
-    center = point_in_world(b, place)
-    in_surface = point_in_body(a, center)
-    found = nearest_in_patch(surface, patch, in_surface, reach)
-    distance, kind, number = found[0], found[2], found[3]
-    # if there is one patch only, it is the whole surface: the contact point can never be past its end
-    past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
-    n = out_of_surface(a, surface, found, past, in_surface)
-    # over a face the contact does not end at the vertex: an edge over the face touches with both ends, also if it tilts
-    if n_star > 0.0 and kind != ON_FACE:
-        past_vertex = past_star(b, star, n_star, distance, n, size)
-        past = max(past, min(past_vertex, -END * size) if distance - radius > NEAR * size else past_vertex)
-    write_vector(out, NORMAL, n)
-    if past > 0.0:
-        apart = max(distance - radius, 0.0)
-        distance = math.sqrt(apart * apart + past * past) + radius
-    place_sphere(a, out, center, distance, radius)
-    out[PAST_END] = past
-    write_feature(a, out, SIDE_A, surface, kind, number)
-    write_round(out, SIDE_B, radius)
+    own_frame, other = (a, b) if swap == 1.0 else (b, a)
+    radius, center = own[SWEEP], point_in_world(own_frame, place)
+    point = point_in_body(other, center)
+    found = nearest_in_patch(surface, patch, point, reach)
+    distance, past = found[0], past_patch(surface, found)
+    n, within = out_of_surface(other, surface, found, past, point), distance_from_ends(surface, found)
+    gap = distance - surface[SWEEP] - radius
+    # over a face the contact does not end at the corner: an edge over the face touches with both ends, also if it tilts
+    past_own = past_star(own_frame, star, n_star if found[2] != ON_FACE else 0.0, distance, n, size)
+    # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
+    part = part_of_overlap(-gap, size)
+    if distance > 0.0 and part > 0.0:
+        # the contact normal and the common direction u point from the first body to the second
+        sign = 1.0 - 2.0 * swap
+        first, second = (own, surface) if swap == 1.0 else (surface, own)
+        u = common_direction(a, b, first, second, scaled(sign, n))
+        if dot(u, u) > 0.0:
+            past_corner, within = vertex_past_corner(
+                own_frame, other, swap == 1.0, scaled(sign, u), surface, n_star, star, point, size
+            )
+            past_own = (1.0 - part) * past_own + part * past_corner
+        elif _is_along_side(own_frame, other, surface, found, n_star, star):
+            # a side along a side touches with both ends, also if it tilts
+            past_own = (1.0 - part) * past_own - part * size
+    if gap > NEAR * size:
+        past_own = min(past_own, -END * size)
+    shared = END * size - within if swap == 1.0 else -math.inf
+    write_ball(a, b, out, swap, surface, found, n, max(max(past, past_own), shared), shared, center, radius)

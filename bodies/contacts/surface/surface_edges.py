@@ -1,75 +1,147 @@
-"""Contact of convex edges of two bodies that cross each other; the bodies need not be convex."""
+"""Contact of convex edges of two bodies that cross each other, sharp or rounded; the bodies need not be convex."""
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.compiled import block_at, compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, plus_scaled, vector_at, write_vector
-from ..features.edge_crossing import PARALLEL, Crossing, cross_edges, least_sine
-from ..features.frames import point_in_body, write_tangent
+from ...vectors import Vector3, dot, plus_scaled, vector_at, write_vector
+from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine
+from ..features.frames import point_in_body
 from ..features.polytope_tables import ALONG, INTO_FIRST, LENGTH
 from ..features.vertex_face import CLOSED
-from ..features.writing import write_principal
+from ..features.writing import gap_past_end, write_principal
+from .overlap_corners import common_direction, crossing_past_corner, part_of_overlap
+from .surface_ball import END
 from .surface_near import seen_from
-from .surface_vertex import past_depth
+from .surface_search import beyond_ends
+from .surface_tables import IS_CONVEX, N_FACES, SWEEP
+from .surface_vertex import past_depth, separation_of_faces
 
 
 @compiled
-def crossing_of(
-    a: Floats, b: Floats, edge_a: Floats, at_a: int, edge_b: Floats, at_b: int, radius: float, size: float
-) -> Crossing:
-    """Return the crossing of two edges (:func:`bodies.contacts.features.edge_crossing.cross_edges`).
-
-    The second edge has a radius [m].  The rows of the edges begin at the indices ``at_a`` and ``at_b``.
-    """
-    parallel = least_sine(size) if radius == 0.0 else PARALLEL
-    return cross_edges(a, b, edge_a, at_a, edge_b, at_b, parallel, CLOSED * size, size)
-
-
-@compiled
-def past_surface(
-    frame: Floats,
-    other: Floats,
-    surface: Floats,
-    edges: Floats,
-    row: int,
-    extensions: tuple[float, float],
-    depth: float,
-    point: Vector3,
+def _past_surface(
+    frame: Floats, other: Floats, surface: Floats, edges: Floats, row: int, depth: float, point: Vector3
 ) -> float:
     """Return how far an edge of the other body is from an overlap of this depth with a surface [m].
 
-    See :func:`bodies.contacts.surface.surface_vertex.past_depth`.  The row of the edge begins at the index ``row`` of
-    ``edges``; its body extends past its ends by the lengths ``extensions`` [m].  ``point`` is the nearest point of the
-    edge in the world [m].
+    See :func:`bodies.contacts.surface.surface_vertex.past_depth`.
+
+    Parameters
+    ----------
+    frame, other : Floats
+        Frame blocks of the body with the surface, and of the body with the edge.
+    surface, edges : Floats
+        The surface, and that of the body with the edge.
+    row : int
+        Index at which the row of the edge begins.
+    depth : float
+        Depth of the overlap [m].
+    point : Vector3
+        Nearest point of the edge in the world [m].
     """
     start, along, length = vector_at(edges, row), vector_at(edges, row + ALONG), edges[row + LENGTH]
-    first = plus_scaled(start, -extensions[0], along)
-    second = plus_scaled(start, length + extensions[1], along)
+    before, behind = beyond_ends(edges, row)
+    first, second = plus_scaled(start, -before, along), plus_scaled(start, length + behind, along)
     ends = seen_from(frame, other, first), seen_from(frame, other, second)
     into = block_at(edges, row + INTO_FIRST)
     return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point)))
 
 
 @compiled
-def write_edges(a: Floats, out: Floats, crossing: Crossing, past: float, radius: float) -> None:
-    """Write the geometry block of two edges at the nearest points of their lines; the second edge has a radius [m].
+def _past_overlap(
+    a: Floats,
+    b: Floats,
+    surface_a: Floats,
+    row_a: int,
+    surface_b: Floats,
+    row_b: int,
+    crossing: Crossing,
+    size: float,
+) -> float:
+    """Return how far two edges whose cores overlap are from touching [m]; negative if their contact is valid.
 
-    If the distance ``past`` [m] of the edges past the boundary of their features is positive, the contact is open, with
-    a positive gap.
+    The bodies separate on the shortest way.  Convex bodies do so along the direction of the largest separation: no
+    plane of a face may separate them better than the common normal of the edges.  Of others only the faces next to the
+    edges are known: either edge must be below them as deep as the overlap.
     """
-    p, e, f, n, gap, _, _ = crossing
-    gap -= radius
-    if past > 0.0:
-        gap = math.hypot(gap, past)
+    p, _, _, n, gap, _, _ = crossing
+    if surface_a[IS_CONVEX] * surface_b[IS_CONVEX] > 0.0:
+        best = max(separation_of_faces(a, b, surface_a, surface_b), separation_of_faces(b, a, surface_b, surface_a))
+        return float(best - gap - CLOSED * size)
+    # a segment has no inside
+    past = _past_surface(b, a, surface_b, surface_a, row_a, -gap, p) if surface_b[N_FACES] > 0.0 else gap
+    return max(past, _past_surface(a, b, surface_a, surface_b, row_b, -gap, plus_scaled(p, gap, n)))
+
+
+@compiled
+def _past_ends(
+    a: Floats,
+    b: Floats,
+    surface_a: Floats,
+    row_a: int,
+    surface_b: Floats,
+    row_b: int,
+    crossing: Crossing,
+    size: float,
+) -> float:
+    """Return how far two edges that cross apart are past their ends [m]; negative if their contact is valid.
+
+    Rounded edges end before their corners.  Bodies on springs overlap: then the corners of the overlap touch, else the
+    nearest features.
+    """
+    _, _, _, n, gap, past_ends, _ = crossing
+    radius = surface_a[SWEEP] + surface_b[SWEEP]
+    if radius == 0.0:
+        return past_ends - CLOSED * size
+    past, fraction = past_ends + END * size, part_of_overlap(radius - gap, size)
+    if fraction > 0.0:
+        u = common_direction(a, b, surface_a, surface_b, n)
+        if dot(u, u) > 0.0:
+            past_corner = crossing_past_corner(a, b, u, surface_a, row_a, surface_b, row_b, crossing, size)
+            # a tilt moves the nearest points of nearly parallel edges far past the ends: farther than a quarter of the
+            # gap of the cores, the contact ends
+            past = (1.0 - fraction) * past + fraction * max(past_corner, past_ends - CONE_MARGIN * gap)
+    return past
+
+
+@compiled
+def write_edges(
+    a: Floats, b: Floats, out: Floats, surface_a: Floats, row_a: int, surface_b: Floats, row_b: int, size: float
+) -> None:
+    """Write the geometry block of two edges at the nearest points of their lines.
+
+    Edges whose cores overlap touch only if no face of the other body is less deep below either edge: else that face is
+    the contact.
+
+    Parameters
+    ----------
+    a, b, out : Floats
+        Frame blocks of both bodies, and the geometry block.
+    surface_a, row_a, surface_b, row_b : Floats, int
+        Surfaces (:mod:`bodies.contacts.surface.surface_tables`), and the indices at which the rows of the edges begin.
+    size : float
+        Size of the larger body [m].
+    """
+    radius_a, radius = surface_a[SWEEP], surface_a[SWEEP] + surface_b[SWEEP]
+    parallel = least_sine(size) if radius == 0.0 else least_round_sine(radius, size)
+    # the margin ``size`` skips the test of the ends of the edges, which follows
+    crossing = cross_edges(a, b, surface_a, row_a, surface_b, row_b, parallel, size, size)
+    p, e, f, n, gap, past_ends, past = crossing
+    if past <= 0.0 and gap >= 0.0:
+        past = max(past, _past_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
+    elif past <= 0.0:
+        past = max(past, past_ends + (END if radius > 0.0 else -CLOSED) * size)
+        if past <= 0.0:
+            past = max(past, _past_overlap(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
+    gap = gap_past_end(gap - radius, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     write_vector(out, NORMAL, n)
-    write_vector(out, POINT_A, p)
-    write_vector(out, POINT_B, plus_scaled(p, gap, n))
-    write_tangent(a, out)
-    write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, 0.0)
-    write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, radius)
+    write_vector(out, POINT_A, plus_scaled(p, radius_a, n))
+    write_vector(out, POINT_B, plus_scaled(p, radius_a + gap, n))
+    # the edge is the tangent: it is fixed to a body.  If both edges lie in a face, round-off turns the normal, and a
+    # tangent that is computed from the normal would turn with it
+    write_vector(out, TANGENT, e)
+    write_principal(out, SIDE_A, e, 0.0, 1.0, 1.0, radius_a)
+    write_principal(out, SIDE_B, f, 0.0, 1.0, 1.0, surface_b[SWEEP])

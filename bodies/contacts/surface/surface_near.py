@@ -9,9 +9,20 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, minus, norm, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN
-from ..features.frames import point_in_body, point_in_world
-from .surface_search import ON_FACE, box_square, face_at, feature_of, in_triangle, member_of, node_at, patch_of
-from .surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SKIP, UPPER
+from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
+from .surface_search import (
+    ON_FACE,
+    box_square,
+    corner_at,
+    face_at,
+    feature_of,
+    in_triangle,
+    member_of,
+    nearest_in_patch,
+    node_at,
+    patch_of,
+)
+from .surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SKIP, SWEEP, UPPER
 from .surface_vertex import descent
 
 OVER_FIRST, OVER_SECOND, EDGE_ACROSS = 1.0, 2.0, 3.0
@@ -126,6 +137,55 @@ def is_node_near(frame: Floats, other: Floats, surface: Floats, parts: Floats, a
     diagonal = minus(vector_at(parts, at + UPPER), vector_at(parts, at))
     middle = seen_from(frame, other, plus_scaled(vector_at(parts, at), 0.5, diagonal))
     return bool(_is_near(surface, middle, 0.5 * norm(diagonal) + reach))
+
+
+@compiled
+def patches_round(
+    frame: Floats,
+    other: Floats,
+    surface: Floats,
+    own: Floats,
+    corner: int,
+    near: Near,
+    kind: float,
+    out: Floats,
+    n: int,
+) -> int:
+    """Append the patches that a corner of the other body may soon touch, if one of the two bodies is rounded.
+
+    The corner, a ball, touches a patch if a face is nearest to it, or if none of its edges leads towards the nearest
+    point of the patch.  A patch is a candidate if one of these may hold before the next search.  Return the number of
+    candidates after that.
+
+    Parameters
+    ----------
+    frame, other : Floats
+        Frame blocks of the body with the surface, and of the body with the corner.
+    surface, own, corner : Floats, Floats, int
+        The surface, that of the body with the corner, and the number of the corner.
+    near : tuple
+        Largest gap [m], largest rotation until the next search [rad], largest number of candidates.
+    kind : float
+        First number of each candidate; the numbers of patch and corner follow.
+    out, n : Floats, int
+        Candidates so far, and their number.
+    """
+    place, n_star, star = corner_at(own, corner)
+    (margin, turn, most), point, first = near, seen_from(frame, other, place), n
+    reach = margin + surface[SWEEP] + own[SWEEP]
+    end = patches_near(surface, point, reach, kind, float(corner), out, n, most)
+    for i in range(first, end):
+        distance, _, what, _, x, y, z = nearest_in_patch(surface, out[2 + 3 * i], point, reach)
+        to_patch = vector_in_body(other, vector_in_world(frame, minus((x, y, z), point)))
+        towards = -distance
+        for k in range(int(n_star)):
+            towards = max(towards, dot(to_patch, vector_at(star, 3 * k)))
+        # the vector to the nearest point of the patch changes by at most margin + turn * distance
+        if distance < reach and (what == ON_FACE or distance <= 0.0 or towards <= margin + turn * distance):
+            out[2 + 3 * n] = out[2 + 3 * i]
+            n += 1
+    # the first and the third number of all these candidates are equal
+    return n
 
 
 @compiled

@@ -48,6 +48,8 @@ from .surface_tables import (
     TRIANGLES,
 )
 
+_SAME = 1e-14
+"""Largest relative difference of squared distances that are treated as equal: round-off."""
 FAR = 1e150
 """Distance for a search without limit [m]."""
 ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
@@ -295,9 +297,10 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
     feature is nearer than ``reach`` [m], distance and distance past the end are ``reach``.
     """
     x, y, z = point
-    margin = REACH * surface[SIZE]
-    # squared distances that are equal within the margins of two features
-    tie = 4.0 * margin * margin
+    # the only patch has no end
+    margin = REACH * surface[SIZE] if surface[N_PATCHES] > 1.0 else 0.0
+    # difference of squared distances that are equal within the margins of two features
+    same = 4.0 * margin * margin
     best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
     nearest = x, y, z - reach
     # the least deep face above the point, if the point is inside of the body
@@ -306,11 +309,12 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
     node = -1
     while node < int(surface[N_NODES]):
         at = node_at(surface, first if node < 0 else node)
+        tie = same + _SAME * best
         if node >= 0 and (not has_patch(surface, at, patch) or box_square(surface, at, point) > best + tie):
             node = int(surface[at + SKIP])
             continue
         for i in range(int(surface[at + N_MEMBERS])):
-            member = member_of(surface, at, i)
+            member, tie = member_of(surface, at, i), same + _SAME * best
             what, which, row = feature_of(surface, member)
             if patch_of(surface, member) != patch:
                 continue
@@ -344,3 +348,16 @@ def nearest_in_patch(surface: Floats, patch: float, point: Vector3, reach: float
         normal = vector_at(surface, face_at(surface, depth_face))
         return -depth, depth_past, ON_FACE, depth_face, *plus_scaled(point, depth, normal)
     return distance, past, kind, number, *nearest
+
+
+@compiled
+def distance_from_ends(surface: Floats, found: Found) -> float:
+    """Return the distance of a nearest point from the nearer end of its edge [m]: 0 at a corner, infinite on a face."""
+    _, _, kind, number, x, y, z = found
+    if kind == ON_CORNER:
+        return 0.0
+    if kind != ON_EDGE:
+        return math.inf
+    row = edge_at(surface, number)
+    along = dot(minus((x, y, z), vector_at(surface, row)), vector_at(surface, row + ALONG))
+    return float(min(along, surface[row + LENGTH] - along))

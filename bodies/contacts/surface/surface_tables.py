@@ -22,14 +22,14 @@ Numbers = tuple[float, ...]
 SIZE, NODES, N_NODES, MEMBERS, FACES, TRIANGLES, N_TRIANGLES, EDGES, N_EDGES, CORNERS, STARS, N_FACES, N_PATCHES = (
     range(13)
 )
-SWEEP, IS_CONVEX = 13, 14
+N_CORNERS, SWEEP, IS_CONVEX = 13, 14, 15
 """Indices in the head of a surface's numbers.
 
 ``SIZE`` is the index of the size [m].  Names that begin with ``N_`` are indices of a number of rows or of patches.
 ``SWEEP`` is that of the radius about the surface [m], ``IS_CONVEX`` that of 1 for a convex surface, else 0.  The others
 are indices of the offset at which the rows of that name begin.
 """
-_HEAD = 15
+_HEAD = 16
 """Length of the head."""
 NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 16, 6
 """Number of floats in the row of each kind.  Numbers in brackets count floats, if there are several.
@@ -125,6 +125,7 @@ def _numbers(features: Features, patches: Patches, sweep: float) -> SharedNumber
         *begins[5:7],
         len(faces),
         patches.count,
+        len(corners),
         sweep,
         float(features.is_convex),
     )

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, dot, minus, vector_at
+from ...vectors import Vector3, dot, minus, scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN
-from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.overlap_corners import FLUSH
+from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
 from ..features.vertex_face import CLOSED, REACH
+from ..features.writing import gap_at_distance, write_flat, write_round
+from .overlap_corners import FLUSH
 from .surface_search import (
     ON_FACE,
     box_square,
@@ -26,7 +28,7 @@ from .surface_search import (
     outward_of,
     past_edges,
 )
-from .surface_tables import FACE_PATCH, N_MEMBERS, N_NODES, SIZE, SKIP
+from .surface_tables import CORNER, CORNERS, FACE_PATCH, N_CORNERS, N_FACES, N_MEMBERS, N_NODES, SIZE, SKIP
 
 
 @compiled
@@ -151,6 +153,26 @@ def past_depth(
 
 
 @compiled
+def separation_of_faces(frame: Floats, other: Floats, surface: Floats, own: Floats) -> float:
+    """Return the largest separation of two convex bodies along the normals of the first one's faces [m].
+
+    It is negative if none of the planes of the faces separates the bodies, -inf without faces.  The surface belongs to
+    the body ``frame``; ``own`` is that of the body ``other``.
+    """
+    best = -math.inf
+    for i in range(int(surface[N_FACES])):
+        row, least = face_at(surface, i), math.inf
+        n = vector_in_body(other, vector_in_world(frame, vector_at(surface, row)))
+        base = face_height(surface, row, point_in_body(frame, vector_at(other, POSITION)))
+        for corner in range(int(own[N_CORNERS])):
+            least = min(least, base + dot(n, vector_at(own, int(own[CORNERS]) + CORNER * corner)))
+            if least < best:
+                break
+        best = max(best, least)
+    return best
+
+
+@compiled
 def face_under(
     frame: Floats,
     other: Floats,
@@ -165,7 +187,8 @@ def face_under(
 
     The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
     face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face that it
-    may touch.  If the vertex may not touch the face, the gap is positive.  If no face is within ``reach`` [m], gap and
+    may touch.  If the vertex may not touch the face, a gap that is not negative is replaced by hypot(distance, past); a
+    negative one is kept.  If no face is within ``reach`` [m], gap and
     distance past the end are ``reach``.
 
     ``place`` is the vertex in the axes of its body [m]; ``star`` holds unit vectors along its ``n_star`` edges.
@@ -203,4 +226,39 @@ def face_under(
     is_below = depth_face >= 0 and depth * depth < best
     if is_below and past_depth(frame, other, surface, n_star, star, (point, point), depth, point) <= 0.0:
         return depth_face, -depth, depth_past
-    return found, height_best if past <= 0.0 else math.hypot(apart, past), past
+    return found, height_best if past <= 0.0 or height_best < 0.0 else math.hypot(apart, past), past
+
+
+@compiled
+def write_sharp_corner(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    swap: float,
+    surface: Floats,
+    patch: float,
+    place: Vector3,
+    n_star: float,
+    star: Floats,
+    reach: float,
+    radius: float,
+) -> None:
+    """Write the geometry block of a vertex, rounded by ``radius`` [m], over a patch of the other body's surface.
+
+    The vertex belongs to the first body if ``swap`` is 1, else to the second.  The other arguments are those of
+    :func:`face_under`.
+    """
+    own, other = (a, b) if swap == 1.0 else (b, a)
+    near, far = (POINT_A, POINT_B) if swap == 1.0 else (POINT_B, POINT_A)
+    face, gap, past = face_under(other, own, surface, patch, place, n_star, star, reach)
+    if radius > 0.0:
+        gap = gap_at_distance(gap, past, radius)
+    sign = 1.0 - 2.0 * swap
+    normal = vector_in_world(other, scaled(sign, vector_at(surface, face_at(surface, face))))
+    out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
+    write_vector(out, NORMAL, normal)
+    write_vector(out, near, minus(point_in_world(own, place), scaled(sign * radius, normal)))
+    write_vector(out, far, minus(vector_at(out, near), scaled(sign * gap, normal)))
+    write_tangent(a, out)
+    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
+    write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)

@@ -19,10 +19,12 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, divided, dot, minus, opposite, plus_scaled, scaled, vector_at
-from .edge_crossing import CONE_MARGIN
-from .frames import point_in_world, vector_in_body, vector_in_world
-from .polytope_tables import FACE, LENGTH, faces_of
-from .vertex_face import CLOSED, nearest_of_core, past_face, plane_height
+from ..features.edge_crossing import CONE_MARGIN, Crossing
+from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.polytope_tables import LENGTH
+from ..features.vertex_face import CLOSED
+from .surface_search import FAR, distance_from_ends, face_at, face_height, nearest_in_patch
+from .surface_tables import IS_CONVEX, N_FACES
 
 _COSINE = math.sqrt(1.0 - CONE_MARGIN * CONE_MARGIN)
 """Cosine of the largest angle between a contact normal and the normal of a face next to it."""
@@ -36,57 +38,56 @@ _FLUSH_COSINE = math.sqrt(1.0 - FLUSH * FLUSH)
 
 
 @compiled
-def _nearest_normal(n_faces: float, faces: Floats, n: Vector3) -> tuple[int, float]:
+def _nearest_normal(surface: Floats, n: Vector3) -> tuple[int, float]:
     """Return the row of the face whose normal is nearest to a unit vector, and the cosine of the angle between them.
 
-    The unit vector n is in the axes of the body with the faces.
+    The unit vector n is in the axes of the surface.  The cosine is -1 if the surface has no faces or is not convex.
     """
-    nearest, largest = 0, -1.0
-    for i in range(int(n_faces)):
-        cosine = dot(n, vector_at(faces, FACE * i))
+    nearest, largest = face_at(surface, 0), -1.0
+    for i in range(int(surface[N_FACES] * surface[IS_CONVEX])):
+        row = face_at(surface, i)
+        cosine = dot(n, vector_at(surface, row))
         if cosine > largest:
-            nearest, largest = FACE * i, cosine
+            nearest, largest = row, cosine
     return nearest, largest
 
 
 @compiled
-def _normal_near(frame: Floats, n_faces: float, faces: Floats, n: Vector3) -> Vector3:
+def _normal_near(frame: Floats, surface: Floats, n: Vector3) -> Vector3:
     """Return the normal of the face that is nearest to a unit vector; zero if the angle between them is too large.
 
     Both vectors are in world axes.  The largest angle has the cosine ``_COSINE``.
     """
-    row, cosine = _nearest_normal(n_faces, faces, vector_in_body(frame, n))
+    row, cosine = _nearest_normal(surface, vector_in_body(frame, n))
     if cosine < _COSINE:
         return 0.0, 0.0, 0.0
-    return vector_in_world(frame, vector_at(faces, row))
+    return vector_in_world(frame, vector_at(surface, row))
 
 
 @compiled
-def common_direction(
-    a: Floats,
-    b: Floats,
-    n_faces_a: float,
-    faces_a: Floats,
-    n_faces_b: float,
-    faces_b: Floats,
-    n: Vector3,
-) -> Vector3:
+def common_direction(a: Floats, b: Floats, surface_a: Floats, surface_b: Floats, n: Vector3) -> Vector3:
     """Return the common direction of projection, a unit vector from the first body to the second.
 
-    It is the outward normal of the face of the first body that is nearest to the contact normal.  It is zero if the
-    faces of the two bodies that are nearest to the contact normal do not face each other, or if a body has no faces.
-
-    Parameters
-    ----------
-    a, b : Floats
-        Frame blocks of the two bodies.
-    n_faces_a, faces_a, n_faces_b, faces_b : float and Floats
-        Number and rows of the faces of both cores (:data:`bodies.contacts.features.polytope_tables.FACE`).
-    n : Vector3
-        Contact normal from the first body to the second, in world axes.
+    It is the outward normal of the face of the first body that is nearest to the contact normal n, which points from
+    the first body to the second, in world axes.  It is zero if the faces of the two bodies that are nearest to n do not
+    face each other, if a body has no faces, or if it is not convex.
     """
-    u, v = _normal_near(a, n_faces_a, faces_a, n), _normal_near(b, n_faces_b, faces_b, opposite(n))
+    u, v = _normal_near(a, surface_a, n), _normal_near(b, surface_b, opposite(n))
     return u if dot(u, v) <= -_FLUSH_COSINE else (0.0, 0.0, 0.0)
+
+
+@compiled
+def _past_face(surface: Floats, row: int, height: float, point: Vector3) -> float:
+    """Return the distance of a point's projection on a face of a convex surface past the face's borders [m].
+
+    It is the largest height of the projection over the planes of the other faces, negative inside.  The row of the face
+    begins at index ``row``; ``height`` is the height of the point over it [m], ``point`` is in the axes of the surface.
+    """
+    foot, past = minus(point, scaled(height, vector_at(surface, row))), -math.inf
+    for i in range(int(surface[N_FACES])):
+        if face_at(surface, i) != row:
+            past = max(past, face_height(surface, face_at(surface, i), foot))
+    return past
 
 
 @compiled
@@ -105,7 +106,7 @@ def vertex_past_corner(
     other: Floats,
     is_of_first: bool,
     direction: Vector3,
-    core: Floats,
+    surface: Floats,
     n_star: float,
     star: Floats,
     point: Vector3,
@@ -115,8 +116,7 @@ def vertex_past_corner(
 
     The vertex is a corner if its projection lies on the face of the other body.  If its projection lies outside of the
     face, it is a corner if none of its edges leads towards the face: the bodies then touch with two edges.  The second
-    result is the distance [m] of the projected vertex from the nearer end of the nearest edge, infinite on the face
-    (:data:`bodies.contacts.features.vertex_face.Nearest`).
+    result is the distance [m] of the projected vertex from the nearer end of the nearest edge, infinite on the face.
 
     Parameters
     ----------
@@ -126,8 +126,8 @@ def vertex_past_corner(
         Whether the vertex belongs to the first body.
     direction : tuple of float
         Common direction from the other body to the body with the vertex, in world axes.
-    core : Floats
-        Core of the other body (:func:`bodies.contacts.features.polytope_tables.core_numbers`).
+    surface : Floats
+        Surface of the other body (:mod:`bodies.contacts.surface.surface_tables`).
     n_star, star : float and Floats
         Unit vectors along the edges of the vertex, in the axes of its body.
     point : Vector3
@@ -135,31 +135,31 @@ def vertex_past_corner(
     size : float
         Size of the larger body [m].
     """
-    n_faces, faces = faces_of(core)
     margin, past = CLOSED * size, math.inf
     u = vector_in_body(other, direction)
     normal = u
-    row, cosine = _nearest_normal(n_faces, faces, u)
+    row, cosine = _nearest_normal(surface, u)
     if cosine >= _COSINE:
-        normal = vector_at(faces, row)
-        height = plane_height(faces, row, point)
+        normal = vector_at(surface, row)
+        height = face_height(surface, row, point)
         # move the vertex parallel to the face, so that its foot point becomes its projection along the direction
         point = plus_scaled(point, height, minus(normal, divided(u, cosine)))
-        past = past_face(faces, n_faces, row, height, point)
+        past = _past_face(surface, row, height, point)
     # the outline of the first body is enlarged: its vertices are corners only if they are inside by the margin
     border = -margin if is_of_first else margin
     if past <= border:
         return past - border, math.inf
     if past <= margin:
         return past + margin, math.inf
-    _, distance, x, y, z, within = nearest_of_core(core, point)
-    n = (x, y, z)
-    # the part of n in the plane of the face, from the face to the vertex
-    n = vector_in_body(own, vector_in_world(other, minus(n, scaled(dot(n, normal), normal))))
+    found = nearest_in_patch(surface, 0.0, point, FAR)
+    _, _, _, _, x, y, z = found
+    # from the nearest point to the vertex, and its part in the plane of the face
+    way = minus(point, (x, y, z))
+    way = vector_in_body(own, vector_in_world(other, minus(way, scaled(dot(way, normal), normal))))
     towards = -size
     for i in range(int(n_star)):
-        towards = max(towards, -distance * dot(n, vector_at(star, 3 * i)))
-    return min(towards, past) - margin, within
+        towards = max(towards, -dot(way, vector_at(star, 3 * i)))
+    return min(towards, past) - margin, distance_from_ends(surface, found)
 
 
 @compiled
@@ -171,11 +171,7 @@ def crossing_past_corner(
     at_a: int,
     edges_b: Floats,
     at_b: int,
-    p: Vector3,
-    e: Vector3,
-    f: Vector3,
-    n: Vector3,
-    gap: float,
+    crossing: Crossing,
     size: float,
 ) -> float:
     """Return the distance by which two edges miss a corner of the overlap [m]; zero or negative for a corner.
@@ -189,16 +185,13 @@ def crossing_past_corner(
     direction : tuple of float
         Common direction from the first body to the second, in world axes.
     edges_a, at_a, edges_b, at_b : Floats and int
-        Edges of both cores, and the indices at which the rows of the two edges begin.
-    p : tuple of float
-        Nearest point of the first line in the world [m].
-    e, f, n : tuple of float
-        Unit vectors along the two edges, and the contact normal, in world axes.
-    gap : float
-        Gap of the two lines along the normal [m].
+        Tables with the two edges, and the indices at which their rows begin.
+    crossing : tuple
+        The crossing of the two edges (:func:`bodies.contacts.features.edge_crossing.cross_edges`).
     size : float
         Size of the larger body [m].
     """
+    p, e, f, n, gap, _, _ = crossing
     start_a, start_b = point_in_world(a, vector_at(edges_a, at_a)), point_in_world(b, vector_at(edges_b, at_b))
     sine = dot(direction, cross(e, f))
     margin = CLOSED * size

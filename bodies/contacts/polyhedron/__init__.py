@@ -1,1 +1,0 @@
-"""Boxes and hulls, sharp and rounded."""
