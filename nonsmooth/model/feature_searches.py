@@ -17,6 +17,7 @@ from nonsmooth.binding.source import described
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.heap import Heap
+from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
@@ -103,8 +104,9 @@ def lay_searches(
 ) -> None:
     """Write the searches. ``spheres`` has the bounding sphere of each frame, by the numbers of body and frame.
 
-    The pairs that a search finds are valid until the features have moved too far. These may lie anywhere in their
-    spheres, so their distance from the origin, ``feature_radius``, is taken as the radius of the sphere.
+    The pairs that a search finds are valid until the features have moved too far. Of convex shapes this is known of
+    their pair. Other features may lie anywhere in their spheres, so their distance from the origin, ``feature_radius``,
+    is taken as the radius of the sphere.
     """
     for number, search in enumerate(searches):
         fields = _lay_function(blocks, search)
@@ -114,6 +116,9 @@ def lay_searches(
         fields |= {"row": search.row, "first_contact": search.contacts.start, "n_contacts": len(search.contacts)}
         fields |= {"sphere_a": sphere_a, "sphere_b": sphere_b}
         write_record(memory, owners.Search, number, fields)
+        pair = int(memory[owners.RowRecord.pair][search.row])
+        if pair != NO_PAIR and memory[owners.Pair.is_guarded][pair]:
+            continue
         for sphere in (sphere_a, sphere_b):
             memory[owners.BoundingSphere.feature_radius][sphere] = memory[owners.BoundingSphere.radius][sphere]
 

@@ -135,20 +135,22 @@ def contacts_of(one: Swept, two: Swept) -> tuple[FeaturePair, ...]:
         pairs = [(kind, i, j) for kind, (m, n) in counts.items() for i in range(m) for j in range(n)]
         return tuple(_fixed({**values, "candidate": (*map(float, pair), FAR)}, pair, one, two) for pair in pairs)
     sought = {key: values[key] for key in ("surface_a", "surface_b")}
-    search = CandidateSearch(find_near_features, {**sought, **limits(n_pairs, (one, two))}, counts)
+    search = CandidateSearch(
+        find_near_features, {**sought, **limits(n_pairs, [s.extent for s in (one, two) if s.features.edges])}, counts
+    )
     names = tuple(f"feature {i}" for i in range(max(len(_parts(s.features)) for s in (one, two))))
     made = FeaturePair(evaluate_surfaces, {**values, "candidate": NO_CANDIDATE}, names, search, bound_of_surfaces)
     return (made,) * min(n_pairs, MOST_NEAR)
 
 
-def limits(n_pairs: int, sides: Sequence[Swept]) -> dict[str, Value]:
+def limits(n_pairs: int, extents: Sequence[float]) -> dict[str, Value]:
     """Return the numbers that limit a search (:mod:`bodies.contacts.surface.near_pairs`), by their names.
 
-    A body turns by the margin over its extent.  A ball has no edges that turn.
+    The bodies move by the margin together.  A body turns by its displacement over its extent [m]: the smaller one may
+    turn farther.  ``extents`` are those of the bodies that have edges; a ball does not turn.
     """
-    extents = [side.extent for side in sides if side.features.edges]
-    most, turning = float(min(n_pairs, MOST_NEAR)), sum(0.5 / extent for extent in extents)
-    return {"most": most, "turning": turning, "narrow": NARROW * min(extents)}
+    most = float(min(n_pairs, MOST_NEAR))
+    return {"most": most, "turning": 1.0 / min(extents), "narrow": NARROW * min(extents)}
 
 
 def _fixed(values: dict[str, Value], pair: tuple[float, int, int], one: Swept, two: Swept) -> FeaturePair:

@@ -2,7 +2,7 @@
 
 Two meshes have far more pairs of features than can touch at once. So they share a number of declared contacts, each of
 which holds one pair of features, or none. When the neighbour list is made, the search function of the two shapes finds
-the pairs that are nearer than the margin of the list. A pair that has a contact keeps it, with mode and slip. An open
+the pairs that are near each other. A pair that has a contact keeps it, with mode and slip. An open
 contact whose pair was not found is emptied. The other pairs that were found fill empty contacts.
 
 Behind its features each contact stores the largest distance that they may have while the list holds.
@@ -10,12 +10,17 @@ Behind its features each contact stores the largest distance that they may have 
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.declared import features_of, history_of
 from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import Search, Workspace, at, call_pair, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
+_LEAST_REACH = 2.0**-16
+"""Least reach of a pair, relative to the size of the smaller part, if there are more features than contacts."""
 _NOT_A_NUMBER = -1
 """Number of pairs in place of one that is negative or not finite."""
 
@@ -68,29 +73,64 @@ def _match(ws: Workspace, row: int, declared: int, found: int, n_found: int) -> 
 
 @kernel("Status(ws)")
 def find_candidates(ws: Workspace) -> Status:
-    """Assign the pairs of features that are nearer than the margin of the neighbour list to declared contacts.
+    """Assign the pairs of features that are near each other to declared contacts.
 
-    A search has as many contacts as two shapes may need at once; their pairs of features change. Status: ``RUNNING``,
-    ``NO_SLOT`` if there are more pairs than contacts, so that the margin must be reduced, ``NOT_FINITE`` if a search
-    fails.
+    A search has as many contacts as two shapes may need at once; their pairs of features change. Near is within the
+    margin of the neighbour list, or within the displacement of a pair of convex parts up to which the list is valid;
+    the latter is reduced as long as there are more pairs than contacts. Status: ``RUNNING``, ``NO_SLOT`` if the margin
+    of the list must be reduced, ``NOT_FINITE`` if a search fails.
     """
     for search in ws.searches:
-        n_found = _find(ws, search)
-        if n_found == _NOT_A_NUMBER:
-            return Status.NOT_FINITE
-        if n_found > search.n_contacts:
-            return Status.NO_SLOT
-        end = search.first_contact + search.n_contacts
-        # the pairs follow the number of pairs in the output of the search
-        for declared in range(search.first_contact, end):
-            if not has_no_features(ws, search.row, declared):
-                _match(ws, search.row, declared, search.out + 1, n_found)
-        # closed contacts keep pairs that were not found, so that the others may be too few
-        if not _fill_empty(ws, search, n_found):
-            return Status.NO_SLOT
-        for declared in range(search.first_contact, end):
-            # largest distance of a pair while the list holds: the margin, and half of it for each body to move
-            ws.floats[features_of(ws, search.row, declared) + CANDIDATE] = 2.0 * ws.island.list_margin
+        status = _assign(ws, search)
+        while status == Status.NO_SLOT and _narrows(ws, search):
+            status = _assign(ws, search)
+        if status != Status.RUNNING:
+            return status
+    return Status.RUNNING
+
+
+@kernel("b1(ws, Search)")
+def _narrows(ws: Workspace, search: Search) -> bool:
+    """Reduce the reach of the pair of a search to half, so that fewer features are within it; False at the least."""
+    if not _is_of_pair(ws, search):
+        return False
+    pair = ws.pairs[ws.rows[search.row].pair]
+    pair.reach *= 0.5
+    return bool(pair.reach > _LEAST_REACH * pair.size)
+
+
+@kernel("b1(ws, Search)")
+def _is_of_pair(ws: Workspace, search: Search) -> bool:
+    """True if the displacement of a pair of convex parts limits the time for which the features found are enough."""
+    pair = ws.rows[search.row].pair
+    return pair != NO_PAIR and ws.pairs[pair].is_guarded and ws.pairs[pair].reach < math.inf
+
+
+@kernel("f8(ws, Search)")
+def _margin(ws: Workspace, search: Search) -> float:
+    """Largest gap of the features that a search looks for: the reach of its pair, else the margin of the list [m]."""
+    return ws.pairs[ws.rows[search.row].pair].reach if _is_of_pair(ws, search) else ws.island.list_margin
+
+
+@kernel("Status(ws, Search)")
+def _assign(ws: Workspace, search: Search) -> Status:
+    """Assign the pairs of features that a search finds to its contacts; status as in :func:`find_candidates`."""
+    n_found = _find(ws, search)
+    if n_found == _NOT_A_NUMBER:
+        return Status.NOT_FINITE
+    if n_found > search.n_contacts:
+        return Status.NO_SLOT
+    end = search.first_contact + search.n_contacts
+    # the pairs follow the number of pairs in the output of the search
+    for declared in range(search.first_contact, end):
+        if not has_no_features(ws, search.row, declared):
+            _match(ws, search.row, declared, search.out + 1, n_found)
+    # closed contacts keep pairs that were not found, so that the others may be too few
+    if not _fill_empty(ws, search, n_found):
+        return Status.NO_SLOT
+    for declared in range(search.first_contact, end):
+        # largest gap of a pair while the list holds: the margin, and as much for the bodies to move
+        ws.floats[features_of(ws, search.row, declared) + CANDIDATE] = 2.0 * _margin(ws, search)
     return Status.RUNNING
 
 
@@ -98,13 +138,15 @@ def find_candidates(ws: Workspace) -> Status:
 def _find(ws: Workspace, search: Search) -> int:
     """Call a search for pairs of features if its shapes are near each other.
 
-    Number of pairs that it found, 0 if the shapes are not near, or ``_NOT_A_NUMBER`` if the function gave a negative or
-    undefined number. The function reads the margin [m] at ``search.out``, where it writes the number of pairs. The
-    pairs follow.
+    Number of pairs that it found, 0 if the shapes are not near or known to be apart, or ``_NOT_A_NUMBER`` if the
+    function gave a negative or undefined number. The function reads the margin [m] at ``search.out``, where it writes
+    the number of pairs. The pairs follow.
     """
-    if not are_near(ws, search.sphere_a, search.sphere_b):
+    pair = ws.rows[search.row].pair
+    is_apart = pair != NO_PAIR and ws.pairs[pair].is_apart
+    if is_apart or not are_near(ws, search.sphere_a, search.sphere_b):
         return 0
-    ws.floats[search.out] = ws.island.list_margin
+    ws.floats[search.out] = _margin(ws, search)
     a, b = at(ws.floats, ws.spheres[search.sphere_a].frame), at(ws.floats, ws.spheres[search.sphere_b].frame)
     call_pair(search.function, a, b, at(ws.floats, search.parameters), at(ws.floats, search.out))
     # NaN fails the comparison, too
