@@ -10,16 +10,12 @@ from .contacts.frustum.frustum_sphere import FrustumSphere as FrustumSphere
 from .contacts.frustum.frustum_swept import FrustumSwept as FrustumSwept
 from .contacts.mesh.frustum_mesh import FrustumMesh as FrustumMesh
 from .contacts.mesh.mesh_smooth import MeshSmooth as MeshSmooth
-from .contacts.plane.plane_ball import PlaneCapsule as PlaneCapsule
-from .contacts.plane.plane_ball import PlaneMesh as PlaneMesh
-from .contacts.plane.plane_ball import PlanePolyhedron as PlanePolyhedron
 from .contacts.plane.plane_ball import PlaneSphere as PlaneSphere
+from .contacts.plane.plane_ball import PlaneSurface as PlaneSurface
 from .contacts.plane.plane_ball import PlaneVertex as PlaneVertex
 from .contacts.plane.plane_frustum import PlaneFrustum as PlaneFrustum
 from .contacts.plane.plane_smooth import PlaneEllipsoid as PlaneEllipsoid
 from .contacts.plane.plane_smooth import PlaneSmooth as PlaneSmooth
-from .contacts.round.box_sphere import BoxSphere as BoxSphere
-from .contacts.round.capsule_sphere import CapsuleSphere as CapsuleSphere
 from .contacts.round.sphere_sphere import SphereSphere as SphereSphere
 from .contacts.smooth.polytope_smooth import CapsuleSmooth as CapsuleSmooth
 from .contacts.smooth.polytope_smooth import PolyhedronSmooth as PolyhedronSmooth

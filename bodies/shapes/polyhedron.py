@@ -32,6 +32,11 @@ class SweptPolytope(ConvexShape, SurfaceShape):
         return self.core.features
 
     @property
+    def corners(self) -> Vector:
+        """Vertices of the core in the body frame [m], shape [n, 3]."""
+        return np.array(self.core.vertices)
+
+    @property
     def parts(self) -> tuple[ConvexPart, ...]:
         """One convex part: the hull of the vertices, with all points within the radius ``sweep``."""
         return (ConvexPart.of_points(np.array(self.core.vertices), self.sweep),)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 
 from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.body import Vector
 
 from ..meshes.features import Features
 
@@ -25,3 +26,8 @@ class SurfaceShape(Shape):
     @abstractmethod
     def sweep(self) -> float:
         """Distance of the shape's own surface from the features [m]; 0 for a sharp shape."""
+
+    @property
+    @abstractmethod
+    def corners(self) -> Vector:
+        """Corners of the convex hull of the surface in the body frame [m], shape [n, 3]."""

@@ -19,7 +19,7 @@ import fcl
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, MeshMesh, MeshSwept, TriangleMesh, Triangles
+from bodies import Box, SurfaceSurface, TriangleMesh, Triangles
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Shape
 from tests.bodies.meshes.parts import box, hills, torus
@@ -47,8 +47,7 @@ def _row(
 ) -> str:
     """Return the row of a body; ``height`` is what its frame is over the hills, for its axes [m]."""
     surface = TriangleMesh(Triangles(*ground))
-    kind = MeshMesh if isinstance(shape, TriangleMesh) else MeshSwept
-    contacts = kind.between(surface, shape)
+    contacts = SurfaceSurface.between(surface, shape)
     search = contacts[0].candidates
     assert search is not None
     find = pair_caller(search.function, search.values, name)

@@ -9,16 +9,14 @@ from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.notices import warn
 from nonsmooth.parameters import UnusualValue, Value
 
-from ...shapes.capsule import Capsule
 from ...shapes.ground import Ground
 from ...shapes.point import Point
-from ...shapes.polyhedron import Polyhedron
 from ...shapes.sphere import Sphere
-from ...shapes.triangle_mesh import TriangleMesh
+from ...shapes.surface_shape import SurfaceShape
 from .plane_point import evaluate_ball_over_plane
 
 MANY = 200
-"""Number of corners of a mesh above which a warning says what they cost."""
+"""Number of corners of a surface above which a warning says what they cost."""
 
 
 def ball_over_plane(plane: Shape, radius: float, center: Sequence[float], name: str) -> FeaturePair:
@@ -57,50 +55,25 @@ class PlaneVertex(ContactKinematics):
 
 
 @final
-class PlaneCapsule(ContactKinematics):
-    """A capsule over a plane: a contact of each end sphere; both hold a capsule that lies."""
+class PlaneSurface(ContactKinematics):
+    """A box, hull, capsule or mesh over a plane: a contact of each corner of its convex hull, with its radius.
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Capsule)
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
-        """Return the contacts of the two end spheres, first the one against the axis."""
-        assert isinstance(second, Capsule)
-        return tuple(ball_over_plane(first, second.radius, end, "end") for end in second.ends)
-
-
-@final
-class PlanePolyhedron(ContactKinematics):
-    """A polyhedron over a plane: a contact of each vertex, which is a ball if the polyhedron is rounded."""
-
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, Polyhedron)
-
-    @classmethod
-    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
-        """Return the contacts of all vertices."""
-        assert isinstance(second, Polyhedron)
-        return tuple(ball_over_plane(first, second.rounding, vertex, "vertex") for vertex in second.core.vertices)
-
-
-@final
-class PlaneMesh(ContactKinematics):
-    """A triangle mesh over a plane: a contact of each corner of its convex hull.
-
-    That is exact for any mesh, convex or not: no other point of the mesh is nearer to a plane.
+    That is exact for any surface, convex or not: no other point of it is nearer to a plane.  A capsule has two corners,
+    its ends, which hold it when it lies.
     """
 
-    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, TriangleMesh)
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Ground, SurfaceShape)
 
     @classmethod
     def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
         """Return the contacts of the corners."""
-        assert isinstance(second, TriangleMesh)
+        assert isinstance(second, SurfaceShape)
         corners = second.corners.tolist()
         if len(corners) > MANY:
             warn(
-                f"mesh {second.surface.mesh.name}: its hull has {len(corners)} corners, each a contact of its own with "
-                "a plane, and every step looks at all of them. Is it a rounded body? Take a coarser mesh, or a shape "
-                "in closed form (Sphere, Ellipsoid, Cylinder, ...), which is exact and has one contact.",
+                f"{type(second).__name__}: its hull has {len(corners)} corners. Each is a contact of its own with a "
+                "plane, and every step looks at all of them. Is it a rounded body? Take a coarser mesh, or a shape in "
+                "closed form (Sphere, Ellipsoid, Cylinder, ...), which is exact and has one contact.",
                 UnusualValue,
             )
-        return tuple(ball_over_plane(first, 0.0, corner, "vertex") for corner in corners)
+        return tuple(ball_over_plane(first, second.sweep, corner, "vertex") for corner in corners)

@@ -115,7 +115,8 @@ def _margin(ws: Workspace, search: Search) -> float:
 @kernel("Status(ws, Search)")
 def _assign(ws: Workspace, search: Search) -> Status:
     """Assign the pairs of features that a search finds to its contacts; status as in :func:`find_candidates`."""
-    n_found = _find(ws, search)
+    pair = ws.rows[search.row].pair
+    n_found = 0 if pair != NO_PAIR and ws.pairs[pair].is_apart else _find(ws, search)
     if n_found == _NOT_A_NUMBER:
         return Status.NOT_FINITE
     if n_found > search.n_contacts:
@@ -134,17 +135,24 @@ def _assign(ws: Workspace, search: Search) -> Status:
     return Status.RUNNING
 
 
+@kernel("Status(ws)")
+def try_searches(ws: Workspace) -> Status:
+    """Call all searches of shapes near each other, apart or not: ``NOT_FINITE`` if one fails, else ``RUNNING``."""
+    for search in ws.searches:
+        if _find(ws, search) == _NOT_A_NUMBER:
+            return Status.NOT_FINITE
+    return Status.RUNNING
+
+
 @kernel("i8(ws, Search)")
 def _find(ws: Workspace, search: Search) -> int:
     """Call a search for pairs of features if its shapes are near each other.
 
-    Number of pairs that it found, 0 if the shapes are not near or known to be apart, or ``_NOT_A_NUMBER`` if the
-    function gave a negative or undefined number. The function reads the margin [m] at ``search.out``, where it writes
+    Number of pairs that it found, 0 if the shapes are not near, or ``_NOT_A_NUMBER`` if the function gave a negative or
+    undefined number. The function reads the margin [m] at ``search.out``, where it writes
     the number of pairs. The pairs follow.
     """
-    pair = ws.rows[search.row].pair
-    is_apart = pair != NO_PAIR and ws.pairs[pair].is_apart
-    if is_apart or not are_near(ws, search.sphere_a, search.sphere_b):
+    if not are_near(ws, search.sphere_a, search.sphere_b):
         return 0
     ws.floats[search.out] = _margin(ws, search)
     a, b = at(ws.floats, ws.spheres[search.sphere_a].frame), at(ws.floats, ws.spheres[search.sphere_b].frame)

@@ -35,7 +35,7 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 from nonsmooth.engine.pairs.apart import find_apart
-from nonsmooth.engine.pairs.candidates import are_near, find_candidates, has_no_features
+from nonsmooth.engine.pairs.candidates import are_near, find_candidates, has_no_features, try_searches
 from nonsmooth.engine.pairs.motion import speed_of_parts
 from nonsmooth.engine.pairs.overlaps import displacement_bound, known_separation
 
@@ -205,8 +205,12 @@ def list_near(ws: Workspace) -> Status:
 
 @entry_point("Status(ws)")
 def list_touching(ws: Workspace) -> Status:
-    """List the contacts of bodies near each other, except of guarded pairs that are apart; return the status."""
-    return list_with(ws, NO_PAIR)
+    """List the contacts of bodies near each other, except of guarded pairs that are apart; return the status.
+
+    A search for features that fails is found here, also if its shapes are apart.
+    """
+    status = list_with(ws, NO_PAIR)
+    return try_searches(ws) if status == Status.RUNNING else status
 
 
 @kernel("Status(ws, i8)")

@@ -192,7 +192,7 @@ def test_many_corners_are_warned_of(build: Any) -> None:
     ball = trimesh.creation.icosphere(subdivisions=3)
     floor, body = Plate(), MeshBody(Triangles(0.01 * ball.vertices, ball.faces, "ball"))
     system = ns.System([floor, body])
-    with pytest.warns(UnusualValue, match=r"ball: its hull has 642 corners.*Sphere"):
+    with pytest.warns(UnusualValue, match=r"TriangleMesh: its hull has 642 corners.*Sphere"):
         system.contact(floor, body, **build.laws())
 
 
