@@ -6,9 +6,9 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, dot, plus_scaled, vector_at, write_vector
-from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine
-from ..features.frames import point_in_body
+from ...vectors import Vector3, cross, dot, minus, norm, plus_scaled, vector_at, write_vector
+from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine, sine_off_cone
+from ..features.frames import point_in_body, point_in_world
 from ..features.polytope_tables import ALONG, INTO_FIRST, LENGTH
 from ..features.vertex_face import CLOSED
 from ..features.writing import gap_past_end, write_principal
@@ -18,6 +18,12 @@ from .surface_near import seen_from
 from .surface_search import beyond_ends
 from .surface_tables import IS_CONVEX, N_FACES, SWEEP
 from .surface_vertex import past_depth, separation_of_faces
+
+_FLUSH = 1e-5
+"""Sine of the angle between the common normal of two edges and a face's normal, up to which they count as equal.
+
+The face is adjacent to one of the edges.
+"""
 
 
 @compiled
@@ -76,6 +82,61 @@ def _past_overlap(
 
 
 @compiled
+def _past_flush(
+    a: Floats,
+    b: Floats,
+    surface_a: Floats,
+    row_a: int,
+    surface_b: Floats,
+    row_b: int,
+    crossing: Crossing,
+    size: float,
+) -> float:
+    """Return a positive distance if two sharp edges lie flush in faces that touch, else a negative one [m].
+
+    Then the vertices over the faces touch, and not the edges: each corner of the overlap has one contact.  Edges are
+    flush if they are so nearly parallel that the ends of the shorter one are within the margin ``CLOSED`` of the other,
+    and if a face separates the bodies as well as their common normal, which is normal to a face of an edge within
+    ``_FLUSH``.  Of surfaces that are not convex this is not known.
+    """
+    _, e, f, n, gap, _, _ = crossing
+    margin = CLOSED * size
+    ends_apart = min(surface_a[row_a + LENGTH], surface_b[row_b + LENGTH]) * norm(cross(e, f))
+    off_cone = max(sine_off_cone(a, surface_a, row_a, 1.0, n), sine_off_cone(b, surface_b, row_b, -1.0, n))
+    are_convex = surface_a[IS_CONVEX] * surface_b[IS_CONVEX] > 0.0
+    if not (are_convex and ends_apart < margin and off_cone > -_FLUSH):
+        return -margin
+    best = max(separation_of_faces(a, b, surface_a, surface_b), separation_of_faces(b, a, surface_b, surface_a))
+    return margin - ends_apart if best >= gap - margin else -margin
+
+
+@compiled
+def _past_sharp_ends(
+    a: Floats,
+    b: Floats,
+    surface_a: Floats,
+    row_a: int,
+    surface_b: Floats,
+    row_b: int,
+    crossing: Crossing,
+    size: float,
+) -> float:
+    """Return how far two sharp edges that cross are past their ends [m]; negative if they may touch.
+
+    The first edge is enlarged by a margin, the second one is shortened: each corner of the overlap of flush faces is
+    one contact, of a vertex of the second body, of edges, or of a vertex of the first body.
+    """
+    p, e, f, n, gap, _, _ = crossing
+    s = dot(minus(p, point_in_world(a, vector_at(surface_a, row_a))), e)
+    t = dot(minus(plus_scaled(p, gap, n), point_in_world(b, vector_at(surface_b, row_b))), f)
+    past_a, past_b = max(-s, s - surface_a[row_a + LENGTH]), max(-t, t - surface_b[row_b + LENGTH])
+    past = max(past_a - CLOSED * size, past_b + CLOSED * size)
+    if past > 0.0:
+        return float(past)
+    return float(max(past, _past_flush(a, b, surface_a, row_a, surface_b, row_b, crossing, size)))
+
+
+@compiled
 def _past_ends(
     a: Floats,
     b: Floats,
@@ -86,17 +147,15 @@ def _past_ends(
     crossing: Crossing,
     size: float,
 ) -> float:
-    """Return how far two edges that cross apart are past their ends [m]; negative if their contact is valid.
+    """Return how far two rounded edges whose cores are apart are past their ends [m]; negative if they may touch.
 
-    Rounded edges end before their corners.  Bodies on springs overlap: then the corners of the overlap touch, else the
+    The edges end before their corners.  Bodies on springs overlap: then the corners of the overlap touch, else the
     nearest features.
     """
     _, _, _, n, gap, past_ends, _ = crossing
     radius = surface_a[SWEEP] + surface_b[SWEEP]
-    if radius == 0.0:
-        return past_ends - CLOSED * size
     past, fraction = past_ends + END * size, part_of_overlap(radius - gap, size)
-    if fraction > 0.0:
+    if fraction > 0.0 and gap >= 0.0:
         u = common_direction(a, b, surface_a, surface_b, n)
         if dot(u, u) > 0.0:
             past_corner = crossing_past_corner(a, b, u, surface_a, row_a, surface_b, row_b, crossing, size)
@@ -128,13 +187,13 @@ def write_edges(
     parallel = least_sine(size) if radius == 0.0 else least_round_sine(radius, size)
     # the margin ``size`` skips the test of the ends of the edges, which follows
     crossing = cross_edges(a, b, surface_a, row_a, surface_b, row_b, parallel, size, size)
-    p, e, f, n, gap, past_ends, past = crossing
-    if past <= 0.0 and gap >= 0.0:
-        past = max(past, _past_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
+    p, e, f, n, gap, _, past = crossing
+    if past <= 0.0 and radius == 0.0:
+        past = _past_sharp_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size)
     elif past <= 0.0:
-        past = max(past, past_ends + (END if radius > 0.0 else -CLOSED) * size)
-        if past <= 0.0:
-            past = max(past, _past_overlap(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
+        past = _past_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size)
+    if past <= 0.0 and gap < 0.0:
+        past = max(past, _past_overlap(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
     gap = gap_past_end(gap - radius, past)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     write_vector(out, NORMAL, n)
