@@ -6,9 +6,9 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, cross, dot, minus, norm, plus_scaled, vector_at, write_vector
+from ...vectors import Vector3, cross, dot, norm, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine, sine_off_cone
-from ..features.frames import point_in_body, point_in_world
+from ..features.frames import point_in_body
 from ..features.polytope_tables import ALONG, INTO_FIRST, LENGTH
 from ..features.vertex_face import CLOSED
 from ..features.writing import gap_past_end, write_principal
@@ -111,32 +111,6 @@ def _past_flush(
 
 
 @compiled
-def _past_sharp_ends(
-    a: Floats,
-    b: Floats,
-    surface_a: Floats,
-    row_a: int,
-    surface_b: Floats,
-    row_b: int,
-    crossing: Crossing,
-    size: float,
-) -> float:
-    """Return how far two sharp edges that cross are past their ends [m]; negative if they may touch.
-
-    The first edge is enlarged by a margin, the second one is shortened: each corner of the overlap of flush faces is
-    one contact, of a vertex of the second body, of edges, or of a vertex of the first body.
-    """
-    p, e, f, n, gap, _, _ = crossing
-    s = dot(minus(p, point_in_world(a, vector_at(surface_a, row_a))), e)
-    t = dot(minus(plus_scaled(p, gap, n), point_in_world(b, vector_at(surface_b, row_b))), f)
-    past_a, past_b = max(-s, s - surface_a[row_a + LENGTH]), max(-t, t - surface_b[row_b + LENGTH])
-    past = max(past_a - CLOSED * size, past_b + CLOSED * size)
-    if past > 0.0:
-        return float(past)
-    return float(max(past, _past_flush(a, b, surface_a, row_a, surface_b, row_b, crossing, size)))
-
-
-@compiled
 def _past_ends(
     a: Floats,
     b: Floats,
@@ -147,13 +121,18 @@ def _past_ends(
     crossing: Crossing,
     size: float,
 ) -> float:
-    """Return how far two rounded edges whose cores are apart are past their ends [m]; negative if they may touch.
+    """Return how far two edges that cross are past their ends [m]; negative if they may touch.
 
-    The edges end before their corners.  Bodies on springs overlap: then the corners of the overlap touch, else the
+    Sharp edges touch up to a margin past their ends, rounded ones end before their corners.  Bodies on springs overlap: then the corners of the overlap touch, else the
     nearest features.
     """
     _, _, _, n, gap, past_ends, _ = crossing
     radius = surface_a[SWEEP] + surface_b[SWEEP]
+    if radius == 0.0:
+        past = past_ends - CLOSED * size
+        if past <= 0.0:
+            past = max(past, _past_flush(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
+        return past
     past, fraction = past_ends + END * size, part_of_overlap(radius - gap, size)
     if fraction > 0.0 and gap >= 0.0:
         u = common_direction(a, b, surface_a, surface_b, n)
@@ -188,9 +167,7 @@ def write_edges(
     # the margin ``size`` skips the test of the ends of the edges, which follows
     crossing = cross_edges(a, b, surface_a, row_a, surface_b, row_b, parallel, size, size)
     p, e, f, n, gap, _, past = crossing
-    if past <= 0.0 and radius == 0.0:
-        past = _past_sharp_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size)
-    elif past <= 0.0:
+    if past <= 0.0:
         past = _past_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size)
     if past <= 0.0 and gap < 0.0:
         past = max(past, _past_overlap(a, b, surface_a, row_a, surface_b, row_b, crossing, size))

@@ -182,7 +182,6 @@ def face_under(
     n_star: float,
     star: Floats,
     reach: float,
-    margin: float,
 ) -> tuple[int, float, float]:
     """Return face, gap and distance past the end [m] for a vertex of the other body and a patch in ``frame``.
 
@@ -192,11 +191,12 @@ def face_under(
     negative one is kept.  If no face is within ``reach`` [m], gap and
     distance past the end are ``reach``.
 
-    ``place`` is the vertex in the axes of its body [m]; ``star`` holds unit vectors along its ``n_star`` edges.  A
-    vertex up to ``margin`` past the border of a face is over it [m].
+    ``place`` is the vertex in the axes of its body [m]; ``star`` holds unit vectors along its ``n_star`` edges.
     """
     point = point_in_body(frame, point_in_world(other, place))
     size = surface[SIZE]
+    # a point by itself has no edges beside it
+    margin = (CLOSED if n_star > 0.0 else REACH) * size
     best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
     # the least deep face above the vertex, if it is inside of the body
     depth, depth_past, depth_face = math.inf, 0.0, -1
@@ -250,11 +250,7 @@ def write_sharp_corner(
     """
     own, other = (a, b) if swap == 1.0 else (b, a)
     near, far = (POINT_A, POINT_B) if swap == 1.0 else (POINT_B, POINT_A)
-    # of flush bodies the outline of the first one is enlarged: each corner of their overlap is one contact.  A point by
-    # itself has no edges beside it
-    margin = (CLOSED if n_star > 0.0 else REACH) * surface[SIZE]
-    margin = -margin if swap == 1.0 and n_star > 0.0 else margin
-    face, gap, past = face_under(other, own, surface, patch, place, n_star, star, reach, margin)
+    face, gap, past = face_under(other, own, surface, patch, place, n_star, star, reach)
     if radius > 0.0:
         gap = gap_at_distance(gap, past, radius)
     sign = 1.0 - 2.0 * swap
