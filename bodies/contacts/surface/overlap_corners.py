@@ -20,7 +20,7 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, divided, dot, minus, opposite, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN, Crossing
-from ..features.frames import point_in_world, vector_in_body, vector_in_world
+from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.polytope_tables import LENGTH
 from ..features.vertex_face import CLOSED
 from .surface_search import FAR, distance_from_ends, face_at, face_height, nearest_in_patch
@@ -160,6 +160,37 @@ def vertex_past_corner(
     for i in range(int(n_star)):
         towards = max(towards, -dot(way, vector_at(star, 3 * i)))
     return min(towards, past) - margin, distance_from_ends(surface, found)
+
+
+@compiled
+def corner_of_overlap(
+    a: Floats,
+    b: Floats,
+    swap: float,
+    surface: Floats,
+    own: Floats,
+    place: Vector3,
+    n_star: float,
+    star: Floats,
+    n: Vector3,
+    size: float,
+) -> tuple[bool, float, float]:
+    """Return whether two bodies overlap with flush faces, and by how much a vertex misses a corner of their overlap.
+
+    The last two numbers are those of :func:`vertex_past_corner` [m].  The vertex at ``place`` belongs to the body with
+    the surface ``own``, the first one if ``swap`` is 1; ``surface`` is that of the other body.  The contact normal n
+    points from the first body to the second, in world axes.
+    """
+    own_frame, other = (a, b) if swap == 1.0 else (b, a)
+    first, second = (own, surface) if swap == 1.0 else (surface, own)
+    u = common_direction(a, b, first, second, n)
+    if dot(u, u) == 0.0:
+        return False, 0.0, math.inf
+    point = point_in_body(other, point_in_world(own_frame, place))
+    # from the other body to that of the vertex
+    u = scaled(1.0 - 2.0 * swap, u)
+    past, within = vertex_past_corner(own_frame, other, swap == 1.0, u, surface, n_star, star, point, size)
+    return True, past, within
 
 
 @compiled

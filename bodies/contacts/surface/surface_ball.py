@@ -13,7 +13,7 @@ from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
 from ..features.polytope_tables import ALONG
 from ..features.writing import gap_past_end, write_flat, write_principal, write_round
-from .overlap_corners import common_direction, part_of_overlap, vertex_past_corner
+from .overlap_corners import corner_of_overlap, part_of_overlap
 from .surface_search import ON_EDGE, ON_FACE, Found, distance_from_ends, edge_at, face_at, nearest_in_patch
 from .surface_tables import N_EDGES, N_FACES, N_PATCHES, SIZE, SWEEP
 
@@ -199,15 +199,10 @@ def write_round_corner(
     # bodies on springs overlap: then the corners of the overlap touch, else the nearest features
     part = part_of_overlap(-gap, size)
     if distance > 0.0 and part > 0.0:
-        # the contact normal and the common direction u point from the first body to the second
-        sign = 1.0 - 2.0 * swap
-        first, second = (own, surface) if swap == 1.0 else (surface, own)
-        u = common_direction(a, b, first, second, scaled(sign, n))
-        if dot(u, u) > 0.0:
-            past_corner, within = vertex_past_corner(
-                own_frame, other, swap == 1.0, scaled(sign, u), surface, n_star, star, point, size
-            )
-            past_own = (1.0 - part) * past_own + part * past_corner
+        normal = scaled(1.0 - 2.0 * swap, n)
+        are_flush, past_corner, ends = corner_of_overlap(a, b, swap, surface, own, place, n_star, star, normal, size)
+        if are_flush:
+            past_own, within = (1.0 - part) * past_own + part * past_corner, ends
         elif _is_along_side(own_frame, other, surface, found, n_star, star):
             # a side along a side touches with both ends, also if it tilts
             past_own = (1.0 - part) * past_own - part * size

@@ -123,24 +123,23 @@ def _past_ends(
 ) -> float:
     """Return how far two edges that cross are past their ends [m]; negative if they may touch.
 
-    Sharp edges touch up to a margin past their ends, rounded ones end before their corners.  Bodies on springs overlap: then the corners of the overlap touch, else the
-    nearest features.
+    Sharp edges touch up to a margin past their ends, rounded ones end before their corners.  Bodies on springs overlap:
+    then the corners of the overlap touch.
     """
     _, _, _, n, gap, past_ends, _ = crossing
     radius = surface_a[SWEEP] + surface_b[SWEEP]
-    if radius == 0.0:
-        past = past_ends - CLOSED * size
-        if past <= 0.0:
-            past = max(past, _past_flush(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
-        return past
-    past, fraction = past_ends + END * size, part_of_overlap(radius - gap, size)
-    if fraction > 0.0 and gap >= 0.0:
+    past = past_ends + (END if radius > 0.0 else -CLOSED) * size
+    fraction = part_of_overlap(radius - gap, size)
+    # rounded edges whose cores overlap are as deep as sharp ones never are
+    if fraction > 0.0 and (gap >= 0.0 or radius == 0.0):
         u = common_direction(a, b, surface_a, surface_b, n)
         if dot(u, u) > 0.0:
             past_corner = crossing_past_corner(a, b, u, surface_a, row_a, surface_b, row_b, crossing, size)
             # a tilt moves the nearest points of nearly parallel edges far past the ends: farther than a quarter of the
-            # gap of the cores, the contact ends
-            past = (1.0 - fraction) * past + fraction * max(past_corner, past_ends - CONE_MARGIN * gap)
+            # gap of the lines, the contact ends
+            past = (1.0 - fraction) * past + fraction * max(past_corner, past_ends - CONE_MARGIN * abs(gap))
+    if past <= 0.0 and radius == 0.0:
+        past = max(past, _past_flush(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
     return past
 
 

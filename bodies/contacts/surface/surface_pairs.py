@@ -6,15 +6,18 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
 from nonsmooth.interfaces import CandidateSearch, FeaturePair
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball
+from ...vectors import vector_at
 from ..features.bounds import edges_bound
 from ..features.writing import NO_CANDIDATE, write_apart
 from .near_pairs import find_near_features
+from .overlap_corners import corner_of_overlap, part_of_overlap
 from .surface_ball import write_round_corner
 from .surface_edges import write_edges
 from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND, seen_from
@@ -45,12 +48,18 @@ def _write_corner(
 
     If both bodies are sharp, the corner touches faces only.  Else it is a ball, or a point near a round surface.
     """
-    radius = surface[SWEEP] + own[SWEEP]
+    radius, (place, n_star, star) = surface[SWEEP] + own[SWEEP], corner_at(own, corner)
     if radius > 0.0:
-        place, n_star, star = corner_at(own, corner)
         write_round_corner(a, b, out, swap, surface, float(patch), own, place, n_star, star, size, margin + radius)
-    else:
-        write_sharp_corner(a, b, out, swap, surface, float(patch), *corner_at(own, corner), margin, 0.0)
+        return
+    write_sharp_corner(a, b, out, swap, surface, float(patch), place, n_star, star, margin, 0.0)
+    part = part_of_overlap(-out[GAP], size)
+    if part > 0.0:
+        # bodies on springs overlap: then the corners of the overlap touch
+        n = vector_at(out, NORMAL)
+        is_known, past_corner, _ = corner_of_overlap(a, b, swap, surface, own, place, n_star, star, n, size)
+        if is_known:
+            out[PAST_END] = (1.0 - part) * out[PAST_END] + part * past_corner
 
 
 def evaluate_surfaces(
