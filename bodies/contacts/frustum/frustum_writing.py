@@ -27,8 +27,6 @@ from .frustum import (
     nearest_part,
     on_axis_in_world,
     separation_by_second,
-    separation_over_caps,
-    separation_over_faces,
     write_part,
 )
 
@@ -225,33 +223,16 @@ def off_cone_of_edge(b: Floats, edge: Floats, axes: Axes, normal: Vector3) -> fl
 
 
 @compiled
-def past_end(
-    a: Floats,
-    b: Floats,
-    frustum: Floats,
-    core: Floats,
-    is_convex: bool,
-    gap: float,
-    past_ends: float,
-    sine: float,
-    off_cone: float,
-    size: float,
-) -> float:
+def past_end(past_ends: float, sine: float, off_cone: float, size: float) -> float:
     """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
     The features are an edge of the second body, and a rim or a side of the first.  A crossing has no definite point if
-    both features are parallel.  A negative gap of convex bodies is not valid if the cores overlap less along the normal
-    of a cap of the frustum or of a face of the core: another contact then separates the bodies.
+    both features are parallel.
 
-    ``core`` is the core with the edge, which is used only if the second body ``is_convex``.  ``gap`` is the gap of the
-    cores, ``past_ends`` the distance past the ends of the edge and of the rim or side [m].  ``sine`` is the sine of the
+    ``past_ends`` is the distance past the ends of the edge and of the rim or side [m].  ``sine`` is the sine of the
     angle between the two features, ``off_cone`` that between the contact normal and the normal cones of the features.
     """
-    past = max(past_ends - REACH * size, size * max(PARALLEL - sine, off_cone - CONE_MARGIN))
-    if past <= 0.0 and gap < -REACH * size and is_convex:
-        best = max(separation_over_faces(a, b, frustum, core), separation_over_caps(a, b, frustum, core))
-        past = max(past, best - gap - REACH * size)
-    return past
+    return max(past_ends - REACH * size, size * max(PARALLEL - sine, off_cone - CONE_MARGIN))
 
 
 @compiled
@@ -263,7 +244,6 @@ def write_crossing(
     axes: Axes,
     edge: Floats,
     radius: float,
-    is_convex: bool,
     distance: float,
     past: float,
     sine: float,
@@ -274,7 +254,7 @@ def write_crossing(
 
     The point of crossing moves up to 1 / sine times as fast as the bodies, with the sine of the angle between both
     features.  Past the boundary, the gap is therefore hypot(gap, sine * past): its rate stays of the order of the
-    bodies' velocities.  A negative gap is kept if the second body is convex (:func:`gap_past_end`).
+    bodies' velocities.
 
     ``edge`` is the row of the edge of the second body, ``radius`` its rounding radius [m].  ``axes`` are the axes of
     the frustum in the world.  ``distance`` is the distance of the cores, ``past`` the distance past the boundary of
@@ -283,7 +263,7 @@ def write_crossing(
     """
     sweep, outward = frustum[SWEEP], rotated(axes, normal)
     gap = distance - radius - sweep
-    if past > 0.0 and (gap >= 0.0 or not is_convex):
+    if past > 0.0:
         gap = math.hypot(gap, max(PARALLEL, sine) * past)
     write_contact(a, out, gap, past, 0.0, outward, plus_scaled(p, sweep, outward), False)
     write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

@@ -1,0 +1,107 @@
+"""Contact of a convex edge of a surface that crosses the side or a rim of a cylinder, a cone or a disc.
+
+The crossing depends on the edge alone (:mod:`bodies.contacts.frustum.flank_edge`,
+:mod:`bodies.contacts.frustum.rim_edge`).  The rest of the surface decides whether the overlap is real and whether a
+face is nearer.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B
+from nonsmooth.types import Floats
+
+from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
+from ...vectors import Vector3, minus, norm, plus_scaled, vector_at, write_vector
+from ..features.edge_crossing import sine_off_cone
+from ..features.frames import across, point_in_body
+from ..features.vertex_face import CLOSED
+from ..surface.surface_search import box_square, edge_at, node_at, past_edge, signed_distance
+from ..surface.surface_tables import N_TRIANGLES, SWEEP
+from .flank_edge import write_edge_across_side
+from .frustum import axis_in_world, center_in_world, nearest_part
+from .rim_edge import write_edge_across_rim
+
+_CONE_MARGIN = 1e-6
+"""Sine of the largest angle between a contact normal and the edge's normal cone; if it is larger, a face is nearer."""
+
+
+@compiled
+def _is_inside(surface: Floats, point: Vector3) -> bool:
+    """Return whether a point, in the axes of the surface [m], is inside of the body, which includes the sweep."""
+    sweep = surface[SWEEP]
+    if box_square(surface, node_at(surface, 0), point) > sweep * sweep:
+        return False
+    if surface[N_TRIANGLES] == 0.0:
+        _, nearest = past_edge(surface, edge_at(surface, 0), point)
+        return bool(norm(minus(point, nearest)) < sweep)
+    return bool(signed_distance(surface, point) < sweep)
+
+
+@compiled
+def _is_apart(a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats) -> bool:
+    """Return whether both contact points of a crossing, in the geometry block ``out``, are outside of the other body.
+
+    The frustum belongs to the first body, the surface to the second one.
+    """
+    if _is_inside(surface, point_in_body(b, vector_at(out, POINT_A))):
+        return False
+    along, away, _ = across(minus(vector_at(out, POINT_B), center_in_world(a, frustum)), axis_in_world(a, frustum))
+    outside, _, _, _ = nearest_part(frustum, along, away)
+    return bool(outside >= frustum[FRUSTUM_SWEEP])
+
+
+@compiled
+def _open_if_invalid(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
+) -> None:
+    """Change the geometry block of a frustum and an edge of a surface to an open contact in two cases.
+
+    - The cores are apart or overlap by less than the margin ``CLOSED``, and the contact normal is outside of the edge's
+      normal cone: a face is nearer, and has its own contact with the frustum.
+    - The cores overlap by more, but neither contact point is inside of the other body: they do not overlap there.
+
+    ``edge`` is the row of the edge, ``size`` the size of the bodies [m].
+    """
+    gap, past = out[GAP], 0.0
+    if out[PAST_END] > 0.0:
+        return
+    if gap + frustum[FRUSTUM_SWEEP] + surface[SWEEP] >= -CLOSED * size:
+        off_cone = sine_off_cone(b, edge, 0, -1.0, vector_at(out, NORMAL))
+        past = size * (off_cone - _CONE_MARGIN)
+    elif _is_apart(a, b, out, frustum, surface):
+        past = -gap
+    if past > 0.0:
+        out[GAP], out[PAST_END] = math.hypot(gap, past), past
+        write_vector(out, POINT_B, plus_scaled(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
+
+
+@compiled
+def write_across_side(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
+) -> None:
+    """Write the geometry block of an edge of a surface, by its row ``edge``, that crosses the side of a frustum."""
+    write_edge_across_side(a, b, out, frustum, edge, surface[SWEEP], size)
+    _open_if_invalid(a, b, out, frustum, edge, surface, size)
+
+
+@compiled
+def write_across_rim(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    rim: float,
+    half: float,
+    edge: Floats,
+    surface: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of an edge of a surface, by its row ``edge``, that crosses one half of a rim.
+
+    ``rim`` and ``half`` are those of :func:`bodies.contacts.frustum.rim_edge.write_edge_across_rim`.
+    """
+    write_edge_across_rim(a, b, out, frustum, rim, half, edge, surface[SWEEP], size)
+    _open_if_invalid(a, b, out, frustum, edge, surface, size)
