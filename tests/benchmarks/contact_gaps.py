@@ -15,6 +15,7 @@ from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.queries.result import DistanceResult
 from nonsmooth.system.pairing import installed_pair
+from tests.bodies.every_pair import every_pair
 from tests.contact_calls import candidate_caller, pair_caller
 
 _HALVINGS = 40
@@ -78,6 +79,8 @@ class Contacts:
     ----------
     first, second : Shape
         The shapes, in any order.
+    of_all : bool
+        Whether every pair of features is a contact of its own, without a search.
 
     Raises
     ------
@@ -89,12 +92,13 @@ class Contacts:
         In a query, if the search of the kinematics for features fails.
     """
 
-    def __init__(self, first: Shape, second: Shape) -> None:
+    def __init__(self, first: Shape, second: Shape, of_all: bool = False) -> None:
         found = installed_pair(first, second)
         if found is None:
             raise LookupError(f"{type(first).__name__}-{type(second).__name__}")
         kinematics, self._in_order = found
         contacts = kinematics.between(*((first, second) if self._in_order else (second, first)))
+        contacts = every_pair(contacts) if of_all else contacts
         search = contacts[0].candidates
         self._contacts = _Given(contacts) if search is None else _Searched(contacts, search)
         self._extent = first.extent + second.extent

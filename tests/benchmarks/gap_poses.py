@@ -32,6 +32,7 @@ from nonsmooth.plugins import registry
 from nonsmooth.system.pairing import nearest_pair
 from tests.benchmarks.gap_draws import MODES, PAIRS, Array, Pose, back, directions, shapes_of
 from tests.benchmarks.outlines import Outline, outline_of
+from tests.bodies.every_pair import every_pair
 
 WRONG = 1e-9
 """Error of a gap that counts [m]."""
@@ -62,7 +63,7 @@ class Gaps:
         shapes = (first, second) if self._in_order else (second, first)
         function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
         self._calls = []
-        for contact in kinematics.between(*shapes):
+        for contact in every_pair(kinematics.between(*shapes)):
             address, heap = bind(contact.evaluator, "pair", contact.parameters(), "gap_poses")
             self._calls.append((function(address), np.array(heap)))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -18,6 +19,7 @@ from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits
 from nonsmooth.model.assembly import assemble
 from nonsmooth.parameters import Value
+from tests.bodies.every_pair import all_features
 
 Array = NDArray[np.float64]
 
@@ -104,12 +106,18 @@ class Stand(Body):
 
 
 class Rig:
-    """Two free bodies, one shape each, that can be put anywhere; gives what the engine makes of their contacts."""
+    """Two free bodies, one shape each, that can be put anywhere; gives what the engine makes of their contacts.
 
-    def __init__(self, shapes: tuple[Shape, Shape], laws: dict[str, Any], margin: float = 1e9) -> None:
+    Every pair of features is a contact of its own.  With a ``margin`` [m], contacts whose features are searched for are
+    those of pairs within this distance.
+    """
+
+    def __init__(self, shapes: tuple[Shape, Shape], laws: dict[str, Any], margin: float | None = None) -> None:
         self._bodies = Carrier((shapes[0],)), Carrier((shapes[1],))
         self._system = ns.System(self._bodies)
-        self.contacts = self._system.contact(*self._bodies, **laws)
+        with all_features() if margin is None else nullcontext():
+            self.contacts = self._system.contact(*self._bodies, **laws)
+        margin = 1e9 if margin is None else margin
         self._system.place(self._bodies[1], position=(0.0, 0.0, 50.0))
         self._model = assemble(self._system, EventDriven())
         # polyhedra have so many contacts that only those of near bodies are listed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -28,8 +29,8 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
+from bodies.contacts.frustum.frustum_surface import FrustumSurface
 from bodies.contacts.mesh import mesh_mesh
-from bodies.contacts.mesh.frustum_mesh import FrustumMesh
 from bodies.contacts.mesh.mesh_mesh import MeshMesh
 from bodies.contacts.mesh.mesh_swept import MeshSwept
 from bodies.contacts.surface import patch_near, surface_pairs
@@ -40,6 +41,7 @@ from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ConvexShape, Shape
 from tests.benchmarks.contact_gaps import Contacts
 from tests.bodies.carriers import Rig
+from tests.bodies.every_pair import all_features
 from tests.bodies.meshes.parts import box, channel, hills, torus
 from tests.contact_calls import candidate_caller, pair_caller
 
@@ -109,7 +111,6 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     rig = Rig((first, second), build.laws(), ahead)
     assert len(rig.contacts) == surface_pairs.MOST_NEAR
-    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
     every = Rig((first, second), build.laws())
     assert len(every.contacts) > 100
     # an edge that overlaps a rim or a side by more than round-off may have another one's normal
@@ -153,14 +154,15 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
     another one closes within a microsecond.
     """
     runs = []
-    for most in (0, 1_000_000):
-        monkeypatch.setattr(mesh_mesh, "MOST_EACH", most)
+    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
+    for is_searched in (True, False):
         rng = np.random.default_rng(seed)
         ground = DrivenBody(carried=(HILLS,))
         body = BODIES[kind]()
         system = ns.System([ground, body])
-        contacts = system.contact(ground, body, **build.laws(0.4, 0.3))
-        assert (len(contacts) == surface_pairs.MOST_NEAR) == (most == 0)
+        with nullcontext() if is_searched else all_features():
+            contacts = system.contact(ground, body, **build.laws(0.4, 0.3))
+        assert (len(contacts) == surface_pairs.MOST_NEAR) == is_searched
         turn = rng.normal(size=4)
         system.place(
             body,
@@ -212,7 +214,7 @@ def test_python_finds_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> No
     """Searches and evaluators, called as they stand and compiled."""
     first, second, ahead = PAIRS[name]
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
-    kind, shapes = (FrustumMesh, (second, first)) if isinstance(second, Frustum) else (MeshSwept, (first, second))
+    kind, shapes = (FrustumSurface, (second, first)) if isinstance(second, Frustum) else (MeshSwept, (first, second))
     one = (MeshMesh if isinstance(second, TriangleMesh) else kind).between(*shapes)[0]
     search, values, rng = one.candidates, one.parameters(), np.random.default_rng(4)
     assert search is not None
@@ -259,10 +261,9 @@ def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> Non
     """Also from afar, where so many features are within reach that less must be looked for."""
     pairs = [(HILLS, Box(*HALVES)), (HILLS, Sphere(0.03)), (HILLS, Capsule(0.1, 0.3)), (HILLS, Cylinder(0.2, 0.3))]
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
+    monkeypatch.setattr(patch_near, "MOST_EACH", 0)
     near = [Contacts(*pair) for pair in pairs]
-    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
-    monkeypatch.setattr(patch_near, "MOST_EACH", 1_000)
-    every = [Contacts(*pair) for pair in pairs]
+    every = [Contacts(*pair, of_all=True) for pair in pairs]
     rng, compared = np.random.default_rng(8), 0
     for _ in range(60):
         turn = rng.normal(size=3)
