@@ -59,6 +59,7 @@ from tests.benchmarks.touches import (
     sphere,
     superellipsoid,
 )
+from tests.bodies.every_pair import every_pair
 
 Array = NDArray[np.float64]
 COLUMNS = (
@@ -202,11 +203,11 @@ def pose(pair: str, gap: float, rng: Generator) -> Pose:
 
 
 def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[FeaturePair, ...]:
-    """Return the contacts of two shapes, by what is installed."""
+    """Return every pair of features of two shapes as a contact, by what is installed."""
     found = nearest_pair(registry.load_all("kinematics").values(), *shapes)
     if found is None or not found[1]:
         raise LookupError(f"no kinematics for {shapes}")
-    return tuple(found[0].between(*shapes))
+    return every_pair(found[0].between(*shapes))
 
 
 def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float], tuple[float, ...] | None]:

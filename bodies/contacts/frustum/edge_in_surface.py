@@ -23,6 +23,7 @@ from ..surface.surface_tables import N_TRIANGLES, SWEEP
 from .flank_edge import write_edge_across_side
 from .frustum import axis_in_world, center_in_world, nearest_part
 from .rim_edge import write_edge_across_rim
+from .rim_face import frustum_in_surface, past_faces
 
 _CONE_MARGIN = 1e-6
 """Sine of the largest angle between a contact normal and the edge's normal cone; if it is larger, a face is nearer."""
@@ -61,7 +62,8 @@ def _open_if_invalid(
 
     - The cores are apart or overlap by less than the margin ``CLOSED``, and the contact normal is outside of the edge's
       normal cone: a face is nearer, and has its own contact with the frustum.
-    - The cores overlap by more, but neither contact point is inside of the other body: they do not overlap there.
+    - The cores overlap by more, but neither contact point is inside of the other body, so that they do not overlap
+      there, or a face is less deep (:func:`bodies.contacts.frustum.rim_face.past_faces`).
 
     ``edge`` is the row of the edge, ``size`` the size of the bodies [m].
     """
@@ -73,6 +75,9 @@ def _open_if_invalid(
         past = size * (off_cone - _CONE_MARGIN)
     elif _is_apart(a, b, out, frustum, surface):
         past = -gap
+    else:
+        pose, point = frustum_in_surface(a, b, frustum), point_in_body(b, vector_at(out, POINT_A))
+        past = past_faces(surface, frustum, pose, -gap, point)
     if past > 0.0:
         out[GAP], out[PAST_END] = math.hypot(gap, past), past
         write_vector(out, POINT_B, plus_scaled(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -11,30 +10,22 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
-from ..features.frames import across, point_in_body, vector_in_body
+from ..features.frames import across
 from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.vertex_face import CLOSED
 from ..surface.surface_search import face_at, in_triangle, steepest
 from ..surface.surface_tables import CORNER, CORNERS, FACE_NUMBER
-from .frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, nearest_part
 from .frustum_corner import has_part, normal_of_part, over_part
 from .frustum_writing import off_cone_of_rim
-from .rim_face import lowest_on_rim
+from .rim_face import FrustumPose, lowest_on_rim
 
-FrustumPose: TypeAlias = tuple[Vector3, Vector3]
-"""Centre [m] and axis of a frustum in the axes of a surface."""
 _HALVINGS = 40
 """Largest number of halvings of an edge: the rest is shorter than round-off of its length."""
 _PIECES = 16
 """Largest number of pieces of an edge, each of which is compared with a rim."""
 _SHARP = 1e-3
 """Margin for round-off of angles [rad], and length of the sum of two unit normals below which it has no direction."""
-
-
-@compiled
-def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
-    """Return centre [m] and axis of the first body's frustum in the axes of the second body."""
-    return point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum))
 
 
 @compiled

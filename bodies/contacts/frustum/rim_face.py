@@ -11,9 +11,10 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, LOW, LOW_RADIUS, SIDE
 from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
-from ...vectors import Vector3, opposite, plus_scaled, vector_at
+from ...vectors import Vector3, minus, norm, opposite, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.frames import across, point_in_body, vector_in_body, vector_in_world
+from ..features.overlap_corners import FLUSH
 from ..features.vertex_face import CLOSED, REACH
 from ..features.writing import write_flat, write_sweep
 from ..surface.surface_search import (
@@ -22,20 +23,26 @@ from ..surface.surface_search import (
     face_at,
     face_height,
     feature_of,
-    first_leaf,
+    in_triangle,
     member_of,
     node_at,
-    outward_of,
+    signed_distance,
 )
 from ..surface.surface_tables import N_MEMBERS, N_NODES, SIZE, SKIP, SWEEP
 from ..surface.surface_vertex import over_triangle
-from .frustum import LOW_RIM, axis_in_world, on_axis_in_world, past_of_rim, write_part
+from .frustum import LOW_RIM, axis_in_world, center_in_world, least_height, on_axis_in_world, past_of_rim, write_part
 from .frustum_writing import off_cone_of_rim, write_contact
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
-RimPose: TypeAlias = tuple[Vector3, Vector3, Vector3]
-"""Centre of a rim [m], its unit axis, and the unit vector to its contact point if the rim is parallel to a face."""
+FrustumPose: TypeAlias = tuple[Vector3, Vector3]
+"""Centre [m] and axis of a frustum in the axes of a surface."""
+
+
+@compiled
+def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
+    """Return centre [m] and axis of the first body's frustum in the axes of the second body."""
+    return point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum))
 
 
 @compiled
@@ -50,47 +57,51 @@ def lowest_on_rim(n: Vector3, axis: Vector3, otherwise: Vector3) -> tuple[float,
 
 
 @compiled
-def _past_depth(surface: Floats, frustum: Floats, upper: int, pose: RimPose, depth: float, point: Vector3) -> float:
-    """Return by how much the depth of a rim's point exceeds what a surface allows [m]; not positive for a real overlap.
+def past_faces(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float, point: Vector3) -> float:
+    """Return by how much the depth of an overlap exceeds that of the least deep face [m]; not positive for a real one.
 
-    The overlap at the point is no deeper than the least deep face that the rim may touch: through that face the bodies
-    separate on a shorter way.  A face has the depth of its own lowest point of the rim, or the distance of ``point`` if
-    this is larger.  A point outside of the body overlaps nothing.
-
-    ``pose`` is the pose of the rim, ``point`` its lowest point over the face, both in the axes of the surface [m].
-    Depths within the margin ``CLOSED`` are allowed without a search: the point may be on a border of faces.
+    Through the least deep face the bodies separate on a shorter way.  A face is as deep as the frustum is below its
+    plane, or as the ``point`` of the overlap is distant from it, if this is more: faces far away do not count.
+    ``pose`` and ``point`` are in the axes of the surface.
     """
-    if depth <= CLOSED * surface[SIZE]:
-        return 0.0
-    center, axis, otherwise = pose
-    radius, up = frustum[LOW_RADIUS + upper], 2.0 * upper - 1.0
-    least, side, least_deep = math.inf, 0.0, depth * (1.0 + REACH)
-    first = first_leaf(surface, -1.0, point)
-    node = -1
+    center, axis = pose
+    least_deep, node = depth * (1.0 + REACH), 0
     while node < int(surface[N_NODES]):
-        at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and box_square(surface, at, point) > max(least, least_deep * least_deep):
+        at = node_at(surface, node)
+        if box_square(surface, at, point) > least_deep * least_deep:
             node = int(surface[at + SKIP])
             continue
         for i in range(int(surface[at + N_MEMBERS])):
             kind, face, triangle_row = feature_of(surface, member_of(surface, at, i))
             if kind != ON_FACE:
                 continue
-            square, outward = outward_of(surface, face, triangle_row, point)
-            if square < least:
-                least, side = square, outward
             row = face_at(surface, face)
-            axial, radial, _ = lowest_on_rim(opposite(vector_at(surface, row)), axis, otherwise)
-            deep = max(math.sqrt(square), radius * radial - face_height(surface, row, center))
-            if deep < least_deep and off_cone_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) <= CONE_MARGIN:
-                least_deep = deep
+            deep = -least_height(frustum, face_height(surface, row, center), axis, vector_at(surface, row))
+            if deep < least_deep:
+                x, y, z, _ = in_triangle(surface, triangle_row, point)
+                least_deep = min(least_deep, max(deep, norm(minus(point, (x, y, z)))))
         node += 1
-    return depth if side >= 0.0 else depth - (1.0 + REACH) * least_deep
+    return float(depth - (1.0 + REACH) * least_deep)
+
+
+@compiled
+def _is_real(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float, point: Vector3) -> bool:
+    """Return whether a rim's point at a depth below a face [m] is inside of the body, and no other face is less deep.
+
+    Depths within the margin ``CLOSED`` are real without a search.  Outside of the body the point has a margin, too: it
+    may be on a border of faces.
+    """
+    margin = CLOSED * surface[SIZE]
+    if depth <= margin:
+        return True
+    if signed_distance(surface, point) > margin + FLUSH * depth:
+        return False
+    return past_faces(surface, frustum, pose, depth, point) <= 0.0
 
 
 @compiled
 def _rim_over(
-    surface: Floats, face: int, frustum: Floats, upper: int, pose: RimPose, reach: float
+    surface: Floats, face: int, frustum: Floats, upper: int, pose: FrustumPose, otherwise: Vector3, reach: float
 ) -> tuple[float, float]:
     """Return gap and distance past the border [m] of a rim over a face; the gap includes the sweeps of both bodies.
 
@@ -100,9 +111,13 @@ def _rim_over(
 
     The lowest point of a rim nearly parallel to the face moves far while the bodies hardly move.  Above the face the
     distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum.past_of_rim`).
+
+    ``pose`` is that of the frustum in the axes of the surface; ``otherwise`` is the unit vector to the contact point of
+    a rim parallel to the face.
     """
-    center, axis, otherwise = pose
-    radius, up, sweep = frustum[LOW_RADIUS + upper], 2.0 * upper - 1.0, frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    middle, axis = pose
+    center, radius = plus_scaled(middle, frustum[LOW + upper], axis), frustum[LOW_RADIUS + upper]
+    up, sweep = 2.0 * upper - 1.0, frustum[FRUSTUM_SWEEP] + surface[SWEEP]
     size, face_row = surface[SIZE], face_at(surface, face)
     axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, face_row)), axis, otherwise)
     point = plus_scaled(center, radius, outward)
@@ -129,7 +144,7 @@ def _rim_over(
             if key < least_key:
                 least_key, apart, past = key, math.sqrt(square), past_part
         node += 1
-    if is_under and _past_depth(surface, frustum, upper, pose, -height, point) <= 0.0:
+    if is_under and _is_real(surface, frustum, pose, -height, point):
         return height - sweep, past_under
     if past <= 0.0:
         return height - sweep, past
@@ -158,10 +173,10 @@ def write_rim(
     axis, center = axis_in_world(a, frustum), on_axis_in_world(a, frustum, frustum[LOW + upper])
     # the frustum's first axis, perpendicular to its own
     otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
-    pose = point_in_body(b, center), vector_in_body(b, axis), vector_in_body(b, otherwise)
     radius, sweep = frustum[LOW_RADIUS + upper], frustum[FRUSTUM_SWEEP]
     # any point of the rim may become the lowest one
-    gap, past = _rim_over(surface, face, frustum, upper, pose, reach + 2.0 * radius)
+    pose, reach = frustum_in_surface(a, b, frustum), reach + 2.0 * radius
+    gap, past = _rim_over(surface, face, frustum, upper, pose, vector_in_body(b, otherwise), reach)
     n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
     _, radial, outward = lowest_on_rim(n, axis, otherwise)
     point = plus_scaled(plus_scaled(center, radius, outward), sweep, n)
