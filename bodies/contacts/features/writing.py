@@ -154,9 +154,10 @@ def gap_at_distance(gap: float, past: float, radius: float) -> float:
 
     ``gap`` is the gap of the core, ``past`` the distance past the boundary of its feature [m].  Past the boundary,
     ``gap`` is hypot(gap along the normal, past).  The radius is subtracted from the gap along the normal only, so that
-    the result is positive.
+    the result is positive.  It does not approach 0 with ``past`` if the surfaces overlap along the normal: a foot that
+    comes over the border of a face below its height would else strike the face.
     """
     if past <= 0.0:
         return gap - radius
     apart = math.sqrt(max(gap * gap - past * past, 0.0))
-    return math.hypot(max(apart - radius, 0.0), past)
+    return math.hypot(apart - radius, past)

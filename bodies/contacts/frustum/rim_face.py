@@ -150,7 +150,7 @@ def _rim_over(
         return height - sweep, past
     if height > sweep:
         past, apart = past_of_rim(past, radius, radial), height
-    return math.hypot(max(apart - sweep, 0.0), past), past
+    return math.hypot(apart - sweep, past), past
 
 
 @compiled
