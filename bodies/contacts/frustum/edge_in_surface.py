@@ -7,8 +7,6 @@ face is nearer.
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B
 from nonsmooth.types import Floats
@@ -19,9 +17,10 @@ from ..features.edge_crossing import sine_off_cone
 from ..features.frames import across, point_in_body
 from ..features.vertex_face import CLOSED
 from ..surface.surface_search import box_square, edge_at, node_at, past_edge, signed_distance
-from ..surface.surface_tables import N_TRIANGLES, SWEEP
+from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP
 from .flank_edge import write_edge_across_side
 from .frustum import axis_in_world, center_in_world, nearest_part
+from .frustum_writing import gap_past_end
 from .rim_edge import write_edge_across_rim
 from .rim_face import frustum_in_surface, past_faces
 
@@ -79,7 +78,7 @@ def _open_if_invalid(
         pose, point = frustum_in_surface(a, b, frustum), point_in_body(b, vector_at(out, POINT_A))
         past = past_faces(surface, frustum, pose, -gap, point)
     if past > 0.0:
-        out[GAP], out[PAST_END] = math.hypot(gap, past), past
+        out[GAP], out[PAST_END] = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0), past
         write_vector(out, POINT_B, plus_scaled(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
 
 
@@ -88,7 +87,7 @@ def write_across_side(
     a: Floats, b: Floats, out: Floats, frustum: Floats, edge: Floats, surface: Floats, size: float
 ) -> None:
     """Write the geometry block of an edge of a surface, by its row ``edge``, that crosses the side of a frustum."""
-    write_edge_across_side(a, b, out, frustum, edge, surface[SWEEP], size)
+    write_edge_across_side(a, b, out, frustum, edge, surface[SWEEP], surface[IS_CONVEX] == 1.0, size)
     _open_if_invalid(a, b, out, frustum, edge, surface, size)
 
 
@@ -108,5 +107,5 @@ def write_across_rim(
 
     ``rim`` and ``half`` are those of :func:`bodies.contacts.frustum.rim_edge.write_edge_across_rim`.
     """
-    write_edge_across_rim(a, b, out, frustum, rim, half, edge, surface[SWEEP], size)
+    write_edge_across_rim(a, b, out, frustum, rim, half, edge, surface[SWEEP], surface[IS_CONVEX] == 1.0, size)
     _open_if_invalid(a, b, out, frustum, edge, surface, size)

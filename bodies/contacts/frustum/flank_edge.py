@@ -26,13 +26,15 @@ def write_edge_across_side(
     frustum: Floats,
     edge: Floats,
     radius: float,
+    is_convex: bool,
     size: float,
 ) -> None:
     """Write the geometry block of a frustum's side and an edge, rounded by ``radius`` [m], that crosses the side.
 
     The contact normal is a normal of the side and perpendicular to the edge.  Two such normals exist, mirror images in
     the plane along edge and axis; bodies apart are separated along the one with the larger gap.  ``edge`` is the row of
-    the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`), ``size`` the size of the bodies [m].
+    the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`), of a body that may be
+    convex, ``size`` the size of the bodies [m].
     """
     axes, center = axes_in_world(a, frustum), center_in_world(a, frustum)
     start, d = edge_in_frustum(b, edge, axes, center)
@@ -74,7 +76,7 @@ def write_edge_across_side(
     crossing_sine, off_cone = abs(crossing), off_cone_of_edge(b, edge, axes, n)
     past = past_end(past_ends, crossing_sine, off_cone, size)
     point = plus(center, rotated(axes, plus_scaled(p, -gap, n)))
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing_sine, n, point)
+    write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, crossing_sine, n, point)
     outward = rotated(axes, (ex, ey, 0.0))
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), outward, cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])

@@ -15,6 +15,7 @@ from ..features.frames import across, point_in_world, vector_in_body
 from ..features.vertex_face import CLOSED, REACH
 from ..features.writing import write_round
 from ..surface.surface_search import depth_inside
+from ..surface.surface_tables import IS_CONVEX
 from .frustum import (
     FLANK,
     HIGH_CAP,
@@ -25,7 +26,7 @@ from .frustum import (
     tip_past_rim,
     write_part,
 )
-from .frustum_writing import write_contact
+from .frustum_writing import gap_past_end, write_contact
 
 
 @compiled
@@ -133,8 +134,7 @@ def write_corner(
         key = height * height + max(past_border, 0.0) * max(past_border, 0.0)
         if key < least_key:
             least_key, nearest, gap, past = key, part, height, past_border
-    if past > 0.0:
-        gap = math.hypot(gap, past)
+    gap = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0)
     _, _, radial, axial = over_part(frustum, nearest, along, away)
     normal = normal_of_part(axis, outward, radial, axial)
     write_contact(a, out, gap, past, part_number(frustum, nearest), normal, point, True)

@@ -119,13 +119,14 @@ def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float, is_
 
 
 @compiled
-def gap_past_end(gap: float, past: float) -> float:
-    """Return the gap of a contact of convex bodies, which ends at ``past`` = 0 [m].
+def gap_past_end(gap: float, past: float, is_convex: bool = True) -> float:
+    """Return the gap of a contact, which ends at ``past`` = 0 [m].
 
     A contact past its end is not valid, so that it must be open: a gap that is not negative becomes hypot(gap, past).
-    A negative gap is kept.  It is the depth of a spring at which another contact of the bodies takes over.
+    A negative gap of convex bodies is kept.  It is the depth of a spring at which another contact of the bodies takes
+    over.  For other bodies it would be an overlap: the separation of the bodies does not decide whether they touch.
     """
-    return math.hypot(gap, past) if past > 0.0 and gap >= 0.0 else gap
+    return math.hypot(gap, past) if past > 0.0 and (gap >= 0.0 or not is_convex) else gap
 
 
 @compiled
@@ -244,6 +245,7 @@ def write_crossing(
     axes: Axes,
     edge: Floats,
     radius: float,
+    is_convex: bool,
     distance: float,
     past: float,
     sine: float,
@@ -254,7 +256,7 @@ def write_crossing(
 
     The point of crossing moves up to 1 / sine times as fast as the bodies, with the sine of the angle between both
     features.  Past the boundary, the gap is therefore hypot(gap, sine * past): its rate stays of the order of the
-    bodies' velocities.
+    bodies' velocities.  A negative gap is kept if the second body ``is_convex`` (:func:`gap_past_end`).
 
     ``edge`` is the row of the edge of the second body, ``radius`` its rounding radius [m].  ``axes`` are the axes of
     the frustum in the world.  ``distance`` is the distance of the cores, ``past`` the distance past the boundary of
@@ -262,8 +264,6 @@ def write_crossing(
     is the contact point on the core of the frustum, in the world [m].
     """
     sweep, outward = frustum[SWEEP], rotated(axes, normal)
-    gap = distance - radius - sweep
-    if past > 0.0:
-        gap = math.hypot(gap, max(PARALLEL, sine) * past)
+    gap = gap_past_end(distance - radius - sweep, max(PARALLEL, sine) * past, is_convex)
     write_contact(a, out, gap, past, 0.0, outward, plus_scaled(p, sweep, outward), False)
     write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

@@ -103,6 +103,7 @@ def write_edge_across_rim(
     half: float,
     edge: Floats,
     radius: float,
+    is_convex: bool,
     size: float,
 ) -> None:
     """Write the geometry block of an edge, rounded by ``radius`` [m], that crosses one half of a rim.
@@ -126,6 +127,8 @@ def write_edge_across_rim(
         Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
     radius : float
         Radius about the edge [m].
+    is_convex : bool
+        Whether the body with the edge is convex.
     size : float
         Size of the bodies [m].
     """
@@ -191,7 +194,7 @@ def write_edge_across_rim(
         past_ends = size
     past = past_end(past_ends, crossing_sine, off_cone, size)
     point = plus(center, rotated(axes, p))
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing_sine, n, point)
+    write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, crossing_sine, n, point)
     axis, radial = (axes[2], axes[5], axes[8]), e[0] * n[0] + e[1] * n[1]
     write_part(out, SIDE_A, int(rim), axis, rotated(axes, e), radial, rim_radius)
     write_sweep(out, SIDE_A, frustum[SWEEP])

@@ -28,10 +28,10 @@ from ..surface.surface_search import (
     node_at,
     signed_distance,
 )
-from ..surface.surface_tables import N_MEMBERS, N_NODES, SIZE, SKIP, SWEEP
+from ..surface.surface_tables import IS_CONVEX, N_MEMBERS, N_NODES, SIZE, SKIP, SWEEP
 from ..surface.surface_vertex import over_triangle
 from .frustum import LOW_RIM, axis_in_world, center_in_world, least_height, on_axis_in_world, past_of_rim, write_part
-from .frustum_writing import off_cone_of_rim, write_contact
+from .frustum_writing import gap_past_end, off_cone_of_rim, write_contact
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
@@ -150,7 +150,8 @@ def _rim_over(
         return height - sweep, past
     if height > sweep:
         past, apart = past_of_rim(past, radius, radial), height
-    return math.hypot(apart - sweep, past), past
+    is_convex = surface[IS_CONVEX] == 1.0
+    return gap_past_end(min(apart, height) - sweep if is_convex else apart - sweep, past, is_convex), past
 
 
 @compiled

@@ -16,8 +16,8 @@ from ..features.polytope_tables import ALONG, LENGTH
 from ..features.swept_vertex import END, NEAR, OPEN
 from ..features.writing import gap_at_distance, write_flat, write_round, write_sweep
 from ..surface.surface_ball import out_of_surface, write_feature
-from ..surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, edge_at, face_at, nearest_in_patch
-from ..surface.surface_tables import N_FACES, N_PATCHES, SWEEP
+from ..surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, edge_at, face_at, face_height, nearest_in_patch
+from ..surface.surface_tables import IS_CONVEX, N_FACES, N_PATCHES, SWEEP
 from ..surface.surface_vertex import face_under
 from .apex_frustum import past_apex
 from .frustum import axis_in_world, on_axis_in_world
@@ -54,8 +54,13 @@ def write_tip(
     """
     face, gap, past = face_under(b, a, surface, patch, place, n_star, star, reach)
     n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
-    gap = gap_at_distance(gap, past, frustum[FRUSTUM_SWEEP] + surface[SWEEP])
-    point = plus_scaled(point_in_world(a, place), frustum[FRUSTUM_SWEEP], n)
+    tip, sweep = point_in_world(a, place), frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    height = face_height(surface, face_at(surface, face), point_in_body(b, tip)) - sweep
+    gap = gap_at_distance(gap, past, sweep)
+    if past > 0.0 and height < 0.0 and surface[IS_CONVEX] == 1.0:
+        # the depth of a spring at which another contact takes over
+        gap = height
+    point = plus_scaled(tip, frustum[FRUSTUM_SWEEP], n)
     write_contact(a, out, gap, past, float(face), n, point, False)
     write_round(out, SIDE_A, frustum[FRUSTUM_SWEEP])
     write_flat(out, SIDE_B)
@@ -110,9 +115,11 @@ def write_apex(
     # a corner has a contact of its own
     shared = END * size - _distance_from_ends(surface, found)
     past = max(past, shared)
-    if past > 0.0:
+    if shared > 0.0:
         # a large gap for a small distance past the end: the contact is open
-        gap = gap_past_end(max(gap, 0.0), max(past, OPEN * shared))
+        gap = math.hypot(max(gap, 0.0), max(past, OPEN * shared))
+    else:
+        gap = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0)
     write_contact(a, out, gap, past, 0.0, n, plus_scaled(apex, radius, n), False)
     write_round(out, SIDE_A, radius)
     write_feature(b, out, SIDE_B, surface, found[2], found[3])
