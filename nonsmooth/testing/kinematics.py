@@ -20,6 +20,7 @@ from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.claims import GIVEN, Claim, Claims, Inapplicable, claim, rows
 from nonsmooth.testing.differences import slope
+from nonsmooth.testing.features import every_pair, first_pairs
 from nonsmooth.testing.functions import CheckedFunction, function_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
@@ -62,7 +63,8 @@ def check_contact_kinematics(
     first, second : Shape
         Two shapes of the classes in its ``pair``.
     contacts : sequence of int, optional
-        Numbers of the contacts in ``between(first, second)``; by default the first with each evaluator.
+        Numbers of the contacts in ``between(first, second)``; by default the first with each evaluator.  If features
+        are searched for, each pair of features counts as a contact, and the default is the first pair of each kind.
     reach : float, optional
         Largest distance of the bodies along each axis [m]; by default the sum of the shapes' finite extents, or 1 m if
         that is zero.
@@ -71,19 +73,20 @@ def check_contact_kinematics(
     ------
     InvalidInput
         The shapes are not of the classes in ``pair``. There are no contacts between them. A contact has no names of
-        features. A contact searches for its features, so that it has no given ones that can be checked.
+        features.
     """
     made = _between(kinematics, first, second)
     if contacts is None:
-        firsts = {contact.evaluator: number for number, contact in reversed(list(enumerate(made)))}
-        contacts = sorted(firsts.values())
+        chosen = list(first_pairs(made))
+    else:
+        every = list(every_pair(made))
+        chosen = [every[number] for number in contacts]
     lengths = [shape.extent for shape in (first, second) if math.isfinite(shape.extent)]
     options = {"shapes": (first, second), "reach": reach or sum(lengths) or 1.0}
     found = []
-    for number in contacts:
-        contact = made[number]
+    for contact in chosen:
         _check_record(kinematics, contact)
-        label = contact.features[0] if len(made) > 1 else ""
+        label = _label(contact) if len(made) > 1 else ""
         found += properties_of(Subject(contact, _rows, options, kinematics, label=label))
     return found
 
@@ -101,19 +104,20 @@ def _between(kinematics: type[ContactKinematics], first: Shape, second: Shape) -
     return made
 
 
+def _label(contact: FeaturePair) -> str:
+    """Return the name of a contact: its features, or kind and numbers of a pair that a search found."""
+    candidate = contact.values.get("candidate")
+    if isinstance(candidate, tuple):
+        return " ".join(f"{number:g}" for number in candidate[:3])
+    return contact.features[0]
+
+
 def _check_record(kinematics: type[ContactKinematics], contact: FeaturePair) -> None:
-    """Raise InvalidInput if a contact has no names of features, or searches for them."""
+    """Raise InvalidInput if a contact has no names of features."""
     names = contact.features
     if not names or len(set(names)) != len(names):
         remedy = "Name every pair of features, each differently."
         raise InvalidInput(f"{kinematics.__name__}: features", "must be different names, at least one", names, remedy)
-    if contact.candidates is not None:
-        raise InvalidInput(
-            f"{kinematics.__name__}: a contact",
-            "must be of given features (`candidates` None) to be checked",
-            contact.candidates,
-            "Check the contacts of small shapes, whose features are given, and compare runs of both.",
-        )
 
 
 def _rows(contact: FeaturePair, shapes: tuple[Shape, Shape], reach: float) -> list[Row]:

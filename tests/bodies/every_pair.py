@@ -2,38 +2,19 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 
 import pytest
 
 from nonsmooth.interfaces import FeaturePair, Shape
 from nonsmooth.system.pairing import ContactGeometries, installed_pair
-
-_FAR = 1e150
-"""Distance up to which the features of a contact are searched for [m]: without a limit."""
+from nonsmooth.testing import features
 
 
 def every_pair(contacts: Sequence[FeaturePair]) -> tuple[FeaturePair, ...]:
-    """Return contacts with fixed features: those given, and every pair of features that a search may find.
-
-    Contacts that share a search are replaced by one contact for each pair (kind, i, j) of the ``counts`` of the search,
-    in the order of its kinds.
-    """
-    found, searches = list[FeaturePair](), set[int]()
-    for contact in contacts:
-        search = contact.candidates
-        if search is None:
-            found.append(contact)
-        elif id(search) not in searches:
-            searches.add(id(search))
-            for kind, (m, n) in search.counts.items():
-                for i, j in itertools.product(range(m), range(n)):
-                    values = {**contact.values, "candidate": (kind, float(i), float(j), _FAR)}
-                    found.append(replace(contact, values=values, candidates=None))
-    return tuple(found)
+    """Return contacts with fixed features: those given, and every pair of features that a search may find."""
+    return tuple(features.every_pair(contacts))
 
 
 def pairs_of(first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
