@@ -65,7 +65,8 @@ def past_faces(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float
     ``pose`` and ``point`` are in the axes of the surface.
     """
     center, axis = pose
-    least_deep, node = depth * (1.0 + REACH), 0
+    margin = REACH * (surface[SIZE] + depth)
+    least_deep, node = depth + margin, 0
     while node < int(surface[N_NODES]):
         at = node_at(surface, node)
         if box_square(surface, at, point) > least_deep * least_deep:
@@ -81,7 +82,7 @@ def past_faces(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float
                 x, y, z, _ = in_triangle(surface, triangle_row, point)
                 least_deep = min(least_deep, max(deep, norm(minus(point, (x, y, z)))))
         node += 1
-    return float(depth - (1.0 + REACH) * least_deep)
+    return float(depth - least_deep - margin)
 
 
 @compiled
