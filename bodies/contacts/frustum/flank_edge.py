@@ -33,8 +33,8 @@ def write_edge_across_side(
 
     The contact normal is a normal of the side and perpendicular to the edge.  Two such normals exist, mirror images in
     the plane along edge and axis; bodies apart are separated along the one with the larger gap.  ``edge`` is the row of
-    the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`), of a body that may be
-    convex, ``size`` the size of the bodies [m].
+    the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`), ``is_convex`` tells whether its body is convex,
+    and ``size`` is the size of the bodies [m].
     """
     axes, center = axes_in_world(a, frustum), center_in_world(a, frustum)
     start, d = edge_in_frustum(b, edge, axes, center)

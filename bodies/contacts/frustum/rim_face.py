@@ -150,9 +150,9 @@ def _rim_over(
     if past <= 0.0:
         return height - sweep, past
     if height > sweep:
-        past, apart = past_of_rim(past, radius, radial), height
+        past = past_of_rim(past, radius, radial)
     is_convex = surface[IS_CONVEX] == 1.0
-    return gap_past_end(min(apart, height) - sweep if is_convex else apart - sweep, past, is_convex), past
+    return gap_past_end((height if height >= 0.0 or is_convex else apart) - sweep, past, is_convex), past
 
 
 @compiled
