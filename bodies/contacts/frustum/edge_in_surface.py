@@ -15,8 +15,9 @@ from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
 from ...vectors import Vector3, minus, norm, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import sine_off_cone
 from ..features.frames import across, point_in_body
+from ..features.overlap_corners import FLUSH
 from ..features.vertex_face import CLOSED
-from ..surface.surface_search import box_square, edge_at, node_at, past_edge, signed_distance
+from ..surface.surface_search import edge_at, past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP
 from .flank_edge import write_edge_across_side
 from .frustum import axis_in_world, center_in_world, nearest_part
@@ -29,28 +30,28 @@ _CONE_MARGIN = 1e-6
 
 
 @compiled
-def _is_inside(surface: Floats, point: Vector3) -> bool:
-    """Return whether a point, in the axes of the surface [m], is inside of the body, which includes the sweep."""
-    sweep = surface[SWEEP]
-    if box_square(surface, node_at(surface, 0), point) > sweep * sweep:
-        return False
+def _outside(surface: Floats, point: Vector3) -> float:
+    """Return the distance of a point, in the axes of the surface, from the body [m]; negative inside of it."""
     if surface[N_TRIANGLES] == 0.0:
         _, nearest = past_edge(surface, edge_at(surface, 0), point)
-        return bool(norm(minus(point, nearest)) < sweep)
-    return bool(signed_distance(surface, point) < sweep)
+        return norm(minus(point, nearest)) - surface[SWEEP]
+    return float(signed_distance(surface, point) - surface[SWEEP])
 
 
 @compiled
-def _is_apart(a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats) -> bool:
-    """Return whether both contact points of a crossing, in the geometry block ``out``, are outside of the other body.
+def _past_bodies(a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats, size: float) -> float:
+    """Return by how far both contact points of a crossing are outside of the other body [m]; positive: no overlap.
 
-    The frustum belongs to the first body, the surface to the second one.
+    The frustum belongs to the first body, the surface to the second one; ``out`` is the geometry block.  If flush
+    faces are pressed into each other, the points lie on the surface of the other body: the margin is that of round-off,
+    ``CLOSED``, and of the angle ``FLUSH`` of such faces.
     """
-    if _is_inside(surface, point_in_body(b, vector_at(out, POINT_A))):
-        return False
-    along, away, _ = across(minus(vector_at(out, POINT_B), center_in_world(a, frustum)), axis_in_world(a, frustum))
-    outside, _, _, _ = nearest_part(frustum, along, away)
-    return bool(outside >= frustum[FRUSTUM_SWEEP])
+    margin = CLOSED * size - FLUSH * out[GAP]
+    outside = _outside(surface, point_in_body(b, vector_at(out, POINT_A)))
+    if outside > margin:
+        along, away, _ = across(minus(vector_at(out, POINT_B), center_in_world(a, frustum)), axis_in_world(a, frustum))
+        outside = min(outside, nearest_part(frustum, along, away)[0] - frustum[FRUSTUM_SWEEP])
+    return float(outside - margin)
 
 
 @compiled
@@ -72,11 +73,10 @@ def _open_if_invalid(
     if gap + frustum[FRUSTUM_SWEEP] + surface[SWEEP] >= -CLOSED * size:
         off_cone = sine_off_cone(b, edge, 0, -1.0, vector_at(out, NORMAL))
         past = size * (off_cone - _CONE_MARGIN)
-    elif _is_apart(a, b, out, frustum, surface):
-        past = -gap
     else:
         pose, point = frustum_in_surface(a, b, frustum), point_in_body(b, vector_at(out, POINT_A))
-        past = past_faces(surface, frustum, pose, -gap, point)
+        past = _past_bodies(a, b, out, frustum, surface, size)
+        past = max(past, past_faces(surface, frustum, pose, -gap, point))
     if past > 0.0:
         out[GAP], out[PAST_END] = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0), past
         write_vector(out, POINT_B, plus_scaled(vector_at(out, POINT_A), out[GAP], vector_at(out, NORMAL)))
