@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.random import Generator
+from scipy.spatial.transform import Rotation
 
-from bodies import Capsule, ConvexHull, Cylinder
+from bodies import Box, Capsule, ConvexHull, Cylinder, Disc
 from bodies.contacts.surface.surface_pairs import MOST_NEAR
 from tests.benchmarks.touches import ROUND, Touch, box, hull, on
 from tests.bodies.carriers import Rig
@@ -228,3 +230,25 @@ def test_a_fine_hull_has_a_search(build: Any) -> None:
     assert rig.listed() > 0.0
     gaps = rig.geometry[rig.geometry[:, 30] <= 0.0, 0]
     assert np.min(gaps) == pytest.approx(0.99 - np.max(-np.array(points)[:, 0]), abs=0.01)
+
+
+@pytest.mark.parametrize("name", ["cylinder", "disc"])
+def test_round_off_opens_no_crossing_of_flush_faces(build: Any, name: str) -> None:
+    """A cap is pressed into a face and juts out over an edge: its rim crosses the edge twice, at the depth of the cap.
+
+    The contact points lie on the side of the box and on the rim, within round-off.
+    """
+    radius, depth, shift = 0.02, 5e-5, 1e-4
+    shape, below = (Disc(radius), 0.0) if name == "disc" else (Cylinder(radius, 0.01, foot_height=0.0), 0.01)
+    rig, rng = Rig((shape, Box(radius, 0.03, radius)), build.laws()), np.random.default_rng(4)
+    unit = np.array([1.0, 0.0, 0.0, 0.0])
+    for _ in range(20):
+        place = np.array([shift, 0.0, radius - depth + below]) + 1e-17 * rng.normal(size=3)
+        turn = Rotation.from_rotvec(1e-15 * rng.normal(size=3)).as_quat()
+        rig.put([(place, np.roll(turn, 1)), (np.zeros(3), unit)], np.zeros(12))
+        blocks = rig.geometry[rig.geometry[:, 30] <= 0.0]
+        crosses = np.abs(blocks[:, 10] - radius) < 1e-9
+        # both points of the rim over the edge, from the Pythagorean theorem
+        apart = math.sqrt(radius**2 - (radius - shift) ** 2)
+        assert sorted(blocks[crosses, 11]) == pytest.approx([-apart, apart], abs=1e-9)
+        assert blocks[crosses, 0] == pytest.approx(-depth, abs=1e-8)
