@@ -136,23 +136,11 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(
     assert compared >= 8
 
 
-def _passes_on(events: Any) -> np.ndarray:
-    """Return for each event whether a contact ends or changes its features, or closes right after such an event."""
-    changes = np.isin(events.cause, [Cause.FEATURE_END, Cause.FEATURE_CHANGE])
-    since = events.time[:, None] - events.time[changes]
-    follows = np.any((since >= 0.0) & (since < 1e-6), axis=1)
-    return np.asarray(changes | (follows & (events.cause == Cause.CLOSING)))
-
-
 @pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("kind", BODIES)
 def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A body falls, tumbles and slides on hills: the same events, whether all pairs of features stand or those near.
-
-    But where a rim goes from a face to the next: with all features one contact has both. Else one contact ends, and
-    another one closes within a microsecond.
-    """
+    """A body falls, tumbles and slides on hills: the same events, whether all pairs of features stand or those near."""
     runs = []
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     for is_searched in (True, False):
@@ -175,12 +163,8 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
     one, two = runs
     assert one.status == two.status == "done"
     assert np.sum(one.events.cause == Cause.IMPACT) >= 2
-    told = [~_passes_on(run.events) for run in runs]
-    causes, times = (
-        [getattr(run.events, name)[own] for run, own in zip(runs, told, strict=True)] for name in ("cause", "time")
-    )
-    assert causes[0].tolist() == causes[1].tolist()
-    np.testing.assert_allclose(times[0], times[1], rtol=0, atol=1e-8)
+    assert one.events.cause.tolist() == two.events.cause.tolist()
+    np.testing.assert_allclose(one.events.time, two.events.time, rtol=0, atol=1e-8)
     np.testing.assert_allclose(one.q[-1], two.q[-1], rtol=0, atol=1e-7)
     assert one.energy.residual < 1e-8
 
