@@ -18,6 +18,7 @@ from bodies import (
     CapsuleBody,
     Cone,
     ConeBody,
+    ConvexHull,
     Cylinder,
     CylinderBody,
     Disc,
@@ -52,6 +53,9 @@ HILLS = TriangleMesh(Triangles(*hills(6)))
 TORUS = TriangleMesh(Triangles(*torus(10, 6)))
 WIDE = TriangleMesh(Triangles(*box(0.9, 0.7, 0.5)))
 HALVES = np.array([0.45, 0.35, 0.25])
+DOME = np.random.default_rng(5).normal(size=(60, 3))
+DOME = np.array([0.6, 0.6, 0.2]) * (DOME / np.linalg.norm(DOME, axis=1)[:, None]) - np.array([0.0, 0.0, 0.2])
+HULL = ConvexHull(DOME.tolist(), rounding=0.03)
 PAIRS: dict[str, tuple[Shape, Shape, float]] = {
     "box and hills": (HILLS, Box(*HALVES), 0.16),
     "mesh and hills": (HILLS, WIDE, 0.16),
@@ -65,6 +69,10 @@ PAIRS: dict[str, tuple[Shape, Shape, float]] = {
     "rounded cylinder and hills": (HILLS, Cylinder(0.2, 0.3, rounding=0.03), 0.16),
     "rounded cone and hills": (HILLS, Cone(0.3, 0.2, rounding=0.05), 0.16),
     "rounded disc and hills": (HILLS, Disc(0.4, rounding=0.02), 0.08),
+    "cylinder and rounded hull": (HULL, Cylinder(0.2, 0.3), 0.16),
+    "rounded cylinder and rounded hull": (HULL, Cylinder(0.2, 0.3, rounding=0.03), 0.16),
+    "cone and rounded hull": (HULL, Cone(0.2, 0.5), 0.08),
+    "disc and rounded hull": (HULL, Disc(0.3), 0.16),
 }
 """Two shapes, and how far ahead they are looked for [m]."""
 BODIES: dict[str, Callable[[], Body]] = {
