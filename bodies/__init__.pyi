@@ -7,8 +7,7 @@ from .cone_body import ConeBody as ConeBody
 from .contacts.frustum.frustum_frustum import FrustumFrustum as FrustumFrustum
 from .contacts.frustum.frustum_smooth import FrustumSmooth as FrustumSmooth
 from .contacts.frustum.frustum_sphere import FrustumSphere as FrustumSphere
-from .contacts.frustum.frustum_swept import FrustumSwept as FrustumSwept
-from .contacts.mesh.frustum_mesh import FrustumMesh as FrustumMesh
+from .contacts.frustum.frustum_surface import FrustumSurface as FrustumSurface
 from .contacts.mesh.mesh_smooth import MeshSmooth as MeshSmooth
 from .contacts.plane.plane_ball import PlaneSphere as PlaneSphere
 from .contacts.plane.plane_ball import PlaneSurface as PlaneSurface

@@ -49,12 +49,15 @@ class Overlap(NamedTuple):
 def check_overlaps(model: LaidOut) -> None:
     """Check that the shapes of active contacts, whose bodies were evaluated, do not overlap.
 
+    Shapes whose features are searched for are compared, too, if no contact of theirs is active: a rod through a box has
+    no features that are near each other.
+
     Raises
     ------
     InvalidInput
         If two overlap.
     """
-    found = first_overlap(model, model.active.tolist())
+    found = first_overlap(model, [*model.active.tolist(), *model.memory[owners.Search.first_contact].tolist()])
     if found is not None:
         kinds = " and ".join(type(shape).__name__ for shape in found.contact.shapes)
         raise InvalidInput(

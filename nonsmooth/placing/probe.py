@@ -41,9 +41,14 @@ class Probe:
 
     @classmethod
     def of(cls, system: System, body: Body) -> Probe:
-        """Return the probe of ``body``, with all bodies of the system at their starts."""
+        """Return the probe of ``body``, with all bodies of the system at their starts.
+
+        Contacts with half-spaces are on the neighbour list at any distance, so that their gaps are known.
+        """
         number = next(i for i, other in enumerate(system.bodies) if other is body)
-        return cls(lay_out(system.about(body), EventDriven()), body, number)
+        model = lay_out(system.about(body), EventDriven())
+        model.memory[owners.HalfSpaceRecord.is_steady] = False
+        return cls(model, body, number)
 
     @property
     def name(self) -> str:

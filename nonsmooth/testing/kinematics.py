@@ -20,7 +20,7 @@ from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.testing.claims import GIVEN, Claim, Claims, Inapplicable, claim, rows
 from nonsmooth.testing.differences import slope
-from nonsmooth.testing.every_pair import every_pair
+from nonsmooth.testing.features import every_pair, first_pairs
 from nonsmooth.testing.functions import CheckedFunction, function_rows, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
@@ -63,8 +63,8 @@ def check_contact_kinematics(
     first, second : Shape
         Two shapes of the classes in its ``pair``.
     contacts : sequence of int, optional
-        Numbers of the contacts in ``between(first, second)``, with every pair of features of a search as a contact
-        (:func:`nonsmooth.testing.every_pair.every_pair`); by default the first of each evaluator and kind of pair.
+        Numbers of the contacts in ``between(first, second)``; by default the first with each evaluator.  If features
+        are searched for, each pair of features counts as a contact, and the default is the first pair of each kind.
     reach : float, optional
         Largest distance of the bodies along each axis [m]; by default the sum of the shapes' finite extents, or 1 m if
         that is zero.
@@ -77,17 +77,16 @@ def check_contact_kinematics(
     """
     made = _between(kinematics, first, second)
     if contacts is None:
-        firsts = dict[tuple[Callable[..., None], float], int]()
-        for number, contact in enumerate(made):
-            firsts.setdefault((contact.evaluator, _kind(contact)), number)
-        contacts = sorted(firsts.values())
+        chosen = list(first_pairs(made))
+    else:
+        every = list(every_pair(made))
+        chosen = [every[number] for number in contacts]
     lengths = [shape.extent for shape in (first, second) if math.isfinite(shape.extent)]
     options = {"shapes": (first, second), "reach": reach or sum(lengths) or 1.0}
     found = []
-    for number in contacts:
-        contact = made[number]
+    for contact in chosen:
         _check_record(kinematics, contact)
-        label = contact.features[0] if len(made) > 1 else ""
+        label = _label(contact) if len(made) > 1 else ""
         found += properties_of(Subject(contact, _rows, options, kinematics, label=label))
     return found
 
@@ -99,10 +98,18 @@ def _between(kinematics: type[ContactKinematics], first: Shape, second: Shape) -
             name = kind.__name__
             rule = f"must be a {name}, as `pair` says"
             raise InvalidInput(f"{kinematics.__name__}: shape", rule, shape, f"Give a {name}.")
-    made = tuple(every_pair(kinematics.between(first, second)))
+    made = kinematics.between(first, second)
     if not made:
         raise InvalidInput(f"{kinematics.__name__}.between", "must return a contact", made, "Return at least one.")
     return made
+
+
+def _label(contact: FeaturePair) -> str:
+    """Return the name of a contact: its features, or kind and numbers of a pair that a search found."""
+    candidate = contact.values.get("candidate")
+    if isinstance(candidate, tuple):
+        return " ".join(f"{number:g}" for number in candidate[:3])
+    return contact.features[0]
 
 
 def _check_record(kinematics: type[ContactKinematics], contact: FeaturePair) -> None:
@@ -111,12 +118,6 @@ def _check_record(kinematics: type[ContactKinematics], contact: FeaturePair) -> 
     if not names or len(set(names)) != len(names):
         remedy = "Name every pair of features, each differently."
         raise InvalidInput(f"{kinematics.__name__}: features", "must be different names, at least one", names, remedy)
-
-
-def _kind(contact: FeaturePair) -> float:
-    """Kind of the pair of features of a contact that a search would find, 0 of any other."""
-    candidate = contact.values.get("candidate", (0.0,))
-    return float(candidate[0]) if isinstance(candidate, Sequence) else 0.0
 
 
 def _rows(contact: FeaturePair, shapes: tuple[Shape, Shape], reach: float) -> list[Row]:

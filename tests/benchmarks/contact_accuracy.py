@@ -36,7 +36,6 @@ from nonsmooth.interfaces import ConvexShape, FeaturePair, Shape
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation, turned
 from nonsmooth.system.pairing import nearest_pair
-from nonsmooth.testing.every_pair import every_pair
 from nonsmooth.testing.puck import ContactRig
 from tests.benchmarks.mesh_pairs import MESHES
 from tests.benchmarks.round_pairs import ROUND_PAIRS
@@ -60,6 +59,7 @@ from tests.benchmarks.touches import (
     sphere,
     superellipsoid,
 )
+from tests.bodies.every_pair import every_pair
 
 Array = NDArray[np.float64]
 COLUMNS = (
@@ -203,11 +203,11 @@ def pose(pair: str, gap: float, rng: Generator) -> Pose:
 
 
 def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[FeaturePair, ...]:
-    """Return the contacts of two shapes, by what is installed."""
+    """Return every pair of features of two shapes as a contact, by what is installed."""
     found = nearest_pair(registry.load_all("kinematics").values(), *shapes)
     if found is None or not found[1]:
         raise LookupError(f"no kinematics for {shapes}")
-    return tuple(every_pair(found[0].between(*shapes)))
+    return every_pair(found[0].between(*shapes))
 
 
 def _deviations(found: Pose, rng: Generator) -> tuple[tuple[float, float, float], tuple[float, ...] | None]:

@@ -15,7 +15,7 @@ from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.queries.result import DistanceResult
 from nonsmooth.system.pairing import installed_pair
-from nonsmooth.testing.every_pair import every_pair
+from tests.bodies.every_pair import every_pair
 from tests.contact_calls import candidate_caller, pair_caller
 
 _HALVINGS = 40
@@ -98,7 +98,7 @@ class Contacts:
             raise LookupError(f"{type(first).__name__}-{type(second).__name__}")
         kinematics, self._in_order = found
         contacts = kinematics.between(*((first, second) if self._in_order else (second, first)))
-        contacts = tuple(every_pair(contacts)) if of_all else contacts
+        contacts = every_pair(contacts) if of_all else contacts
         search = contacts[0].candidates
         self._contacts = _Given(contacts) if search is None else _Searched(contacts, search)
         self._extent = first.extent + second.extent

@@ -30,9 +30,9 @@ from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY, PAST_END
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
 from nonsmooth.system.pairing import nearest_pair
-from nonsmooth.testing.every_pair import every_pair
 from tests.benchmarks.gap_draws import MODES, PAIRS, Array, Pose, back, directions, shapes_of
 from tests.benchmarks.outlines import Outline, outline_of
+from tests.bodies.every_pair import every_pair
 
 WRONG = 1e-9
 """Error of a gap that counts [m]."""

@@ -112,7 +112,7 @@ class _Asked:
 
     def __init__(self, first: Shape, second: Shape) -> None:
         self.shapes = first, second
-        self.ours = Contacts(first, second)
+        self.ours = Contacts(first, second, of_all=True)
         self._pair = ShapePair(first, second)
         self.libraries: dict[str, ShapePair] = {}
         for name in ("fcl", "coal") if Coal().installed else ("fcl",):

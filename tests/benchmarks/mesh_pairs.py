@@ -14,13 +14,23 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Box, Ellipsoid, FrustumMesh, Sphere, Superellipsoid, SweptPolytope, TriangleMesh, Triangles
+from bodies import Box, Ellipsoid, Sphere, Superellipsoid, SweptPolytope, TriangleMesh, Triangles
+from bodies.contacts.frustum.frustum_surface import (
+    ACROSS_BACK,
+    ACROSS_FLANK,
+    ACROSS_FRONT,
+    APEX,
+    POINT,
+    RIM,
+    UNDER,
+)
 from bodies.meshes.features import Features, features_of
 from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
 from bodies.shapes.smooth import extent
 from nonsmooth.interfaces import Shape
 from nonsmooth.testing.puck import ContactRig
 from tests.benchmarks.swept_pairs import capsule, rounded_box, rounded_hull
+from tests.bodies.every_pair import pairs_of
 from tests.bodies.meshes.parts import bracket
 from tests.bodies.rounds import PosedRound, tangent, touch_round
 from tests.bodies.surfaces import distances, is_inside
@@ -202,8 +212,12 @@ def _with_frustum(name: str, part: str, other: str) -> Callable[[float, Generato
         posed = PosedRound(rng, first, (mesh, point, n), (tangent(first[0], part, first[2]), along), gap)
         shapes = first[0], mesh
         # which half of a rim it is, only the contacts know
-        for contact, one in enumerate(FrustumMesh.between(*shapes)):
-            if _are_of(one.features, part, f"{other if other != 'vertex' else 'corner'} {number}"):
+        for contact, one in enumerate(pairs_of(*shapes)):
+            candidate = one.values["candidate"]
+            assert isinstance(candidate, tuple)
+            if candidate[0] in _FRUSTUM_KINDS[part, other] and (
+                candidate[0] in (POINT, APEX) or candidate[1] == number
+            ):
                 rig = ContactRig(one, shapes)
                 rig.put(posed.poses, np.zeros(12))
                 if posed.found_in(rig.geometry[None]):
@@ -213,12 +227,15 @@ def _with_frustum(name: str, part: str, other: str) -> Callable[[float, Generato
     return draw
 
 
-def _are_of(features: tuple[str, ...], part: str, other: str) -> bool:
-    kinds = {"cap": ("cap", "base", "face"), "side": ("side",), "apex": ("apex",), "rim": ("rim", "upper rim")}[part]
-    named = [one.split(" and ") for one in features]
-    return any(other in names and any(name != other and name.startswith(kinds) for name in names) for names in named)
-
-
+_FRUSTUM_KINDS = {
+    ("rim", "face"): (RIM,),
+    ("apex", "face"): (POINT, APEX),
+    ("apex", "edge"): (APEX,),
+    ("side", "edge"): (ACROSS_FLANK,),
+    ("rim", "edge"): (ACROSS_BACK, ACROSS_FRONT),
+    **{(part, "vertex"): (UNDER,) for part in ("cap", "side", "rim", "apex")},
+}
+"""Kinds of the contacts of a part of a frustum and a feature of a mesh."""
 PARTS = "face", "edge", "vertex"
 _OVER_EDGES = (("edge", "edge"), ("vertex", "edge"))
 _OVER_ROUND = (("rim", PARTS), ("cap", ("vertex",)), ("side", ("edge", "vertex")))

@@ -12,7 +12,12 @@ from bodies.contacts.surface.surface_near import EDGE_ACROSS, OVER_FIRST
 from bodies.contacts.surface.surface_tables import N_CORNERS, N_EDGES, N_FACES
 from nonsmooth.interfaces import FeaturePair, Shape
 from nonsmooth.system.pairing import ContactGeometries, installed_pair
-from nonsmooth.testing.every_pair import every_pair
+from nonsmooth.testing import features
+
+
+def every_pair(contacts: Sequence[FeaturePair]) -> tuple[FeaturePair, ...]:
+    """Return contacts with fixed features: those given, and every pair of features that a search may find."""
+    return tuple(features.every_pair(contacts))
 
 
 def pairs_of(first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
@@ -20,7 +25,7 @@ def pairs_of(first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
     installed = installed_pair(first, second)
     assert installed is not None
     kinematics, is_in_order = installed
-    return tuple(every_pair(kinematics.between(*((first, second) if is_in_order else (second, first)))))
+    return every_pair(kinematics.between(*((first, second) if is_in_order else (second, first))))
 
 
 @contextmanager
@@ -30,7 +35,7 @@ def all_features() -> Iterator[None]:
 
     def every(self: ContactGeometries, first: Shape, second: Shape) -> tuple[Sequence[FeaturePair], bool]:
         contacts, is_in_order = between(self, first, second)
-        return tuple(every_pair(contacts)), is_in_order
+        return every_pair(contacts), is_in_order
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(ContactGeometries, "between", every)

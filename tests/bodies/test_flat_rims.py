@@ -9,29 +9,31 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from bodies import Box, Cylinder
-from bodies.contacts.frustum.frustum_frustum import FrustumFrustum, evaluate_rim_over_cap
-from bodies.contacts.frustum.frustum_swept import FrustumSwept
-from bodies.contacts.frustum.rim_face import evaluate_rim_over_faces
+from bodies.contacts.frustum.frustum_frustum import evaluate_rim_over_cap
+from bodies.contacts.frustum.frustum_surface import RIM
 from nonsmooth.interfaces import FeaturePair
 from tests.bodies.carriers import Rig
+from tests.bodies.every_pair import pairs_of
 
 RADIUS = 0.02
 """Radius of the rim [m]."""
 FOOT = 2e-6
 """Height of feet [m]."""
 UNDER: dict[str, Any] = {
-    "cylinder": (FrustumFrustum, Cylinder(0.03, 0.01, foot_height=FOOT), 0.01 - FOOT),
-    "box": (FrustumSwept, Box(0.03, 0.03, 0.01), 0.01),
+    "cylinder": (Cylinder(0.03, 0.01, foot_height=FOOT), 0.01 - FOOT),
+    "box": (Box(0.03, 0.03, 0.01), 0.01),
 }
-"""What the rim lies on: kinematics, shape, and height of its face where rims touch it [m]."""
+"""What the rim lies on: shape, and height of its face where rims touch it [m]."""
 MOST = 2.0
 """Largest rate of a gap past the border of the face, relative to the largest speed of a point of the bodies."""
 
 
 def _is_of_rim(pair: FeaturePair) -> bool:
     """True if a contact is that of a rim of the first body and a flat face."""
-    is_over_face = pair.evaluator is evaluate_rim_over_cap or pair.evaluator is evaluate_rim_over_faces
-    return is_over_face and pair.values["radius"] == RADIUS and pair.values.get("swap", 0.0) == 0.0
+    if pair.evaluator is evaluate_rim_over_cap:
+        return pair.values["radius"] == RADIUS and pair.values["swap"] == 0.0
+    candidate = pair.values.get("candidate", (0.0,))
+    return isinstance(candidate, tuple) and candidate[0] == RIM
 
 
 @pytest.mark.parametrize("name", UNDER)
@@ -39,10 +41,10 @@ def _is_of_rim(pair: FeaturePair) -> bool:
 def test_no_rim_comes_over_a_border_before_the_bodies_have_moved_by_its_gap(build: Any, name: str, seed: int) -> None:
     """The engine relies on it: a contact past its border, whose gap is larger than any motion, is not evaluated."""
     rng = np.random.default_rng(seed)
-    kinematics, under, height = UNDER[name]
+    under, height = UNDER[name]
     shape = Cylinder(RADIUS, RADIUS, foot_height=FOOT)
     rig = Rig((shape, under), build.laws())
-    rims = [i for i, pair in enumerate(kinematics.between(shape, under)) if _is_of_rim(pair)]
+    rims = [i for i, pair in enumerate(pairs_of(shape, under)) if _is_of_rim(pair)]
     n_begun = 0
     for _ in range(300):
         # the whole rim is above the face

@@ -157,9 +157,7 @@ def test_unbounded_shapes_have_no_search() -> None:
         ns.simulate(_approaching(finds, second=Plane()), 0.5)
 
 
-def test_the_kit_examines_pairs_that_a_search_would_find() -> None:
-    """Each as a contact of its own."""
-    found = check_contact_kinematics(Near, Sphere(0.2, x=0.1), Sphere(0.3, y=-0.05))
-    assert found
-    for check in found:
-        check()
+def test_the_kit_checks_every_pair_of_features() -> None:
+    """A contact that a search fills is checked with the features that it may have."""
+    for prop in check_contact_kinematics(Near, Sphere(0.2), Sphere(0.3)):
+        prop()

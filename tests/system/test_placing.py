@@ -249,3 +249,13 @@ def test_bodies_on_feet_are_placed_on_feet(offset: float) -> None:
     ns.touching(system, high, position=(offset, 0.0, 0.6))
     assert system.start(high)[0][2] == pytest.approx(0.06, abs=1e-12)
     assert ns.simulate(system, 1e-3).status == "done"
+
+
+def test_a_height_above_a_plane_may_exceed_the_margin_of_the_list(build: Any) -> None:
+    """Features of a cylinder and a box are searched for within a margin, to which the gap of the plane is not bound."""
+    plate, box, cylinder = Plate(), BoxBody(0.01, 0.02, 0.03), CylinderBody(0.01, 0.02)
+    system = ns.System([plate, box, cylinder])
+    system.contact_all(ns.ContactLaws(Unilateral(), Coulomb(0.3), EnergeticImpact(0.5)))
+    system.place(box, position=(0.0, 0.0, 0.1))
+    ns.at_height(system, cylinder, 0.2, position=(0.3, 0.0, 0.5))
+    assert system.start(cylinder)[0][2] == pytest.approx(0.22, abs=1e-12)

@@ -115,6 +115,7 @@ from nonsmooth.testing import (
     check_traction_law,
 )
 from nonsmooth.testing.component import make
+from nonsmooth.testing.features import every_pair
 from nonsmooth.testing.registered import check_class
 from scenarios.rolling_disc.air_film import AirFilm
 from scenarios.tippe_top.friction import SpinningCoulomb
@@ -253,11 +254,11 @@ SHAPES: list[tuple[Shape, Shape]] = [
 def _of_pair(first: Shape, second: Shape) -> list[Property]:
     """Return the properties of the contacts of a pair of shapes."""
     owner = _owner(first, second)
-    contacts = owner.between(first, second)
-    # of each evaluator the first contact, one in the middle and the last
+    # of each evaluator, and of each kind of pair that it has, the first contact, one in the middle and the last
     by_evaluator: dict[Any, list[int]] = {}
-    for number, contact in enumerate(contacts):
-        by_evaluator.setdefault(contact.evaluator, []).append(number)
+    for number, contact in enumerate(every_pair(owner.between(first, second))):
+        kind = contact.values.get("candidate", (0.0,))
+        by_evaluator.setdefault((contact.evaluator, kind[0] if isinstance(kind, tuple) else 0.0), []).append(number)
     chosen = {numbers[place] for numbers in by_evaluator.values() for place in (0, len(numbers) // 2, -1)}
     return check_contact_kinematics(owner, first, second, contacts=sorted(chosen))
 

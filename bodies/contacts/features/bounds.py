@@ -17,8 +17,8 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, dot, minus, norm, plus_scaled, scaled, vector_at
+from .edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from .frames import point_in_world, vector_in_world
-from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
 
 @compiled

@@ -10,8 +10,8 @@ from nonsmooth.engine.numerics.tolerances import ADJACENT, GAP, RELATIVE_GAP
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus_scaled, scaled, vector_at
+from .edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from .frames import point_in_world, tangent_of, vector_in_body, vector_in_world
-from .polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 
 CONE_MARGIN = 0.25
 """Sine of the largest angle between a contact normal and the normals of its features: 14 degrees.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import (
     GAP,
@@ -146,27 +144,3 @@ def place_sphere(a: Floats, out: Floats, center: Vector3, distance: float, radiu
     write_vector(out, POINT_A, minus(center, scaled(distance, n)))
     write_vector(out, POINT_B, minus(center, scaled(radius, n)))
     write_tangent(a, out)
-
-
-@compiled
-def gap_past_end(gap: float, past: float) -> float:
-    """Return the gap of a contact that ends at ``past`` = 0 [m].
-
-    A contact past its end is not valid, so that it must be open: a gap that is not negative becomes hypot(gap, past).
-    A negative gap is kept.  It is the depth of a spring at which another contact of the bodies takes over; the engine
-    opens the contact (:func:`nonsmooth.engine.bodies.kinematics.evaluate_geometry`).
-    """
-    return math.hypot(gap, past) if past > 0.0 and gap >= 0.0 else gap
-
-
-@compiled
-def gap_at_distance(gap: float, past: float, radius: float) -> float:
-    """Return the gap of a rounded surface [m], at the distance ``radius`` from its core, from the gap of the core.
-
-    ``gap`` is the gap of the core, ``past`` the distance past the boundary of its feature [m].  Past the boundary, a
-    ``gap`` that is not negative is hypot(gap along the normal, past).  The radius is subtracted from the gap along the
-    normal only.
-    """
-    if past <= 0.0 or gap < 0.0:
-        return gap - radius
-    return gap_past_end(math.sqrt(max(gap * gap - past * past, 0.0)) - radius, past)

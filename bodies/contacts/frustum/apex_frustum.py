@@ -2,17 +2,32 @@
 
 from __future__ import annotations
 
+import math
+
+from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import dot, minus, opposite, plus_scaled, scaled
+from ..features.ends import END, NEAR
 from ..features.frames import across
-from ..features.swept_vertex import END, NEAR
 from ..features.writing import write_round
-from .apex_swept import past_apex
 from .frustum import HIGH_RIM, LOW_RIM, axis_in_world, center_in_world, nearest_part, on_axis_in_world, part_number
 from .frustum_writing import write_rounded_part, write_two
+
+
+@compiled
+def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> float:
+    """Return the distance of the other body's nearest point past the apex [m], less the tolerance ``2 END size``.
+
+    It is the coordinate of this point along a straight line on the cone's side, from the apex downwards.  If the result
+    is positive, the side is nearer to the point than the apex.  The point lies at ``distance`` [m] from the apex;
+    ``axial`` is the component, along the cone's axis, of the unit vector from the apex to the point.  ``size`` is the
+    size of the bodies [m].
+    """
+    radial = math.sqrt(max(1.0 - axial * axial, 0.0))
+    return float(max(distance * (frustum[SIN] * radial - frustum[COS] * axial), -size) - 2.0 * END * size)
 
 
 def evaluate_apex_over_frustum(

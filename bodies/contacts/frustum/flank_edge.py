@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.compiled import block_at, compiled
+from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import plus, plus_scaled
 from ..features.edge_crossing import PARALLEL
-from ..features.polytope_tables import LENGTH, edge_at
+from ..features.edge_row import LENGTH
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, rotated
 from .frustum import FLANK, center_in_world, write_part
@@ -26,7 +26,6 @@ def write_edge_across_side(
     frustum: Floats,
     edge: Floats,
     radius: float,
-    core: Floats,
     is_convex: bool,
     size: float,
 ) -> None:
@@ -34,8 +33,8 @@ def write_edge_across_side(
 
     The contact normal is a normal of the side and perpendicular to the edge.  Two such normals exist, mirror images in
     the plane along edge and axis; bodies apart are separated along the one with the larger gap.  ``edge`` is the row of
-    the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).  If ``is_convex``, ``core`` is the convex core
-    with the edge, else it is not used.  ``size`` is the size of the bodies [m].
+    the edge (:data:`bodies.contacts.surface.surface_tables.EDGE`), ``is_convex`` tells whether its body is convex,
+    and ``size`` is the size of the bodies [m].
     """
     axes, center = axes_in_world(a, frustum), center_in_world(a, frustum)
     start, d = edge_in_frustum(b, edge, axes, center)
@@ -75,21 +74,9 @@ def write_edge_across_side(
         # no normal of the side is perpendicular to the edge, or the edge is parallel to the side: no valid crossing
         past_ends = size
     crossing_sine, off_cone = abs(crossing), off_cone_of_edge(b, edge, axes, n)
-    past = past_end(a, b, frustum, core, is_convex, gap, past_ends, crossing_sine, off_cone, size)
+    past = past_end(past_ends, crossing_sine, off_cone, size)
     point = plus(center, rotated(axes, plus_scaled(p, -gap, n)))
     write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, crossing_sine, n, point)
     outward = rotated(axes, (ex, ey, 0.0))
     write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), outward, cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])
-
-
-def evaluate_edge_across_side(
-    a: Floats, b: Floats, out: Floats, frustum: Floats, core: Floats, edge: float, radius: float, size: float
-) -> None:
-    """Write the geometry block of a frustum's side and an edge of a convex core that crosses the side.
-
-    ``edge`` is the number of the edge in ``core``, ``radius`` the radius about the core [m], ``size`` the size of the
-    bodies [m].
-    """
-    row = block_at(core, edge_at(core, edge))
-    write_edge_across_side(a, b, out, frustum, row, radius, core, True, size)

@@ -13,7 +13,6 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats, ReadFloats
 
 from ...shapes.frustum import (
@@ -30,17 +29,11 @@ from ...shapes.frustum import (
     Frustum,
     Point,
     frustum_numbers,
-    without_feet,
 )
-from ...shapes.polyhedron import SweptPolytope
-from ...shapes.polytope import Polytope
 from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import PARALLEL
-from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import FACE, FACES, N_FACES, N_VERTICES, vertex_at
-from ..features.vertex_face import plane_height
+from ..features.frames import across, point_in_world, vector_in_world
 from ..features.writing import write_flat, write_principal, write_round
-from ..surface.mesh_point import Corner
 from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
@@ -172,48 +165,6 @@ def least_height(frustum: Floats, height: float, axis: Vector3, normal: Vector3)
 
 
 @compiled
-def separation_over_faces(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
-    """Return the largest separation of a frustum and a core along the normals of the core's faces [m].
-
-    The frustum belongs to the first body, with the frame ``a``, the core to the second one.  The result is the largest
-    of the frustum's least heights over the faces: negative if no plane of a face separates the bodies.
-    """
-    axis, center = vector_in_body(b, axis_in_world(a, frustum)), point_in_body(b, center_in_world(a, frustum))
-    best = -math.inf
-    for i in range(int(core[N_FACES])):
-        f = int(core[FACES]) + FACE * i
-        best = max(best, least_height(frustum, plane_height(core, f, center), axis, vector_at(core, f)))
-    return best
-
-
-@compiled
-def least_over(b: Floats, core: Floats, normal: Vector3, place: Vector3) -> float:
-    """Return the least height of the vertices of a core over a plane [m].
-
-    The plane goes through the point ``place`` [m] with the unit normal ``normal``, both in the world.  ``b`` is the
-    frame block of the core's body.
-    """
-    height_of_origin = dot(normal, minus(vector_at(b, POSITION), place))
-    normal_in_body, least = vector_in_body(b, normal), math.inf
-    for i in range(int(core[N_VERTICES])):
-        least = min(least, dot(normal_in_body, vector_at(core, vertex_at(core, i))))
-    return float(height_of_origin + least)
-
-
-@compiled
-def separation_over_caps(a: Floats, b: Floats, frustum: Floats, core: Floats) -> float:
-    """Return the largest separation of a frustum and a core along the outward normals of the frustum's caps [m].
-
-    The bodies are those of :func:`separation_over_faces`; a negative result means that no cap separates them.
-    """
-    axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
-    best = least_over(b, core, opposite(axis), center) + frustum[LOW]
-    if frustum[HIGH_RADIUS] > 0.0:
-        best = max(best, least_over(b, core, axis, center) - frustum[HIGH])
-    return float(best)
-
-
-@compiled
 def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vector3) -> float:
     """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m].
 
@@ -338,11 +289,6 @@ def set_back(first: Frustum) -> Numbers:
     )
 
 
-def size_of_both(first: Frustum, second: SweptPolytope) -> float:
-    """Return the size of the larger body, its diameter [m]; tolerances of lengths are relative to it."""
-    return max(second.core.size + 2.0 * second.sweep, 2.0 * first.extent)
-
-
 def rims_of(numbers: Numbers) -> tuple[int, ...]:
     """Return the numbers of the rims of a frustum; a disc has one rim, an apex is not a rim."""
     return (LOW_RIM, HIGH_RIM) if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] > 0.0 else (LOW_RIM,)
@@ -362,17 +308,8 @@ def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point
         yield 0.0, foot, f"foot {i}"
 
 
-def seen_by(first: Frustum, core: Polytope) -> Numbers:
-    """Return the numbers of a frustum for the contacts with a core: set back by the feet if the core has faces.
-
-    A face rests on the feet, so the rest of the body must not touch first.  A segment has no faces: its contacts ignore
-    the feet.
-    """
-    return set_back(first) if core.faces else without_feet(first.frustum)
-
-
-def apex_of(first: Frustum) -> Iterator[Corner]:
-    """Yield position [m], edges (:data:`_N_EDGES` unit vectors down the side) and name of a cone's apex.
+def apex_of(first: Frustum) -> Iterator[tuple[Point, Numbers]]:
+    """Yield position [m] and edges (:data:`_N_EDGES` unit vectors down the side) of a cone's apex.
 
     Other frustums, which have no apex, yield nothing.  All vectors are in the body frame; the three components of each
     edge follow one another.
@@ -380,13 +317,13 @@ def apex_of(first: Frustum) -> Iterator[Corner]:
     sine, cosine = first.frustum[SIN], first.frustum[COS]
     for radius, place in first.standing_rims:
         if radius == 0.0:
-            yield place, _edges_around(first, sine, -cosine), "apex"
+            yield place, _edges_around(first, sine, -cosine)
 
 
-def feet_of(first: Frustum) -> Iterator[Corner]:
-    """Yield position [m], edges (:data:`_N_EDGES` unit vectors in the cap's plane) and name of each foot."""
-    for i, foot in enumerate(first.feet):
-        yield foot, _edges_around(first, 1.0, 0.0), f"foot {i}"
+def feet_of(first: Frustum) -> Iterator[tuple[Point, Numbers]]:
+    """Yield position [m] and edges (:data:`_N_EDGES` unit vectors in the cap's plane) of each foot."""
+    for foot in first.feet:
+        yield foot, _edges_around(first, 1.0, 0.0)
 
 
 def _edges_around(first: Frustum, radial: float, axial: float) -> Numbers:

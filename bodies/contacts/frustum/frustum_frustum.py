@@ -13,8 +13,8 @@ from nonsmooth.types import Floats
 from ...shapes.cylinder import Cylinder
 from ...shapes.frustum import FEET, HIGH_RADIUS, SIDE, SWEEP, Frustum, without_feet
 from ...vectors import minus, opposite, plus_scaled, scaled, vector_at
+from ..features.ends import CLOSED, REACH
 from ..features.frames import across, point_in_world
-from ..features.vertex_face import CLOSED, REACH
 from .apex_frustum import evaluate_apex_over_frustum
 from .flank_flank import evaluate_sides
 from .frustum import (

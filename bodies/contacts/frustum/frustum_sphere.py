@@ -1,21 +1,31 @@
-"""A sphere against a cylinder, a cone or a disc, in closed form."""
+"""A sphere, or a rounded vertex, against a cylinder, a cone or a disc, in closed form."""
 
 from __future__ import annotations
 
 from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, NORMAL, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SWEEP, Frustum, without_feet
 from ...shapes.sphere import Sphere
-from ...vectors import Vector3, minus, plus_scaled, scaled, write_vector
+from ...vectors import Vector3, minus, plus_scaled, scaled, vector_at, write_vector
+from ..features.ends import ended_gap, past_star
 from ..features.frames import across, point_in_world
 from ..features.writing import place_sphere, write_round, write_sweep
-from .frustum import axis_in_world, center_in_world, nearest_part, part_names, part_number, write_part
+from .frustum import (
+    HIGH_CAP,
+    LOW_CAP,
+    axis_in_world,
+    center_in_world,
+    nearest_part,
+    part_names,
+    part_number,
+    write_part,
+)
 
 
 @compiled
@@ -39,6 +49,31 @@ def write_frustum_ball(
     write_sweep(out, SIDE_A, first[SWEEP])
     write_round(out, SIDE_B, radius)
     return point, distance, part
+
+
+@compiled
+def write_frustum_vertex(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    first: Floats,
+    radius: float,
+    place: Vector3,
+    n_star: float,
+    star: Floats,
+    size: float,
+) -> None:
+    """Write the geometry block of a vertex, with a radius [m], and a frustum's nearest cap, rim, side or apex.
+
+    ``place`` is the vertex in the frame of the second body [m].  ``star`` holds ``n_star`` unit vectors along its
+    edges.  ``size`` is the size of the bodies [m].
+    """
+    point, distance, part = write_frustum_ball(a, b, out, first, radius, place)
+    # over a cap the contact does not end at the vertex: an edge over the cap touches with both ends, also if it tilts
+    is_flat = part in (LOW_CAP, HIGH_CAP)
+    past = past_star(b, star, 0.0 if is_flat else n_star, distance, vector_at(out, NORMAL), size)
+    gap, out[PAST_END] = ended_gap(out[GAP], past, size)
+    place_sphere(a, out, point, gap + radius, radius)
 
 
 def evaluate_frustum_sphere(

@@ -7,8 +7,6 @@ capsule.
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
@@ -16,9 +14,9 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIN, SWEEP
 from ...vectors import Vector3, divided, dot, minus, norm, plus_scaled, scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, PARALLEL, sine_off_cone
+from ..features.edge_row import ALONG, START
+from ..features.ends import REACH, gap_past_end
 from ..features.frames import across, point_in_world, vector_in_world, write_tangent
-from ..features.polytope_tables import ALONG, START
-from ..features.vertex_face import REACH
 from ..features.writing import write_principal, write_sweep
 from ..smooth.smooth_core import Axes, rotated, rotated_back
 from .frustum import (
@@ -27,8 +25,6 @@ from .frustum import (
     nearest_part,
     on_axis_in_world,
     separation_by_second,
-    separation_over_caps,
-    separation_over_faces,
     write_part,
 )
 
@@ -121,16 +117,6 @@ def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float, is_
 
 
 @compiled
-def gap_past_end(gap: float, past: float) -> float:
-    """Return the gap of a contact of convex bodies, which ends at ``past`` = 0 [m].
-
-    A contact past its end is not valid, so that it must be open: a gap that is not negative becomes hypot(gap, past).
-    A negative gap is kept.  It is the depth of a spring at which another contact of the bodies takes over.
-    """
-    return math.hypot(gap, past) if past > 0.0 and gap >= 0.0 else gap
-
-
-@compiled
 def write_contact(
     a: Floats, out: Floats, gap: float, past: float, feature: float, normal: Vector3, point: Vector3, of_second: bool
 ) -> None:
@@ -176,7 +162,7 @@ def write_two(
     the features [m].  The feature number is 0.
     """
     sweep = first[SWEEP]
-    gap, point = gap_past_end(distance - sweep - second[SWEEP], past), plus_scaled(p, sweep, normal)
+    gap, point = gap_past_end(distance - sweep - second[SWEEP], past, True), plus_scaled(p, sweep, normal)
     write_contact(a, out, gap, past, 0.0, scaled(1.0 - 2.0 * swap, normal), point, swap == 1.0)
 
 
@@ -207,7 +193,7 @@ def write_rounded_part(
 def edge_in_frustum(b: Floats, edge: Floats, axes: Axes, center: Vector3) -> tuple[Vector3, Vector3]:
     """Return the first end of an edge [m] and its unit vector, in the axes of the frustum and from its centre.
 
-    ``edge`` is the row of the edge in the frame ``b`` (:data:`bodies.contacts.features.polytope_tables.EDGE`).
+    ``edge`` is the row of the edge in the frame ``b`` (:data:`bodies.contacts.surface.surface_tables.EDGE`).
     ``axes`` and ``center`` [m] are those of the frustum in the world.
     """
     start = minus(point_in_world(b, vector_at(edge, START)), center)
@@ -225,33 +211,16 @@ def off_cone_of_edge(b: Floats, edge: Floats, axes: Axes, normal: Vector3) -> fl
 
 
 @compiled
-def past_end(
-    a: Floats,
-    b: Floats,
-    frustum: Floats,
-    core: Floats,
-    is_convex: bool,
-    gap: float,
-    past_ends: float,
-    sine: float,
-    off_cone: float,
-    size: float,
-) -> float:
+def past_end(past_ends: float, sine: float, off_cone: float, size: float) -> float:
     """Return the distance of a crossing past the boundary of its two features [m]; negative if the crossing is valid.
 
     The features are an edge of the second body, and a rim or a side of the first.  A crossing has no definite point if
-    both features are parallel.  A negative gap of convex bodies is not valid if the cores overlap less along the normal
-    of a cap of the frustum or of a face of the core: another contact then separates the bodies.
+    both features are parallel.
 
-    ``core`` is the core with the edge, which is used only if the second body ``is_convex``.  ``gap`` is the gap of the
-    cores, ``past_ends`` the distance past the ends of the edge and of the rim or side [m].  ``sine`` is the sine of the
+    ``past_ends`` is the distance past the ends of the edge and of the rim or side [m].  ``sine`` is the sine of the
     angle between the two features, ``off_cone`` that between the contact normal and the normal cones of the features.
     """
-    past = max(past_ends - REACH * size, size * max(PARALLEL - sine, off_cone - CONE_MARGIN))
-    if past <= 0.0 and gap < -REACH * size and is_convex:
-        best = max(separation_over_faces(a, b, frustum, core), separation_over_caps(a, b, frustum, core))
-        past = max(past, best - gap - REACH * size)
-    return past
+    return max(past_ends - REACH * size, size * max(PARALLEL - sine, off_cone - CONE_MARGIN))
 
 
 @compiled
@@ -274,7 +243,7 @@ def write_crossing(
 
     The point of crossing moves up to 1 / sine times as fast as the bodies, with the sine of the angle between both
     features.  Past the boundary, the gap is therefore hypot(gap, sine * past): its rate stays of the order of the
-    bodies' velocities.  A negative gap is kept if the second body is convex (:func:`gap_past_end`).
+    bodies' velocities.  A negative gap is kept if the second body ``is_convex`` (:func:`gap_past_end`).
 
     ``edge`` is the row of the edge of the second body, ``radius`` its rounding radius [m].  ``axes`` are the axes of
     the frustum in the world.  ``distance`` is the distance of the cores, ``past`` the distance past the boundary of
@@ -282,8 +251,6 @@ def write_crossing(
     is the contact point on the core of the frustum, in the world [m].
     """
     sweep, outward = frustum[SWEEP], rotated(axes, normal)
-    gap = distance - radius - sweep
-    if past > 0.0 and (gap >= 0.0 or not is_convex):
-        gap = math.hypot(gap, max(PARALLEL, sine) * past)
+    gap = gap_past_end(distance - radius - sweep, max(PARALLEL, sine) * past, is_convex)
     write_contact(a, out, gap, past, 0.0, outward, plus_scaled(p, sweep, outward), False)
     write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)

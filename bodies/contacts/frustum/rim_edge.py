@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.compiled import block_at, compiled
+from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import SIDE, SWEEP
 from ...vectors import divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL
-from ..features.polytope_tables import LENGTH, edge_at
+from ..features.edge_row import LENGTH
 from ..features.writing import write_sweep
 from ..smooth.smooth_core import axes_in_world, rotated
 from .frustum import center_in_world, rim_of, write_part
@@ -103,7 +103,6 @@ def write_edge_across_rim(
     half: float,
     edge: Floats,
     radius: float,
-    core: Floats,
     is_convex: bool,
     size: float,
 ) -> None:
@@ -125,11 +124,11 @@ def write_edge_across_rim(
         an edge at less than 60 degrees to the axis, both are the half circle nearer to the edge, and one of them has
         the contact.
     edge : Floats
-        Row of the edge (:data:`bodies.contacts.features.polytope_tables.EDGE`).
+        Row of the edge (:data:`bodies.contacts.surface.surface_tables.EDGE`).
     radius : float
         Radius about the edge [m].
-    core, is_convex : Floats, bool
-        The core with the edge, which is used if the body is convex.
+    is_convex : bool
+        Whether the body with the edge is convex.
     size : float
         Size of the bodies [m].
     """
@@ -193,29 +192,9 @@ def write_edge_across_rim(
     if past_evolute > 0.0 or crossing_sine <= PARALLEL:
         # the rim has no nearest point on this half, or the edge is along its tangent: no valid crossing
         past_ends = size
-    past = past_end(a, b, frustum, core, is_convex, gap, past_ends, crossing_sine, off_cone, size)
+    past = past_end(past_ends, crossing_sine, off_cone, size)
     point = plus(center, rotated(axes, p))
     write_crossing(a, b, out, frustum, axes, edge, radius, is_convex, gap, past, crossing_sine, n, point)
     axis, radial = (axes[2], axes[5], axes[8]), e[0] * n[0] + e[1] * n[1]
     write_part(out, SIDE_A, int(rim), axis, rotated(axes, e), radial, rim_radius)
     write_sweep(out, SIDE_A, frustum[SWEEP])
-
-
-def evaluate_edge_across_rim(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    frustum: Floats,
-    rim: float,
-    half: float,
-    core: Floats,
-    edge: float,
-    radius: float,
-    size: float,
-) -> None:
-    """Write the geometry block of an edge of a core, by number, that crosses one half of a rim.
-
-    The other parameters are those of :func:`write_edge_across_rim`.
-    """
-    row = block_at(core, edge_at(core, edge))
-    write_edge_across_rim(a, b, out, frustum, rim, half, row, radius, core, True, size)

@@ -15,8 +15,8 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import COS, SIDE, SIN, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL
+from ..features.ends import CLOSED, REACH
 from ..features.frames import across
-from ..features.vertex_face import CLOSED, REACH
 from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .frustum import FLANK, LOW_RIM, center_in_world, rim_of
 from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_rounded_part, write_two

@@ -8,8 +8,8 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, cross, divided, minus, norm, scaled, vector_at, write_vector
 from ..features.bounds import squared_distance_of_segments
 from ..features.edge_crossing import CONE_MARGIN, sine_off_cone
+from ..features.edge_row import ALONG, LENGTH
 from ..features.frames import vector_in_body, vector_in_world
-from ..features.polytope_tables import ALONG, LENGTH
 from .surface_near import Near, seen_from
 from .surface_search import ON_EDGE, feature_of, member_of, node_at
 from .surface_tables import N_MEMBERS, N_NODES, SKIP

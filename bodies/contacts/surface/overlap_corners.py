@@ -20,9 +20,9 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, divided, dot, minus, opposite, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN, Crossing
+from ..features.edge_row import LENGTH
+from ..features.ends import CLOSED
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.polytope_tables import LENGTH
-from ..features.vertex_face import CLOSED
 from .surface_search import FAR, distance_from_ends, face_at, face_height, nearest_in_patch
 from .surface_tables import IS_CONVEX, N_FACES
 

@@ -10,27 +10,13 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, divided, dot, minus, scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN
-from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
-from ..features.polytope_tables import ALONG
-from ..features.writing import gap_past_end, write_flat, write_principal, write_round
+from ..features.edge_row import ALONG
+from ..features.ends import END, NEAR, OPEN, gap_past_end, past_star
+from ..features.frames import point_in_body, point_in_world, tangent_of, vector_in_world, write_tangent
+from ..features.writing import write_flat, write_principal, write_round
 from .overlap_corners import corner_of_overlap, part_of_overlap
 from .surface_search import ON_EDGE, ON_FACE, Found, distance_from_ends, edge_at, face_at, nearest_in_patch
-from .surface_tables import N_EDGES, N_FACES, N_PATCHES, SIZE, SWEEP
-
-END = 3e-10
-"""Distance from a corner, along an edge, at which the contact of the edge ends; relative to the size of the bodies.
-
-The contact of the corner ends at twice this distance.  Both contacts are valid between the two distances, so that a
-point that slides from the edge to the corner always has a contact.  If two bodies are pressed into each other with
-flush faces, the corners of their overlap replace this rule (:mod:`bodies.contacts.surface.overlap_corners`).
-"""
-OPEN = 100.0
-"""Gap of a contact that another contact replaces, over its distance past the end of an edge; large, so it is open."""
-NEAR = 1e-6
-"""Gap, relative to the size of the bodies, above which the contact of a corner stays valid wherever its point is.
-
-The ball about the corner is a part of its body, so that its gap is always an upper bound of the gap of the bodies.
-"""
+from .surface_tables import IS_CONVEX, N_EDGES, N_FACES, N_PATCHES, SIZE, SWEEP
 
 
 @compiled
@@ -71,21 +57,6 @@ def write_feature(frame: Floats, out: Floats, side: int, surface: Floats, kind: 
 
 
 @compiled
-def past_star(frame: Floats, star: Floats, n_star: float, distance: float, n: Vector3, size: float) -> float:
-    """Return the distance of a contact past a corner [m], less the tolerance ``2 END size``; negative if it is valid.
-
-    The nearest point of the other body's core is at ``distance`` [m] from the corner, against the normal n.
-    The distance past the corner is the largest coordinate of this point along an edge of the corner, measured from
-    the corner.  If it is positive, this edge is nearer to the point than the corner.  For a corner inside of the other
-    core the result is negative.
-    """
-    n, past = vector_in_body(frame, n), -size
-    for i in range(int(n_star) if distance > 0.0 else 0):
-        past = max(past, -distance * dot(n, vector_at(star, 3 * i)))
-    return past - 2.0 * END * size
-
-
-@compiled
 def _is_along_side(own: Floats, other: Floats, surface: Floats, found: Found, n_star: float, star: Floats) -> bool:
     """Return whether the nearest feature of a surface is the side of a capsule, nearly parallel to the corner's own.
 
@@ -112,6 +83,7 @@ def write_ball(
     shared: float,
     center: Vector3,
     radius: float,
+    is_convex: bool,
 ) -> None:
     """Write the geometry block of a ball of one body and the nearest feature of the other body's surface.
 
@@ -131,9 +103,11 @@ def write_ball(
         If positive, another contact has the same two corners: length by which this one is past its end [m].
     center, radius : Vector3, float
         Centre of the ball in the world, and its radius [m].
+    is_convex : bool
+        Whether both bodies are convex.
     """
     gap = found[0] - surface[SWEEP] - radius
-    gap = math.hypot(gap, OPEN * shared) if shared > 0.0 else gap_past_end(gap, past)
+    gap = math.hypot(gap, OPEN * shared) if shared > 0.0 else gap_past_end(gap, past, is_convex)
     sign = 1.0 - 2.0 * swap
     near, far = (POINT_A, POINT_B) if swap == 1.0 else (POINT_B, POINT_A)
     out[GAP], out[PAST_END] = gap, past
@@ -209,4 +183,5 @@ def write_round_corner(
     if gap > NEAR * size:
         past_own = min(past_own, -END * size)
     shared = END * size - within if swap == 1.0 else -math.inf
-    write_ball(a, b, out, swap, surface, found, n, max(max(past, past_own), shared), shared, center, radius)
+    past, is_convex = max(max(past, past_own), shared), surface[IS_CONVEX] * own[IS_CONVEX] > 0.0
+    write_ball(a, b, out, swap, surface, found, n, past, shared, center, radius, is_convex)

@@ -8,12 +8,11 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, dot, norm, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine, sine_off_cone
+from ..features.edge_row import ALONG, INTO_FIRST, LENGTH
+from ..features.ends import CLOSED, gap_past_end
 from ..features.frames import point_in_body
-from ..features.polytope_tables import ALONG, INTO_FIRST, LENGTH
-from ..features.vertex_face import CLOSED
-from ..features.writing import gap_past_end, write_principal
+from ..features.writing import write_principal
 from .overlap_corners import common_direction, crossing_past_corner, part_of_overlap
-from .surface_ball import END
 from .surface_near import seen_from
 from .surface_search import beyond_ends
 from .surface_tables import IS_CONVEX, N_FACES, SWEEP
@@ -170,7 +169,7 @@ def write_edges(
         past = _past_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size)
     if past <= 0.0 and gap < 0.0:
         past = max(past, _past_overlap(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
-    gap = gap_past_end(gap - radius, past)
+    gap = gap_past_end(gap - radius, past, surface_a[IS_CONVEX] * surface_b[IS_CONVEX] > 0.0)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     write_vector(out, NORMAL, n)
     write_vector(out, POINT_A, plus_scaled(p, radius_a, n))

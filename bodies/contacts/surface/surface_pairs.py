@@ -22,7 +22,7 @@ from .surface_ball import write_round_corner
 from .surface_edges import write_edges
 from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND, seen_from
 from .surface_search import FAR, corner_at, edge_at, nearest_in_patch, signed_distance
-from .surface_tables import N_FACES, SWEEP, surface_numbers
+from .surface_tables import IS_CONVEX, N_FACES, SWEEP, surface_numbers
 from .surface_vertex import write_sharp_corner
 
 MOST_NEAR = 256
@@ -52,7 +52,8 @@ def _write_corner(
     if radius > 0.0:
         write_round_corner(a, b, out, swap, surface, float(patch), own, place, n_star, star, size, margin + radius)
         return
-    write_sharp_corner(a, b, out, swap, surface, float(patch), place, n_star, star, margin, 0.0)
+    is_convex = surface[IS_CONVEX] * own[IS_CONVEX] > 0.0
+    write_sharp_corner(a, b, out, swap, surface, float(patch), place, n_star, star, margin, is_convex)
     part = part_of_overlap(-out[GAP], size)
     if part > 0.0:
         # bodies on springs overlap: then the corners of the overlap touch

@@ -9,8 +9,8 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, minus, plus, plus_scaled, scaled, vector_at
-from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
-from ..features.vertex_face import REACH
+from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
+from ..features.ends import REACH
 from .surface_tables import (
     BITS,
     BORDERS,

@@ -17,9 +17,9 @@ from nonsmooth.types import Floats
 
 from ...shapes.support_function import OF_FUNCTION, Core, is_round, support_of
 from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, scaled, vector_at
+from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
+from ..features.ends import REACH
 from ..features.frames import point_in_body, point_in_world
-from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
-from ..features.vertex_face import REACH
 from ..smooth.boxy_line import across_line
 from ..smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, facing_point, relative_rotation, rotated_back
 from ..smooth.smooth_newton import widest_from, write_smooth

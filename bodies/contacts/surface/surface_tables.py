@@ -143,17 +143,6 @@ def _edge_rows(features: Features) -> Vector:
     return np.hstack([start, along, length, np.cross(normals[:, 0], along), np.cross(along, normals[:, 1])])
 
 
-def edge_row(features: Features, number: int) -> Numbers:
-    """Return the row of one convex edge, 13 numbers: the first numbers of an ``EDGE`` row."""
-    return tuple(_edge_rows(features)[number].tolist())
-
-
-def star_of(features: Features, number: int) -> list[float]:
-    """Return the unit vectors from a corner along its edges, three components for each edge."""
-    ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]
-    return [float(x) for x in (ways / np.linalg.norm(ways, axis=1)[:, None]).ravel()]
-
-
 def star_lengths(features: Features, number: int) -> list[float]:
     """Return the lengths of the edges of a corner [m], in the order of its unit vectors."""
     ways = features.vertices[list(features.stars[number])] - features.vertices[features.corners[number]]

@@ -10,9 +10,9 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, minus, scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN
+from ..features.ends import CLOSED, REACH
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
-from ..features.vertex_face import CLOSED, REACH
-from ..features.writing import gap_at_distance, write_flat, write_round
+from ..features.writing import write_flat, write_round
 from .overlap_corners import FLUSH
 from .surface_search import (
     ON_FACE,
@@ -182,13 +182,14 @@ def face_under(
     n_star: float,
     star: Floats,
     reach: float,
+    is_convex: bool,
 ) -> tuple[int, float, float]:
     """Return face, gap and distance past the end [m] for a vertex of the other body and a patch in ``frame``.
 
     The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
     face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face that it
-    may touch.  If the vertex may not touch the face, a gap that is not negative is replaced by hypot(distance, past); a
-    negative one is kept.  If no face is within ``reach`` [m], gap and
+    may touch.  If the vertex may not touch the face, the gap is hypot(distance, past); a negative one is kept if both
+    bodies are convex (``is_convex``).  If no face is within ``reach`` [m], gap and
     distance past the end are ``reach``.
 
     ``place`` is the vertex in the axes of its body [m]; ``star`` holds unit vectors along its ``n_star`` edges.
@@ -226,7 +227,7 @@ def face_under(
     is_below = depth_face >= 0 and depth * depth < best
     if is_below and past_depth(frame, other, surface, n_star, star, (point, point), depth, point) <= 0.0:
         return depth_face, -depth, depth_past
-    return found, height_best if past <= 0.0 or height_best < 0.0 else math.hypot(apart, past), past
+    return found, height_best if past <= 0.0 or (height_best < 0.0 and is_convex) else math.hypot(apart, past), past
 
 
 @compiled
@@ -241,24 +242,22 @@ def write_sharp_corner(
     n_star: float,
     star: Floats,
     reach: float,
-    radius: float,
+    is_convex: bool,
 ) -> None:
-    """Write the geometry block of a vertex, rounded by ``radius`` [m], over a patch of the other body's surface.
+    """Write the geometry block of a sharp vertex over a patch of the other body's surface.
 
     The vertex belongs to the first body if ``swap`` is 1, else to the second.  The other arguments are those of
     :func:`face_under`.
     """
     own, other = (a, b) if swap == 1.0 else (b, a)
     near, far = (POINT_A, POINT_B) if swap == 1.0 else (POINT_B, POINT_A)
-    face, gap, past = face_under(other, own, surface, patch, place, n_star, star, reach)
-    if radius > 0.0:
-        gap = gap_at_distance(gap, past, radius)
+    face, gap, past = face_under(other, own, surface, patch, place, n_star, star, reach, is_convex)
     sign = 1.0 - 2.0 * swap
     normal = vector_in_world(other, scaled(sign, vector_at(surface, face_at(surface, face))))
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
     write_vector(out, NORMAL, normal)
-    write_vector(out, near, minus(point_in_world(own, place), scaled(sign * radius, normal)))
+    write_vector(out, near, point_in_world(own, place))
     write_vector(out, far, minus(vector_at(out, near), scaled(sign * gap, normal)))
     write_tangent(a, out)
-    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, radius)
+    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, 0.0)
     write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)

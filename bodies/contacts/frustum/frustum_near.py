@@ -3,38 +3,29 @@
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
+from ...shapes.frustum import HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
-from ..features.frames import across, point_in_body, vector_in_body
-from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
-from ..features.vertex_face import CLOSED
-from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
-from ..frustum.frustum_polyhedron import has_part, normal_of_part, over_part
-from ..frustum.frustum_writing import off_cone_of_rim
+from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
+from ..features.ends import CLOSED
+from ..features.frames import across
 from ..surface.surface_search import face_at, in_triangle, steepest
 from ..surface.surface_tables import CORNER, CORNERS, FACE_NUMBER
-from .surface_rim import lowest_on_rim
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, nearest_part
+from .frustum_corner import has_part, normal_of_part, over_part
+from .frustum_writing import off_cone_of_rim
+from .rim_face import FrustumPose, lowest_on_rim
 
-FrustumPose: TypeAlias = tuple[Vector3, Vector3]
-"""Centre [m] and axis of a frustum in the axes of a surface."""
 _HALVINGS = 40
 """Largest number of halvings of an edge: the rest is shorter than round-off of its length."""
 _PIECES = 16
 """Largest number of pieces of an edge, each of which is compared with a rim."""
 _SHARP = 1e-3
 """Margin for round-off of angles [rad], and length of the sum of two unit normals below which it has no direction."""
-
-
-@compiled
-def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
-    """Return centre [m] and axis of the first body's frustum in the axes of the second body."""
-    return point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum))
 
 
 @compiled
@@ -217,14 +208,22 @@ def _rim_crosses(
 
 @compiled
 def corner_is_near(
-    surface: Floats, corner: int, frustum: Floats, pose: FrustumPose, reach: float, turn: float, size: float
+    surface: Floats,
+    corner: int,
+    frustum: Floats,
+    pose: FrustumPose,
+    sweep: float,
+    reach: float,
+    turn: float,
+    size: float,
 ) -> bool:
     """Return whether a corner may touch the frustum before the next search; arguments as in :func:`rim_is_near`.
 
-    ``corner`` is the number of the corner, ``size`` the size of the bodies [m].  A corner touches a rounded frustum
-    only if none of its edges leads towards the point of the frustum's core that is nearest to the corner.  The vector
-    from the corner to this point changes by at most the displacement of the corner.  A corner touches a cap or the side
-    of a sharp frustum only if none of its edges leads into the frustum more steeply than ``CONE_MARGIN``.
+    ``corner`` is the number of the corner, ``sweep`` the sum of both rounding radii [m], ``size`` the size of the
+    bodies [m].  If a body is rounded, a corner touches only if none of its edges leads towards the point of the
+    frustum's core that is nearest to the corner.  The vector from the corner to this point changes by at most the
+    displacement of the corner.  A sharp corner touches a cap or the side of a sharp frustum only if none of its edges
+    leads into the frustum more steeply than ``CONE_MARGIN``.
     """
     row = int(surface[CORNERS]) + CORNER * corner
     center, axis = pose
@@ -234,9 +233,9 @@ def corner_is_near(
         return False
     if distance < -CLOSED * size:
         return True
-    if frustum[SWEEP] > 0.0:
+    if sweep > 0.0:
         # the corner moves by at most the margin of the search
-        inward, displacement = opposite(normal_of_part(axis, outward, radial, axial)), reach - frustum[SWEEP]
+        inward, displacement = opposite(normal_of_part(axis, outward, radial, axial)), reach - sweep
         return bool(distance <= 0.0 or distance * steepest(surface, row, inward) <= displacement + turn * distance)
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if not has_part(frustum, part):

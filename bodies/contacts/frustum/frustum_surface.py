@@ -1,49 +1,54 @@
-"""A cylinder, cone or disc against a mesh of many features: only features that are near each other are contacts."""
+"""Contacts of a cylinder, cone or disc with a surface: a search finds the pairs of features that are near."""
 
 from __future__ import annotations
 
 import itertools
+from collections.abc import Mapping
+from typing import Any, ClassVar, final
 
 from nonsmooth.compiled import block_at, compiled
-from nonsmooth.interfaces import CandidateSearch, FeaturePair
+from nonsmooth.interfaces import CandidateSearch, ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
 from ...meshes.patches import patches_for_ball
-from ...shapes.frustum import HIGH, HIGH_RADIUS, SIDE, SWEEP, Frustum
+from ...meshes.triangles import Triangles
+from ...shapes.cylinder import Cylinder
+from ...shapes.frustum import HIGH, HIGH_RADIUS, SIDE, Frustum, without_feet
+from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
+from ...shapes.surface_shape import SurfaceShape
 from ...shapes.triangle_mesh import TriangleMesh
 from ...vectors import minus, norm, plus_scaled, vector_at
 from ..features.writing import NO_CANDIDATE, write_apart
-from ..frustum.frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, set_back
-from ..frustum.frustum_swept import write_rounded_vertex
-from ..surface.surface_near import NARROW, patches_near, patches_under, room_ahead
-from ..surface.surface_pairs import MOST_NEAR
-from ..surface.surface_search import ON_EDGE, ON_FACE, edge_at, feature_of, member_of, node_at
+from ..surface.surface_near import patches_near, patches_under, room_ahead
+from ..surface.surface_pairs import MOST_NEAR, limits
+from ..surface.surface_search import ON_EDGE, ON_FACE, corner_at, edge_at, feature_of, member_of, node_at
 from ..surface.surface_tables import (
     CORNER,
     CORNERS,
     N_MEMBERS,
     N_NODES,
-    N_STAR,
     SKIP,
     STAR,
-    STARS,
+    SWEEP,
     UPPER,
     star_lengths,
     surface_numbers,
 )
-from ..surface.surface_vertex import write_sharp_corner
-from .apex_mesh import write_apex
+from .edge_in_surface import write_across_rim, write_across_side
+from .frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, part_names, rims_of, set_back
 from .frustum_corner import write_corner
-from .frustum_near import FrustumPose, corner_is_near, edge_is_near, from_core, frustum_in_surface, rim_is_near
-from .mesh_crossing import write_across_rim, write_across_side
-from .surface_rim import rim_in_surface, rim_over, write_rim
+from .frustum_near import corner_is_near, edge_is_near, from_core, rim_is_near
+from .frustum_sphere import write_frustum_vertex
+from .rim_face import FrustumPose, frustum_in_surface, write_rim
+from .tips_over_surface import write_apex, write_tip
 
 RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
 """Kinds of candidates, the first of a candidate's three numbers.
 
 In this order: rim over a face, point over a patch, round apex over a patch, corner of the surface, edge of the surface
-across the side, edge across the first half of a rim, edge across the second half.
+across the side, edge across the first half of a rim, edge across the second half.  The numbers of face, patch, corner
+or edge, and of rim (0 or 1) or point, follow.
 """
 POINT_ROW, N_DIRECTIONS = 4, 3
 """Floats in the row of a point (foot or apex) before its unit vectors: position (3) [m], number of unit vectors.
@@ -78,14 +83,14 @@ def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
 
 
 @compiled
-def _add_halves(edge: float, rim: int, out: Floats, n: int, most: int) -> int:
+def _add_halves(edge: float, upper: float, out: Floats, n: int, most: int) -> int:
     """Append two candidates, an edge of the surface with each half of a rim, to the ``n`` candidates in ``out``.
 
-    ``rim`` is ``LOW_RIM`` or ``HIGH_RIM``.  Nothing is appended if n exceeds ``most``.  Return the new number of
-    candidates.
+    ``upper`` is 1 for the upper rim, 0 for the lower one.  Nothing is appended if n exceeds ``most``.  Return the new
+    number of candidates.
     """
-    n = _add(ACROSS_BACK, edge, float(rim), out, n, most)
-    return int(_add(ACROSS_FRONT, edge, float(rim), out, n, most))
+    n = _add(ACROSS_BACK, edge, upper, out, n, most)
+    return int(_add(ACROSS_FRONT, edge, upper, out, n, most))
 
 
 @compiled
@@ -119,11 +124,11 @@ def _member_near(
         if flank:
             n = _add(ACROSS_FLANK, float(number), 0.0, out, n, most)
         if lower:
-            n = _add_halves(float(number), LOW_RIM, out, n, most)
+            n = _add_halves(float(number), 0.0, out, n, most)
         if upper_rim:
-            n = _add_halves(float(number), HIGH_RIM, out, n, most)
+            n = _add_halves(float(number), 1.0, out, n, most)
         return n
-    if corner_is_near(surface, number, frustum, pose, reach, turn, size):
+    if corner_is_near(surface, number, frustum, pose, frustum[FRUSTUM_SWEEP] + surface[SWEEP], reach, turn, size):
         n = _add(UNDER, float(number), 0.0, out, n, most)
     return n
 
@@ -150,8 +155,8 @@ def find_near_frustum(
     exceeds ``narrow`` [m], the limit is smaller (:func:`bodies.contacts.surface.surface_near.room_ahead`).
     """
     reach, limit, n, node = out[0], room_ahead(out[0], narrow, int(most)), 0, 0
-    turn, sweep = turning * reach, frustum[SWEEP]
-    # distances are measured from the core
+    turn, sweep = turning * reach, frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    # distances are measured between the cores
     core_reach = sweep + reach
     pose = frustum_in_surface(a, b, frustum)
     while node < int(surface[N_NODES]) and n <= limit:
@@ -170,7 +175,7 @@ def find_near_frustum(
         row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * i
         place, n_star, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
         n = patches_under(b, a, surface, place, n_star, star, core_reach, turn, POINT, float(i), out, n, limit)
-    # the apex of a rounded cone is a sphere
+    # the apex is a sphere if a body is rounded
     if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[HIGH_RADIUS] == 0.0:
         n = patches_near(surface, plus_scaled(pose[0], frustum[HIGH], pose[1]), core_reach, APEX, 0.0, out, n, limit)
     out[0] = float(n) if n <= limit else most + 1.0
@@ -182,13 +187,12 @@ def evaluate_frustum_and_candidate(
     out: Floats,
     candidate: Floats,
     frustum: Floats,
-    rims: Floats,
     points: Floats,
     surface: Floats,
     lengths: Floats,
     size: float,
 ) -> None:
-    """Write the geometry block of a feature of a frustum and a feature of a mesh that is currently near it.
+    """Write the geometry block of a feature of a frustum and a feature of a surface that is currently near it.
 
     Parameters
     ----------
@@ -196,78 +200,109 @@ def evaluate_frustum_and_candidate(
         Frame blocks of both bodies, the geometry block, and the pair of features.
     frustum : Floats
         The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
-    rims : Floats
-        Radius and centre of each rim in the body frame [m].
     points : Floats
         Rows of the feet and of a sharp apex (:data:`POINT_ROW`).
     surface : Floats
-        The surface of the second body (:mod:`bodies.contacts.surface.surface_tables`).
+        The second body (:mod:`bodies.contacts.surface.surface_tables`).
     lengths : Floats
         For a disc, lengths of the edges of the surface's corners, one corner after the other [m]; else a single 0.
     size : float
         Size of the larger body [m].
     """
-    # kind, numbers of the two features, and distance from the core up to which the candidate is valid
-    kind, i, j, reach = candidate[0], int(candidate[1]), int(candidate[2]), frustum[SWEEP] + candidate[3]
+    kind, i, j = candidate[0], int(candidate[1]), int(candidate[2])
+    sweep = frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    # distance of the cores up to which the candidate is valid
+    reach = sweep + candidate[3]
     if kind == RIM:
-        # the numbers of a rim: radius, centre
-        radius, place = rims[4 * j], vector_at(rims, 4 * j + 1)
-        gap, past = rim_over(surface, i, frustum, radius, 2.0 * j - 1.0, rim_in_surface(a, b, frustum, place), reach)
-        write_rim(a, b, out, frustum, radius, place, surface, i, gap, past)
+        write_rim(a, b, out, frustum, j, surface, i, reach)
     elif kind == POINT:
         row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * j
         place, n, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
-        write_sharp_corner(a, b, out, 1.0, surface, float(i), place, n, star, reach, frustum[SWEEP])
+        write_tip(a, b, out, frustum, surface, float(i), place, n, star, reach)
     elif kind == APEX:
         write_apex(a, b, out, frustum, surface, float(i), size, reach)
     elif kind == UNDER:
-        row = int(surface[CORNERS]) + CORNER * i
-        corner, n = block_at(surface, row), surface[row + N_STAR]
-        star = block_at(surface, int(surface[STARS]) + int(surface[row + STAR]))
-        if frustum[SWEEP] > 0.0:
-            write_rounded_vertex(a, b, out, frustum, 0.0, corner, n, star, size)
+        corner, n, star = corner_at(surface, i)
+        if sweep > 0.0:
+            write_frustum_vertex(a, b, out, frustum, surface[SWEEP], corner, n, star, size)
         else:
             # only a disc uses the lengths of the edges at its corner; for other frustums the table is a single 0
-            own = block_at(lengths, int(surface[row + STAR]) // 3 if frustum[SIDE] == 0.0 else 0)
-            write_corner(a, b, out, frustum, corner, n, star, own, surface, size)
+            first = int(surface[int(surface[CORNERS]) + CORNER * i + STAR]) // 3 if frustum[SIDE] == 0.0 else 0
+            write_corner(a, b, out, frustum, corner, n, star, block_at(lengths, first), surface, size)
     elif kind == ACROSS_FLANK:
         write_across_side(a, b, out, frustum, block_at(surface, edge_at(surface, i)), surface, size)
     elif kind == ACROSS_BACK or kind == ACROSS_FRONT:
-        edge, half = block_at(surface, edge_at(surface, i)), -1.0 if kind == ACROSS_BACK else 1.0
-        write_across_rim(a, b, out, frustum, float(j), half, edge, surface, size)
+        rim, half = float(LOW_RIM + (HIGH_RIM - LOW_RIM) * j), -1.0 if kind == ACROSS_BACK else 1.0
+        write_across_rim(a, b, out, frustum, rim, half, block_at(surface, edge_at(surface, i)), surface, size)
     else:
         write_apart(a, out, size)
 
 
-def frustum_pairs(first: Frustum, second: TriangleMesh) -> tuple[FeaturePair, ...]:
-    """Return the contacts of a frustum and a mesh: ``MOST_NEAR`` of them, to which a search assigns near pairs."""
-    numbers, own, extents = set_back(first), second.features, (first.extent, second.extent)
-    points = [*feet_of(first), *(apex_of(first) if numbers[SWEEP] == 0.0 else ())]
-    patches = patches_for_ball(own, numbers[SWEEP])
-    rows = [(*place, len(star) // 3, *star) for place, star, _ in points]
-    lengths = [x for i in range(len(own.corners)) for x in star_lengths(own, i)] if not numbers[SIDE] else []
-    values: dict[str, Value] = {
-        "frustum": numbers,
-        "n_points": float(len(rows)),
-        "points": SharedNumbers([*itertools.chain(*rows)] or [0.0]),
-        "surface": surface_numbers(own, patches, 0.0),
-        "size": max(own.size, 2.0 * first.extent),
-        "most": float(MOST_NEAR),
-        "turning": 0.5 / extents[0] + 0.5 / extents[1],
-        "narrow": NARROW * min(extents),
-    }
-    n_edges = len(own.edges)
-    counts = {
-        RIM: (len(own.planes), len(first.standing_rims)),
-        POINT: (patches.count, len(rows)),
-        APEX: (patches.count, 1),
-        UNDER: (len(own.corners), 1),
-        ACROSS_FLANK: (n_edges, 1),
-        ACROSS_BACK: (n_edges, HIGH_RIM + 1),
-        ACROSS_FRONT: (n_edges, HIGH_RIM + 1),
-    }
-    rims = tuple(x for radius, center in first.standing_rims for x in (radius, *center))
-    own_values = {**values, "candidate": NO_CANDIDATE, "rims": rims, "lengths": SharedNumbers(lengths or [0.0])}
-    names = tuple(f"feature {i}" for i in range(len(own.planes) + n_edges + len(own.corners)))
-    search = CandidateSearch(find_near_frustum, values, counts)
-    return tuple(FeaturePair(evaluate_frustum_and_candidate, own_values, names, search) for _ in range(MOST_NEAR))
+@final
+class FrustumSurface(ContactKinematics):
+    """Contacts of a cylinder, cone or disc with a box, a convex hull, a capsule or a triangle mesh.
+
+    The surface need not be convex.  A pair of features can be:
+
+    - a rim of the frustum, at its lowest point, and a face of the surface;
+    - a foot or the apex, and a patch: a group of faces of which the body can touch only one at a time
+      (:mod:`bodies.meshes.patches`);
+    - a corner of the surface, and the nearest part of the frustum;
+    - a convex edge of the surface that crosses the side or one half of a rim.
+
+    Whether a contact exists depends only on the surface next to its points.  A rounded body is at a constant distance,
+    the radius of rounding, from a smaller core.  If a body is rounded, the apex and the corners are spheres, or points.
+    A search finds the pairs that are near each other; these are the contacts.
+
+    A face of a surface rests on the feet, so the rims are set back by them.  A capsule has no faces: its contacts
+    ignore the feet.
+    """
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (Frustum, SurfaceShape)
+
+    @classmethod
+    def example(cls) -> Mapping[str, Any]:
+        """Return a cylinder, and a tetrahedron whose faces its rims meet."""
+        corners = ((1.0, 1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0), (-1.0, -1.0, 1.0))
+        tetrahedron = Triangles(corners, ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)), "of the example")
+        return {"first": Cylinder(0.1, 0.2), "second": TriangleMesh(tetrahedron)}
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[FeaturePair, ...]:
+        """Return as many contacts as there are pairs of features, at most ``MOST_NEAR``; a search fills them."""
+        assert isinstance(first, Frustum)
+        assert isinstance(second, SurfaceShape)
+        own, extents = second.features, (first.extent, second.extent)
+        n_faces, n_edges, n_corners = len(own.planes), len(own.edges), len(own.corners)
+        numbers = set_back(first) if n_faces else without_feet(first.frustum)
+        is_sharp = numbers[FRUSTUM_SWEEP] + second.sweep == 0.0
+        points = [*feet_of(first), *(apex_of(first) if is_sharp else ())] if n_faces else []
+        rows = [(*place, len(star) // 3, *star) for place, star in points]
+        patches, n_rims = patches_for_ball(own, numbers[FRUSTUM_SWEEP]), len(rims_of(numbers))
+        has_side, has_round_apex = numbers[SIDE] > 0.0, numbers[HIGH_RADIUS] == 0.0 and not is_sharp
+        counts = {
+            RIM: (n_faces, n_rims),
+            POINT: (patches.count, len(rows)),
+            APEX: (patches.count, int(has_round_apex)),
+            UNDER: (n_corners, 1),
+            ACROSS_FLANK: (n_edges, int(has_side)),
+            ACROSS_BACK: (n_edges, n_rims),
+            ACROSS_FRONT: (n_edges, n_rims),
+        }
+        n_contacts = min(MOST_NEAR, sum(m * n for m, n in counts.values()))
+        values: dict[str, Value] = {
+            "frustum": numbers,
+            "points": SharedNumbers([*itertools.chain(*rows)] or [0.0]),
+            "surface": surface_numbers(own, patches, second.sweep),
+            "size": max(own.size + 2.0 * second.sweep, 2.0 * first.extent),
+        }
+        search_values: dict[str, Value] = {
+            **values,
+            "n_points": float(len(rows)),
+            **limits(n_contacts, extents),
+        }
+        lengths = [] if has_side else [x for i in range(n_corners) for x in star_lengths(own, i)]
+        own_values = {**values, "candidate": NO_CANDIDATE, "lengths": SharedNumbers(lengths or [0.0])}
+        names = tuple(f"feature {i}" for i in range(max(n_faces + n_edges + n_corners, len(part_names(numbers)))))
+        search = CandidateSearch(find_near_frustum, search_values, counts)
+        return (FeaturePair(evaluate_frustum_and_candidate, own_values, names, search),) * n_contacts

@@ -1,21 +1,63 @@
-"""A corner of a mesh over the caps and the side of a cylinder, a cone or a disc."""
+"""A sharp corner of a surface over the caps and the side of a sharp cylinder, cone or disc."""
 
 from __future__ import annotations
 
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION
+from nonsmooth.engine.memory.blocks import POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import LOW_RADIUS, SIDE
-from ...vectors import Vector3, dot, minus, plus_scaled, vector_at
+from ...shapes.frustum import COS, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN
+from ...vectors import Vector3, dot, minus, plus, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
+from ..features.ends import CLOSED, REACH, gap_past_end
 from ..features.frames import across, point_in_world, vector_in_body
-from ..features.vertex_face import CLOSED, REACH
-from ..frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, tip_past_rim
-from ..frustum.frustum_polyhedron import has_part, normal_of_part, over_part, write_vertex_over_part
+from ..features.writing import write_round
 from ..surface.surface_search import depth_inside
+from ..surface.surface_tables import IS_CONVEX
+from .frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    axis_in_world,
+    center_in_world,
+    part_number,
+    tip_past_rim,
+    write_part,
+)
+from .frustum_writing import write_contact
+
+
+@compiled
+def has_part(frustum: Floats, part: int) -> bool:
+    """True if a frustum has a cap or a side: a disc has no side, a cone no upper cap."""
+    return not ((part == FLANK and frustum[SIDE] == 0.0) or (part == HIGH_CAP and frustum[HIGH_RADIUS] == 0.0))
+
+
+@compiled
+def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
+    """Return height of a point over a cap's plane or the side's cone, distance past its border [m], and the normal.
+
+    The height is positive outside, the distance past the border is negative over the part.  The point has the
+    coordinate ``along`` on the axis, from the frustum's centre, and the distance ``away`` from the axis [m].  The
+    outward normal is returned as its radial and its axial component.
+    """
+    if part == LOW_CAP:
+        return frustum[LOW] - along, away - frustum[LOW_RADIUS], 0.0, -1.0
+    if part == HIGH_CAP:
+        return along - frustum[HIGH], away - frustum[HIGH_RADIUS], 0.0, 1.0
+    cosine, sine = frustum[COS], frustum[SIN]
+    dr, dz = away - frustum[LOW_RADIUS], along - frustum[LOW]
+    # coordinate of the point along the side, from the lower rim upwards
+    up = cosine * dz - sine * dr
+    return cosine * dr + sine * dz, max(-up, up - frustum[SIDE]), cosine, sine
+
+
+@compiled
+def normal_of_part(axis: Vector3, outward: Vector3, radial: float, axial: float) -> Vector3:
+    """Return the normal with the components ``radial`` along the unit vector ``outward``, ``axial`` along the axis."""
+    return plus(scaled(radial, outward), scaled(axial, axis))
 
 
 @compiled
@@ -31,12 +73,13 @@ def _steepest(b: Floats, n_star: float, star: Floats, normal: Vector3) -> float:
     return down
 
 
-def evaluate_corner_over_frustum(
+@compiled
+def write_corner(
     a: Floats,
     b: Floats,
     out: Floats,
     frustum: Floats,
-    place: Floats,
+    place: Vector3,
     n_star: float,
     star: Floats,
     lengths: Floats,
@@ -55,7 +98,7 @@ def evaluate_corner_over_frustum(
         Frame blocks of both bodies, and the geometry block.
     frustum : Floats
         The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
-    place : Floats
+    place : tuple of float
         The corner in its body frame [m].
     n_star, star, lengths : float and Floats
         Unit vectors along its edges, and, for a disc, their lengths [m].
@@ -65,9 +108,8 @@ def evaluate_corner_over_frustum(
         Size of the larger body [m].
     """
     axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
-    point = point_in_world(b, vector_at(place, 0))
-    around = across(minus(point, center), axis)
-    along, away, outward = around
+    point = point_in_world(b, place)
+    along, away, outward = across(minus(point, center), axis)
     is_disc, margin, highest = frustum[SIDE] == 0.0, REACH * size, -math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if has_part(frustum, part):
@@ -92,10 +134,9 @@ def evaluate_corner_over_frustum(
         key = height * height + max(past_border, 0.0) * max(past_border, 0.0)
         if key < least_key:
             least_key, nearest, gap, past = key, part, height, past_border
-    if past > 0.0:
-        gap = math.hypot(gap, past)
-    write_vertex_over_part(a, out, frustum, nearest, gap, past, axis, around, point)
-
-
-write_corner = compiled(evaluate_corner_over_frustum)
-"""Compiled function that writes the geometry block of a corner and a frustum; other contacts call it, too."""
+    gap = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0)
+    _, _, radial, axial = over_part(frustum, nearest, along, away)
+    normal = normal_of_part(axis, outward, radial, axial)
+    write_contact(a, out, gap, past, part_number(frustum, nearest), normal, point, True)
+    write_part(out, SIDE_A, nearest, axis, outward, radial, max(away - gap * radial, 0.0))
+    write_round(out, SIDE_B, 0.0)
