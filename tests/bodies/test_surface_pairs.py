@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bodies.contacts.mesh.mesh_mesh import MeshMesh
-from bodies.contacts.mesh.mesh_swept import MeshSwept
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
@@ -29,12 +27,12 @@ from bodies import (
     Frustum,
     MeshBody,
     Sphere,
+    SurfaceSurface,
     TriangleMesh,
     Triangles,
 )
 from bodies.contacts.frustum.frustum_surface import FrustumSurface
-from bodies.contacts.mesh import mesh_mesh
-from bodies.contacts.surface import patch_near, surface_pairs
+from bodies.contacts.surface import surface_pairs
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY
 from nonsmooth.engine.memory.modes import Cause
@@ -111,12 +109,9 @@ def _least(rig: Rig, poses: Any) -> float:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PAIRS)
-def test_what_is_near_is_found_until_it_is_looked_for_again(
-    name: str, build: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_near_is_found_until_it_is_looked_for_again(name: str, build: Any) -> None:
     """Bodies are listed at random poses, and moved and turned as far as a list may stand: the gap is that of all."""
     first, second, ahead = PAIRS[name]
-    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     rig = Rig((first, second), build.laws(), ahead)
     assert len(rig.contacts) == surface_pairs.MOST_NEAR
     every = Rig((first, second), build.laws())
@@ -147,10 +142,9 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(
 @pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("kind", BODIES)
-def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any) -> None:
     """A body falls, tumbles and slides on hills: the same events, whether all pairs of features stand or those near."""
     runs = []
-    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     for is_searched in (True, False):
         rng = np.random.default_rng(seed)
         ground = DrivenBody(carried=(HILLS,))
@@ -178,11 +172,8 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
 
 
 @pytest.mark.parametrize(("seed", "rounding"), [(1, 0.0), (2, 0.01)])
-def test_a_rim_rolls_over_borders_of_faces(
-    seed: int, rounding: float, build: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_rim_rolls_over_borders_of_faces(seed: int, rounding: float, build: Any) -> None:
     """There face and edge all but repeat one another, and neither opens the other by turns."""
-    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     rng, ground = np.random.default_rng(seed), DrivenBody(carried=(TriangleMesh(Triangles(*hills(10))),))
     body = DiscBody(0.07, mass=1.0, rounding=rounding)
     system = ns.System([ground, body])
@@ -202,12 +193,13 @@ def test_a_rim_rolls_over_borders_of_faces(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in PAIRS if "hills" in name])
-def test_python_finds_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_python_finds_the_same(name: str) -> None:
     """Searches and evaluators, called as they stand and compiled."""
     first, second, ahead = PAIRS[name]
-    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
-    kind, shapes = (FrustumSurface, (second, first)) if isinstance(second, Frustum) else (MeshSwept, (first, second))
-    one = (MeshMesh if isinstance(second, TriangleMesh) else kind).between(*shapes)[0]
+    kind, shapes = (
+        (FrustumSurface, (second, first)) if isinstance(second, Frustum) else (SurfaceSurface, (first, second))
+    )
+    one = kind.between(*shapes)[0]
     search, values, rng = one.candidates, one.parameters(), np.random.default_rng(4)
     assert search is not None
     find, call = pair_caller(search.function, search.values, name), candidate_caller(one.evaluator, values, name)
@@ -249,11 +241,9 @@ def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytes
 
 
 @pytest.mark.slow
-def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_query_is_that_of_all_features() -> None:
     """Also from afar, where so many features are within reach that less must be looked for."""
     pairs = [(HILLS, Box(*HALVES)), (HILLS, Sphere(0.03)), (HILLS, Capsule(0.1, 0.3)), (HILLS, Cylinder(0.2, 0.3))]
-    monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
-    monkeypatch.setattr(patch_near, "MOST_EACH", 0)
     near = [Contacts(*pair) for pair in pairs]
     every = [Contacts(*pair, of_all=True) for pair in pairs]
     rng, compared = np.random.default_rng(8), 0

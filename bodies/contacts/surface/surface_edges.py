@@ -9,7 +9,7 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, cross, dot, norm, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine, sine_off_cone
 from ..features.edge_row import ALONG, INTO_FIRST, LENGTH
-from ..features.ends import CLOSED, gap_past_end
+from ..features.ends import CLOSED, END, gap_past_end
 from ..features.frames import point_in_body
 from ..features.writing import write_principal
 from .overlap_corners import common_direction, crossing_past_corner, part_of_overlap
