@@ -24,7 +24,7 @@ from ..features.edge_row import LENGTH
 from ..features.ends import CLOSED
 from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world
 from .surface_search import FAR, distance_from_ends, face_at, face_height, nearest_in_patch
-from .surface_tables import IS_CONVEX, N_FACES
+from .surface_tables import IS_CONVEX, N_FACES, SWEEP
 
 _COSINE = math.sqrt(1.0 - CONE_MARGIN * CONE_MARGIN)
 """Cosine of the largest angle between a contact normal and the normal of a face next to it."""
@@ -111,12 +111,14 @@ def vertex_past_corner(
     star: Floats,
     point: Vector3,
     size: float,
+    is_sharp: bool,
 ) -> tuple[float, float]:
     """Return the distance by which a vertex misses a corner of the overlap [m]; zero or negative for a corner.
 
     The vertex is a corner if its projection lies on the face of the other body.  If its projection lies outside of the
-    face, it is a corner if none of its edges leads towards the face: the bodies then touch with two edges.  The second
-    result is the distance [m] of the projected vertex from the nearer end of the nearest edge, infinite on the face.
+    face, a rounded vertex is a corner if none of its edges leads towards the face: the bodies then touch with two
+    edges.  The second result is the distance [m] of the projected vertex from the nearer end of the nearest edge,
+    infinite on the face.
 
     Parameters
     ----------
@@ -134,6 +136,8 @@ def vertex_past_corner(
         The vertex in the frame of the other body [m].
     size : float
         Size of the larger body [m].
+    is_sharp : bool
+        Whether both bodies are sharp.
     """
     margin, past = CLOSED * size, math.inf
     u = vector_in_body(other, direction)
@@ -147,10 +151,8 @@ def vertex_past_corner(
         past = _past_face(surface, row, height, point)
     # the outline of the first body is enlarged: its vertices are corners only if they are inside by the margin
     border = -margin if is_of_first else margin
-    if past <= border:
+    if past <= margin or is_sharp:
         return past - border, math.inf
-    if past <= margin:
-        return past + margin, math.inf
     found = nearest_in_patch(surface, 0.0, point, FAR)
     _, _, _, _, x, y, z = found
     # from the nearest point to the vertex, and its part in the plane of the face
@@ -189,7 +191,8 @@ def corner_of_overlap(
     point = point_in_body(other, point_in_world(own_frame, place))
     # from the other body to that of the vertex
     u = scaled(1.0 - 2.0 * swap, u)
-    past, within = vertex_past_corner(own_frame, other, swap == 1.0, u, surface, n_star, star, point, size)
+    is_sharp = surface[SWEEP] + own[SWEEP] == 0.0
+    past, within = vertex_past_corner(own_frame, other, swap == 1.0, u, surface, n_star, star, point, size, is_sharp)
     return True, past, within
 
 
