@@ -9,7 +9,6 @@ from .contacts.frustum.frustum_smooth import FrustumSmooth as FrustumSmooth
 from .contacts.frustum.frustum_sphere import FrustumSphere as FrustumSphere
 from .contacts.frustum.frustum_swept import FrustumSwept as FrustumSwept
 from .contacts.mesh.frustum_mesh import FrustumMesh as FrustumMesh
-from .contacts.mesh.mesh_smooth import MeshSmooth as MeshSmooth
 from .contacts.plane.plane_ball import PlaneCapsule as PlaneCapsule
 from .contacts.plane.plane_ball import PlaneMesh as PlaneMesh
 from .contacts.plane.plane_ball import PlanePolyhedron as PlanePolyhedron
@@ -21,9 +20,8 @@ from .contacts.plane.plane_smooth import PlaneSmooth as PlaneSmooth
 from .contacts.round.box_sphere import BoxSphere as BoxSphere
 from .contacts.round.capsule_sphere import CapsuleSphere as CapsuleSphere
 from .contacts.round.sphere_sphere import SphereSphere as SphereSphere
-from .contacts.smooth.polytope_smooth import CapsuleSmooth as CapsuleSmooth
-from .contacts.smooth.polytope_smooth import PolyhedronSmooth as PolyhedronSmooth
 from .contacts.smooth.smooth_smooth import SmoothSmooth as SmoothSmooth
+from .contacts.surface.surface_smooth import SurfaceSmooth as SurfaceSmooth
 from .contacts.surface.surface_surface import SurfacePoint as SurfacePoint
 from .contacts.surface.surface_surface import SurfaceSphere as SurfaceSphere
 from .contacts.surface.surface_surface import SurfaceSurface as SurfaceSurface
