@@ -17,7 +17,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core
-from ...vectors import Vector3, cross, minus, opposite, plus, plus_scaled, scaled, vector_at
+from ...vectors import Vector3, cross, dot, minus, opposite, plus, plus_scaled, scaled, vector_at
 from ..features.frames import tangent_of
 from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.vertex_face import REACH
@@ -48,8 +48,8 @@ A deeper overlap can have several valid stops, so that the stop must be proved o
 """
 _STEPS = 12
 """Largest number of features of the search for a valid stop."""
-_ABOVE = 0.25
-"""Height above a stop of the point that decides on the next feature, relative to the body's least semi-axis."""
+_ABOVE = 0.1
+"""Least height of the point that decides on the next feature above the stop, relative to the core's least semi-axis."""
 _ROUND = 8
 """Number of directions about a segment from which Newton's method starts, if the segment is deep in the body."""
 
@@ -116,7 +116,8 @@ def _is_valid(stop: Stop, size: float) -> bool:
 @compiled
 def _first_valid(surface: Floats, core: Core, turn: Axes, center: Vector3, size: float) -> Nearest:
     """Return the first valid stop on the way from the feature nearest to the core's centre, or a failed search."""
-    above, aim = _ABOVE * min(core[0], core[1], core[2]), center
+    radius, aim = min(core[0], core[1], core[2]), center
+    last, part = (0.0, 0.0, 0.0), 1.0
     for _ in range(_STEPS):
         _, _, kind, number, _, _, _ = nearest_in_patch(surface, 0.0, aim, FAR)
         stop = _stop(surface, kind, number, core, turn, center, size, False)
@@ -125,7 +126,11 @@ def _first_valid(surface: Floats, core: Core, turn: Axes, center: Vector3, size:
         g, _, n, point = stop
         if g != g:
             break
-        aim = plus_scaled(point, above + max(g, 0.0), n)
+        # next, aim at the centre of a ball in the core that touches its surface over the stop
+        step = minus(plus_scaled(point, max(radius + g, _ABOVE * radius), n), aim)
+        # half of a step that turns back, so that the search finds the edge between two faces
+        part = 0.5 * part if dot(step, last) < 0.0 else part
+        aim, last = plus_scaled(aim, part, step), step
     return _FAILED
 
 
