@@ -21,9 +21,9 @@ from ...vectors import Vector3, cross, dot, minus, opposite, plus, plus_scaled, 
 from ..features.frames import tangent_of
 from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.vertex_face import REACH
-from ..smooth.inscribed import no_shorter_way
+from ..smooth.inscribed import gauge, no_shorter_way
 from ..smooth.round_search import along_segment, up_hills
-from ..smooth.smooth_core import POINT, Axes, largest_semi_axis, spread
+from ..smooth.smooth_core import POINT, Axes, largest_semi_axis, rotated_back, spread
 from .smooth_stops import Nearest, Stop, over_corner, over_edge, over_face
 from .surface_search import FAR, ON_CORNER, ON_EDGE, ON_FACE, corner_row, edge_at, face_at, nearest_in_patch, steepest
 from .surface_tables import (
@@ -45,6 +45,11 @@ _SHALLOW = 1e-6
 """Overlap of the cores, relative to the size, up to which the first valid stop is accepted.
 
 A deeper overlap can have several valid stops, so that the stop must be proved or compared with those of all features.
+"""
+_DEEP = 1e-2
+"""Overlap, relative to the core's least semi-axis, up to which a valid stop whose point is in the core is accepted.
+
+Several valid stops occur only in deeper overlaps, which are compared with this length.
 """
 _STEPS = 12
 """Largest number of features of the search for a valid stop."""
@@ -91,14 +96,17 @@ def _stop(
 def nearest_of_convex(surface: Floats, core: Core, turn: Axes, center: Vector3) -> Nearest:
     """Return the separation of a convex surface or a segment and the core, with feature, normal and point.
 
-    It is the first valid stop, if its overlap is below ``_SHALLOW``, or if a ball inside of the core proves that no
-    other stop has a larger gap.  Otherwise it is the largest gap over the stops of all features.  ``turn`` and
+    It is the first valid stop, if its overlap is below ``_SHALLOW``; below ``_DEEP``, if the stop's point is inside of
+    the core; or if a ball inside of the core proves that no other stop has a larger gap.  Otherwise it is the largest
+    gap over the stops of all features.  ``turn`` and
     ``center`` are those of :mod:`bodies.contacts.smooth.smooth_core`, in the axes of the surface.
     """
     size = spread(center) + largest_semi_axis(core) + spread(vector_at(surface, edge_at(surface, 0)))
     first = _first_valid(surface, core, turn, center, size)
     g, _, n, point = first[0]
     if g >= -_SHALLOW * size:
+        return first
+    if g >= -_DEEP * min(core[0], core[1], core[2]) and gauge(core, rotated_back(turn, minus(point, center))) < 1.0:
         return first
     if g == g and no_shorter_way(POINT, core, turn, minus(center, point), (g, scaled(g, n), n)):
         return first

@@ -64,6 +64,8 @@ def over_edge(surface: Floats, edge: int, core: Core, turn: Axes, center: Vector
     of the normal into a face of the edge.
     """
     begin, along = vector_at(surface, edge), vector_at(surface, edge + ALONG)
+    # a start nearly along the edge loses digits in this difference; Newton's method takes its part along the edge again
+    start = plus_scaled(start, -dot(start, along), along)
     g, p, n = widest_from(core, turn, minus(center, begin), along, start)
     s = dot(p, along)
     into = max(dot(n, vector_at(surface, edge + INTO_FIRST)), dot(n, vector_at(surface, edge + INTO_SECOND)))
