@@ -32,7 +32,7 @@ from bodies.contacts.mesh import mesh_mesh
 from bodies.contacts.mesh.frustum_mesh import FrustumMesh
 from bodies.contacts.mesh.mesh_mesh import MeshMesh
 from bodies.contacts.mesh.mesh_swept import MeshSwept
-from bodies.contacts.surface import patch_near, surface_pairs
+from bodies.contacts.surface import surface_pairs, surface_smooth
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY
 from nonsmooth.engine.memory.modes import Cause
@@ -261,7 +261,7 @@ def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 0)
     near = [Contacts(*pair) for pair in pairs]
     monkeypatch.setattr(mesh_mesh, "MOST_EACH", 1_000_000)
-    monkeypatch.setattr(patch_near, "MOST_EACH", 1_000)
+    monkeypatch.setattr(surface_smooth, "MOST_EACH", 1_000)
     every = [Contacts(*pair) for pair in pairs]
     rng, compared = np.random.default_rng(8), 0
     for _ in range(60):

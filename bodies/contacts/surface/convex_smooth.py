@@ -25,7 +25,18 @@ from ..smooth.inscribed import gauge, no_shorter_way
 from ..smooth.round_search import along_segment, up_hills
 from ..smooth.smooth_core import POINT, Axes, largest_semi_axis, rotated_back, spread
 from .smooth_stops import Nearest, Stop, over_corner, over_edge, over_face
-from .surface_search import FAR, ON_CORNER, ON_EDGE, ON_FACE, corner_row, edge_at, face_at, nearest_in_patch, steepest
+from .surface_search import (
+    FAR,
+    ON_CORNER,
+    ON_EDGE,
+    ON_FACE,
+    corner_row,
+    edge_at,
+    face_at,
+    face_height,
+    nearest_in_patch,
+    steepest,
+)
 from .surface_tables import (
     FIRST_TRIANGLE,
     N_CORNERS,
@@ -55,6 +66,8 @@ _STEPS = 12
 """Largest number of features of the search for a valid stop."""
 _ABOVE = 0.1
 """Least height of the point that decides on the next feature above the stop, relative to the core's least semi-axis."""
+_FEW = 50
+"""Number of faces up to which the search begins with the face over which the core's centre is highest."""
 _ROUND = 8
 """Number of directions about a segment from which Newton's method starts, if the segment is deep in the body."""
 
@@ -123,11 +136,13 @@ def _is_valid(stop: Stop, size: float) -> bool:
 
 @compiled
 def _first_valid(surface: Floats, core: Core, turn: Axes, center: Vector3, size: float) -> Nearest:
-    """Return the first valid stop on the way from the feature nearest to the core's centre, or a failed search."""
+    """Return the first valid stop on the way from a feature near to the core's centre, or a failed search."""
     radius, aim = min(core[0], core[1], core[2]), center
     last, part = (0.0, 0.0, 0.0), 1.0
+    kind, number = ON_FACE, _highest_face(surface, center)
     for _ in range(_STEPS):
-        _, _, kind, number, _, _, _ = nearest_in_patch(surface, 0.0, aim, FAR)
+        if number < 0:
+            _, _, kind, number, _, _, _ = nearest_in_patch(surface, 0.0, aim, FAR)
         stop = _stop(surface, kind, number, core, turn, center, size, False)
         if _is_valid(stop, size):
             return stop, kind, number
@@ -138,8 +153,20 @@ def _first_valid(surface: Floats, core: Core, turn: Axes, center: Vector3, size:
         step = minus(plus_scaled(point, max(radius + g, _ABOVE * radius), n), aim)
         # half of a step that turns back, so that the search finds the edge between two faces
         part = 0.5 * part if dot(step, last) < 0.0 else part
-        aim, last = plus_scaled(aim, part, step), step
+        aim, last, number = plus_scaled(aim, part, step), step, -1
     return _FAILED
+
+
+@compiled
+def _highest_face(surface: Floats, point: Vector3) -> int:
+    """Return the face over whose plane a point is highest, or -1 if a search of the tree costs less than all faces."""
+    highest, most = -1, -math.inf
+    if surface[N_FACES] <= _FEW:
+        for face in range(int(surface[N_FACES])):
+            height = face_height(surface, face_at(surface, face), point)
+            if height > most:
+                highest, most = face, height
+    return highest
 
 
 @compiled
