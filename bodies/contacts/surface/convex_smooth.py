@@ -193,8 +193,8 @@ def _of_segment(surface: Floats, core: Core, turn: Axes, center: Vector3, size: 
     """Return the result of :func:`nearest_of_convex` for a segment that overlaps with the core.
 
     First, the segment's point nearest to the core is found by bisection.  If its gap is not negative, it is the result.
-    If no stop over the segment or its ends is valid, the result is the overlap of this point, or the largest gap of
-    searches from many directions: at the ends from directions with a large gap, on the side from ``_ROUND`` directions.
+    Otherwise it is the largest gap over valid stops, over the side from ``_ROUND`` directions.  If no stop is valid, it
+    is the overlap of the point by bisection, or the largest gap of searches from directions with a large gap at an end.
     """
     row = edge_at(surface, 0)
     begin, e, length = vector_at(surface, row), vector_at(surface, row + ALONG), surface[row + LENGTH]
@@ -204,6 +204,14 @@ def _of_segment(surface: Floats, core: Core, turn: Axes, center: Vector3, size: 
     if g >= 0.0:
         return bisected
     best = _of_all(surface, core, turn, center, size, first)
+    t = tangent_of(e)
+    u = cross(e, t)
+    for i in range(_ROUND):
+        angle = 2.0 * math.pi * i / _ROUND
+        start = plus(scaled(math.cos(angle), t), scaled(math.sin(angle), u))
+        stop = over_edge(surface, row, core, turn, center, start, size)
+        if _is_valid(stop, size) and not stop[0] <= best[0][0]:
+            best = stop, ON_EDGE, 0
     if best[0][0] == best[0][0]:
         return best
     if g == g:
@@ -214,12 +222,4 @@ def _of_segment(surface: Floats, core: Core, turn: Axes, center: Vector3, size: 
         g, _, n = up_hills(POINT, core, turn, minus(center, place), 0.0, (1.0, 0.0, size))
         if steepest(surface, c, n) <= 0.0 and g == g and not g <= best[0][0]:
             best = (g, 0.0, n, place), ON_CORNER, end
-    t = tangent_of(e)
-    u = cross(e, t)
-    for i in range(_ROUND):
-        angle = 2.0 * math.pi * i / _ROUND
-        start = plus(scaled(math.cos(angle), t), scaled(math.sin(angle), u))
-        stop = over_edge(surface, row, core, turn, center, start, size)
-        if _is_valid(stop, size) and not stop[0] <= best[0][0]:
-            best = stop, ON_EDGE, 0
     return best
