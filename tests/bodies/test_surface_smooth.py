@@ -36,7 +36,7 @@ POSES = 60
 def _poses(surface: Any, smooth: Any, rng: np.random.Generator) -> tuple[Any, Any]:
     """Return places and rotations: at gaps down to -4 mm, and with the centre at a corner, on an edge or at the middle.
 
-    In half of the poses the axes are aligned.  Superellipsoids get no coincident poses: there, with a centre deep in the
+    In half of the poses the axes are aligned.  Superellipsoids get no coincident poses: with the centre deep in the
     surface, Newton's method may miss the largest gap at a flat or sharp place.
     """
     count = 1 if isinstance(smooth, Superellipsoid) else 3

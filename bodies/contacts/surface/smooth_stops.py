@@ -16,7 +16,6 @@ from nonsmooth.types import Floats
 from ...shapes.support_function import Core
 from ...vectors import Vector3, dot, minus, norm, plus_scaled, vector_at
 from ..features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
-from ..features.vertex_face import REACH
 from ..smooth.smooth_core import Axes, facing_point
 from ..smooth.smooth_newton import widest_from
 from .surface_search import face_at, in_triangle, past_edges, steepest
@@ -47,7 +46,7 @@ def over_face(surface: Floats, triangle: int, count: int, core: Core, turn: Axes
     for i in range(count):
         t = triangle + TRIANGLE * i
         beyond, past = past_edges(surface, t, 0.0, p)
-        if beyond > REACH * surface[SIZE]:
+        if beyond > 0.0:
             x, y, z, _ = in_triangle(surface, t, foot)
             past = norm(minus(foot, (x, y, z)))
         least = min(least, past)
