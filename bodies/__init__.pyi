@@ -8,7 +8,6 @@ from .contacts.frustum.frustum_frustum import FrustumFrustum as FrustumFrustum
 from .contacts.frustum.frustum_smooth import FrustumSmooth as FrustumSmooth
 from .contacts.frustum.frustum_sphere import FrustumSphere as FrustumSphere
 from .contacts.frustum.frustum_surface import FrustumSurface as FrustumSurface
-from .contacts.mesh.mesh_smooth import MeshSmooth as MeshSmooth
 from .contacts.plane.plane_ball import PlaneSphere as PlaneSphere
 from .contacts.plane.plane_ball import PlaneSurface as PlaneSurface
 from .contacts.plane.plane_ball import PlaneVertex as PlaneVertex
@@ -16,9 +15,8 @@ from .contacts.plane.plane_frustum import PlaneFrustum as PlaneFrustum
 from .contacts.plane.plane_smooth import PlaneEllipsoid as PlaneEllipsoid
 from .contacts.plane.plane_smooth import PlaneSmooth as PlaneSmooth
 from .contacts.round.sphere_sphere import SphereSphere as SphereSphere
-from .contacts.smooth.polytope_smooth import CapsuleSmooth as CapsuleSmooth
-from .contacts.smooth.polytope_smooth import PolyhedronSmooth as PolyhedronSmooth
 from .contacts.smooth.smooth_smooth import SmoothSmooth as SmoothSmooth
+from .contacts.surface.surface_smooth import SurfaceSmooth as SurfaceSmooth
 from .contacts.surface.surface_surface import SurfacePoint as SurfacePoint
 from .contacts.surface.surface_surface import SurfaceSphere as SurfaceSphere
 from .contacts.surface.surface_surface import SurfaceSurface as SurfaceSurface

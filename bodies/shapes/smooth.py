@@ -108,11 +108,12 @@ def extent(core: tuple[float, ...]) -> float:
     """Return the distance of the farthest point from the centre of the core [m].
 
     For powers of 2 and more it is the largest semi-axis, because the core lies in the ellipsoid with the same
-    semi-axes.  For smaller powers, take the squares of the coordinates as new coordinates X, Y, Z.  In these, the core
+    semi-axes.  If the core is given by a function, it is an upper bound: half of the diagonal of the box round it.  For
+    smaller powers, take the squares of the coordinates as new coordinates X, Y, Z.  In these, the core
     is again a body of the same kind, with other powers.  The largest squared distance X + Y + Z is a value of this
     body's support function.
     """
-    return _corner(core) + core[5]
+    return (math.hypot(*core[:3]) if core[3] == OF_FUNCTION else _corner(core)) + core[5]
 
 
 def _corner(core: tuple[float, ...]) -> float:

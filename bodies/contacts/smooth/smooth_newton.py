@@ -370,16 +370,15 @@ def _from_supports(first: Core, second: Core, turn: Axes, center: Vector3, start
 
 
 @compiled
-def widest_from(hull: Core, core: Core, turn: Axes, center: Vector3, axis: Vector3, start: Vector3) -> NearestPoint:
+def widest_from(core: Core, turn: Axes, center: Vector3, axis: Vector3, start: Vector3) -> NearestPoint:
     """Return the gap of a line or the origin and a core of any kind [m], the core's point [m] and the normal.
 
     The gap is measured from the line through the origin along the unit vector ``axis``, or from the origin if ``axis``
-    is zero.  All vectors are in the axes of the line's body.  ``center`` is the centre of the core [m].  ``hull``
-    begins with the core numbers of a point.  ``turn`` is the rotation from the core's axes.  The search starts in the
-    direction ``start``, of any length.
+    is zero.  All vectors are in the axes of the line's body.  ``center`` is the centre of the core [m],
+    ``turn`` the rotation from the core's axes.  The search starts in the direction ``start``, of any length.
     """
     if is_round(core):
-        g, n = climb(hull, core, turn, center, axis, start)
+        g, n = climb(POINT, core, turn, center, axis, start)
         p, _ = facing_point(core, turn, center, n)
         return g, p, n
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:

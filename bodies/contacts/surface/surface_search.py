@@ -99,7 +99,7 @@ def feature_of(surface: Floats, member: int) -> tuple[int, int, int]:
     corner = edge - int(surface[N_EDGES])
     if corner < 0:
         return ON_EDGE, edge, edge_at(surface, edge)
-    return ON_CORNER, corner, int(surface[CORNERS]) + CORNER * corner
+    return ON_CORNER, corner, corner_row(surface, corner)
 
 
 @compiled
@@ -112,9 +112,15 @@ def patch_of(surface: Floats, member: int) -> float:
 
 
 @compiled
+def corner_row(surface: Floats, corner: int) -> int:
+    """Return the index at which the row of a corner begins."""
+    return int(surface[CORNERS]) + CORNER * corner
+
+
+@compiled
 def corner_at(surface: Floats, corner: int) -> tuple[Vector3, float, Floats]:
     """Return the place of a corner [m], the number of its edges, and the unit vectors along them."""
-    c = int(surface[CORNERS]) + CORNER * corner
+    c = corner_row(surface, corner)
     return vector_at(surface, c), surface[c + N_STAR], block_at(surface, int(surface[STARS]) + int(surface[c + STAR]))
 
 

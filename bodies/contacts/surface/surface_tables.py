@@ -31,7 +31,7 @@ are indices of the offset at which the rows of that name begin.
 """
 _HEAD = 16
 """Length of the head."""
-NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 5, 43, 16, 6
+NODE, FACE, TRIANGLE, EDGE, CORNER = 10, 7, 43, 16, 6
 """Number of floats in the row of each kind.  Numbers in brackets count floats, if there are several.
 
 =========  ============================================================================================
@@ -40,7 +40,8 @@ row        contents, in this order
 node       lowest corner of its box (3) [m]; highest corner (3) [m]; number of the node after its
            subtree; index of its list of members; number of its members, 0 unless it is a leaf; the
            patches of all features in its subtree, one bit for each patch
-face       outward normal (3); distance of its plane from the origin [m]; number of its patch
+face       outward normal (3); distance of its plane from the origin [m]; number of its patch; numbers
+           of its first triangle and of its triangles, which follow one another
 triangle   vertices (9) [m]; number of its face; for each edge the outward normal in the plane (3) and
            the edge's distance from the origin along it [m]; for each edge where the face ends there
            (``INSIDE``, ``CONVEX``, ``CONCAVE``); outward normals, of any length, at the edges (9) and at
@@ -56,8 +57,8 @@ The members of a node are the features in its box, by number: triangles first, t
 """
 UPPER, SKIP, FIRST_MEMBER, N_MEMBERS, PATCH_BITS = 3, 6, 7, 8, 9
 """Offsets in the row of a node: highest corner, node after its subtree, list and number of its members, its patches."""
-OFFSET, FACE_PATCH = 3, 4
-"""Offsets in the row of a face: distance of its plane from the origin, number of its patch."""
+OFFSET, FACE_PATCH, FIRST_TRIANGLE, N_OF_FACE = 3, 4, 5, 6
+"""Offsets in the row of a face: distance of its plane, number of its patch, first triangle and number of triangles."""
 FACE_NUMBER, EDGE_PLANES, BORDERS = 9, 10, 22
 """Offsets in the row of a triangle: number of its face, planes at its edges, kinds of its edges."""
 EDGE_PATCH, EXTENSIONS = 13, 14
@@ -93,7 +94,10 @@ def surface_numbers(features: Features, patches: Patches, sweep: float) -> Share
 
 def _numbers(features: Features, patches: Patches, sweep: float) -> SharedNumbers:
     """Return the numbers that :func:`surface_numbers` describes."""
-    triangles = _triangles(features)
+    # the triangles of a face follow one another
+    order = np.argsort(features.face_of, kind="stable")
+    counts = np.bincount(features.face_of, minlength=len(features.planes))
+    triangles = _triangles(features)[order]
     ends_of = np.array(features.edges, dtype=int).reshape(-1, 4)[:, :2]
     beyond = np.where(np.isin(ends_of, features.corners), 0.0, features.size)
     edges = np.column_stack([_edge_rows(features), np.array(patches.of_edges, dtype=float), beyond])
@@ -103,15 +107,15 @@ def _numbers(features: Features, patches: Patches, sweep: float) -> SharedNumber
     ways = features.vertices[list(itertools.chain(*features.stars))] - np.repeat(tips, lengths, axis=0)
     stars = ways / np.linalg.norm(ways, axis=1)[:, None]
     ends = features.vertices[ends_of]
-    boxes = [features.vertices[features.triangles], ends, tips[:, None]]
+    boxes = [features.vertices[features.triangles[order]], ends, tips[:, None]]
     low = np.concatenate([box.min(axis=1) for box in boxes])
     high = np.concatenate([box.max(axis=1) for box in boxes])
     members, nodes = list[int](), list[list[float]]()
     of_faces = np.array(patches.of_faces, dtype=int)
-    owners = np.concatenate([of_faces[features.face_of], patches.of_edges, patches.of_corners]).astype(np.int64)
+    owners = np.concatenate([of_faces[features.face_of[order]], patches.of_edges, patches.of_corners]).astype(np.int64)
     bits = np.left_shift(1, owners) if patches.count <= BITS else np.full(len(owners), (1 << BITS) - 1)
     _branch(low, high, bits, np.arange(len(low)), members, nodes)
-    faces = np.column_stack([features.planes, patches.of_faces])
+    faces = np.column_stack([features.planes, patches.of_faces, np.cumsum(counts) - counts, counts])
     parts = [np.array(nodes), np.array(members), faces, triangles, edges, corners, stars]
     begins = list(itertools.accumulate((part.size for part in parts), initial=_HEAD))
     head = (

@@ -1,1 +1,0 @@
-"""Contacts with meshes, and the search for features of theirs that come near."""
