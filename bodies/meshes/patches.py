@@ -72,7 +72,10 @@ class Patches:
 
 
 _PATCHES: WeakKeyDictionary[Features, dict[tuple[float, bool], Patches]] = WeakKeyDictionary()
-"""Patches that were made, by the size of the body and whether it is a ball, as long as their surface exists."""
+"""Patches that were made, by the size of the body and whether it is a ball, as long as their surface exists.
+
+Those of single faces have the size -1.
+"""
 
 
 def patches_for_ball(features: Features, radius: float) -> Patches:
@@ -91,6 +94,19 @@ def patches_for_ball(features: Features, radius: float) -> Patches:
 def patches_for_body(features: Features, diameter: float) -> Patches:
     """Return patches of a surface for contacts with a convex body of the given diameter [m]; for a vertex it is 0."""
     return _made(features, diameter, lambda i, _: np.full(len(i), diameter), is_ball=False)
+
+
+def patches_of_faces(features: Features) -> Patches:
+    """Return patches of a surface for contacts with a sharp vertex: each face is one.
+
+    A sharp vertex leaves a face at its border: it does not go on to the next face with the same contact.  Edges and
+    corners, which it never touches, are in the first patch.
+    """
+    made = _PATCHES.setdefault(features, {})
+    if (-1.0, False) not in made:
+        nowhere = (0,) * len(features.edges), (0,) * len(features.corners)
+        made[-1.0, False] = Patches(tuple(range(len(features.planes))), *nowhere)
+    return made[-1.0, False]
 
 
 def _made(features: Features, most: float, reach: Reach, *, is_ball: bool) -> Patches:

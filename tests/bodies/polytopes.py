@@ -93,15 +93,15 @@ class Posed:
                     break
             self.number = i * len(two.edges) + j
         elif kind == "face-vertex":
-            own, n, _ = self._face(rng, one)
+            own, n, face = self._face(rng, one)
             other, out, v = self._vertex(rng, two)
             facing = _turn(out, -n, rng.uniform(0.0, 2.0 * np.pi))
-            self.number = n_edges + v
+            self.number = n_edges + face * n_two + v
         else:
             own, n, v = self._vertex(rng, one)
-            other, out, _ = self._face(rng, two)
+            other, out, face = self._face(rng, two)
             facing = _turn(out, -n, rng.uniform(0.0, 2.0 * np.pi))
-            self.number = n_edges + n_two + v
+            self.number = n_edges + len(one.faces) * n_two + face * len(one.vertices) + v
         self.normal = turn.apply(n)
         self.witness = turn.apply(own) + place, turn.apply(own + gap * n) + place
         second = turn * facing

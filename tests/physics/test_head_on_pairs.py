@@ -39,6 +39,18 @@ def test_sides_that_are_nearly_parallel_meet(name: str, turn: float) -> None:
     assert wrong(rows) == []
 
 
+@pytest.mark.parametrize("shift", [1e-9, 1e-6, 1e-3])
+def test_a_corner_does_not_go_on_to_the_next_face(shift: float) -> None:
+    """Three boxes of either body meet with faces whose borders lie in line: a corner leaves its face at the border."""
+    rows = [
+        Meeting("U", axis, (shift, 0.0), 0.0, speed, world)
+        for axis in (0, 2)
+        for speed in (0.1, 1.0)
+        for world in WORLDS
+    ]
+    assert wrong(rows) == []
+
+
 @pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("name", EXACT)
 def test_speeds_are_as_exact_as_the_integration_of_the_impact(name: str) -> None:

@@ -11,7 +11,7 @@ from nonsmooth.interfaces import CandidateSearch, ContactKinematics, FeaturePair
 from nonsmooth.parameters import SharedNumbers, Value
 from nonsmooth.types import Floats
 
-from ...meshes.patches import patches_for_ball
+from ...meshes.patches import patches_for_ball, patches_of_faces
 from ...meshes.triangles import Triangles
 from ...shapes.cylinder import Cylinder
 from ...shapes.frustum import HIGH, HIGH_RADIUS, SIDE, Frustum, without_feet
@@ -278,7 +278,8 @@ class FrustumSurface(ContactKinematics):
         is_sharp = numbers[FRUSTUM_SWEEP] + second.sweep == 0.0
         points = [*feet_of(first), *(apex_of(first) if is_sharp else ())] if n_faces else []
         rows = [(*place, len(star) // 3, *star) for place, star in points]
-        patches, n_rims = patches_for_ball(own, numbers[FRUSTUM_SWEEP]), len(rims_of(numbers))
+        patches = patches_of_faces(own) if is_sharp else patches_for_ball(own, numbers[FRUSTUM_SWEEP])
+        n_rims = len(rims_of(numbers))
         has_side, has_round_apex = numbers[SIDE] > 0.0, numbers[HIGH_RADIUS] == 0.0 and not is_sharp
         counts = {
             RIM: (n_faces, n_rims),

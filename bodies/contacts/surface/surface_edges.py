@@ -134,9 +134,10 @@ def _past_ends(
         u = common_direction(a, b, surface_a, surface_b, n)
         if dot(u, u) > 0.0:
             past_corner = crossing_past_corner(a, b, u, surface_a, row_a, surface_b, row_b, crossing, size)
-            # a tilt moves the nearest points of nearly parallel edges far past the ends: farther than a quarter of the
-            # gap of the lines, the contact ends
-            past = (1.0 - fraction) * past + fraction * max(past_corner, past_ends - CONE_MARGIN * abs(gap))
+            # a tilt moves the nearest points of nearly parallel edges far past the ends: farther than the margin and a
+            # quarter of the gap of the lines, the contact ends
+            past_limit = past_ends - CLOSED * size - CONE_MARGIN * abs(gap)
+            past = (1.0 - fraction) * past + fraction * max(past_corner, past_limit)
     if past <= 0.0 and radius == 0.0:
         past = max(past, _past_flush(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
     return past

@@ -12,7 +12,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
-from ...meshes.patches import patches_for_ball
+from ...meshes.patches import patches_for_ball, patches_of_faces
 from ...vectors import vector_at
 from ..features.bounds import edges_bound
 from ..features.writing import NO_CANDIDATE, write_apart
@@ -23,7 +23,7 @@ from .surface_edges import write_edges
 from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND, seen_from
 from .surface_search import FAR, corner_at, edge_at, nearest_in_patch, signed_distance
 from .surface_tables import IS_CONVEX, N_FACES, SWEEP, surface_numbers
-from .surface_vertex import write_sharp_corner
+from .surface_vertex import past_depth, write_sharp_corner
 
 MOST_NEAR = 256
 """Largest number of pairs of features of two bodies that may be near each other at a time."""
@@ -56,10 +56,14 @@ def _write_corner(
     write_sharp_corner(a, b, out, swap, surface, float(patch), place, n_star, star, margin, is_convex)
     part = part_of_overlap(-out[GAP], size)
     if part > 0.0:
-        # bodies on springs overlap: then the corners of the overlap touch
-        n = vector_at(out, NORMAL)
+        # bodies on springs overlap: then the corners of the overlap touch, unless another face is less deep
+        own_frame, other = (a, b) if swap == 1.0 else (b, a)
+        n, point = vector_at(out, NORMAL), seen_from(other, own_frame, place)
         is_known, past_corner, _ = corner_of_overlap(a, b, swap, surface, own, place, n_star, star, n, size)
-        if is_known:
+        ends = point, point
+        if is_known and (
+            out[PAST_END] <= 0.0 or past_depth(other, own_frame, surface, n_star, star, ends, -out[GAP], point) <= 0.0
+        ):
             out[PAST_END] = (1.0 - part) * out[PAST_END] + part * past_corner
 
 
@@ -129,7 +133,12 @@ def contacts_of(one: Swept, two: Swept) -> tuple[FeaturePair, ...]:
     They are, in this order: edges across edges, corners of the second surface over patches of the first, corners of the
     first one over patches of the second.  If the second one is a ball, it has the contacts of its centre only.
     """
-    patches = patches_for_ball(one.features, two.sweep), patches_for_ball(two.features, one.sweep)
+    patches = [
+        patches_of_faces(own.features)
+        if own.sweep + other.sweep == 0.0
+        else patches_for_ball(own.features, other.sweep)
+        for own, other in ((one, two), (two, one))
+    ]
     surfaces = [surface_numbers(s.features, p, s.sweep) for s, p in zip((one, two), patches, strict=True)]
     size = max(s.features.size + 2.0 * s.sweep for s in (one, two))
     values: dict[str, Value] = {"surface_a": surfaces[0], "surface_b": surfaces[1], "size": size}
