@@ -14,6 +14,7 @@ from scipy.spatial import ConvexHull
 
 import nonsmooth as ns
 from nonsmooth.bodies import BoxBody, Plate
+from nonsmooth.bodies.contacts.surface.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND
 from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 
 _BLUE, _RED, _GREY = "tab:blue", "tab:red", "0.35"
@@ -22,6 +23,12 @@ _TEXT: dict[str, Any] = {
     "fontsize": 7,
     "arrowprops": {"arrowstyle": "-", "color": _GREY},
 }
+_WORDS = {
+    EDGE_ACROSS: "edge {}\nand edge {}",
+    OVER_FIRST: "face {}\nand corner {}",
+    OVER_SECOND: "face {} of the second\nand corner {}",
+}
+"""Words for a pair of features by its kind."""
 _LOW, _HIGH = (0.06, 0.04, 0.02), (0.03, 0.03, 0.015)
 
 
@@ -111,9 +118,10 @@ def _area(axis: Any) -> None:
         if solution.system.contacts[contact].first is floor:
             continue
         point = history["contact_point"][0, contact, 0, :2]
-        features = repr(solution.system.contacts[contact]).split("': ")[1].split(";")[0]
+        kind, one_feature, two_feature = solution.state.features[contact]
+        words = _WORDS[kind].format(int(one_feature), int(two_feature))
         axis.plot(*point, "o", color="black", markersize=4)
-        axis.annotate(features.replace(" and ", "\nand "), point, (6, 12), **_TEXT)
+        axis.annotate(words, point, (6, 12), **_TEXT)
 
 
 def main() -> None:
