@@ -13,8 +13,8 @@ from matplotlib.ticker import MultipleLocator
 from scipy.spatial import ConvexHull
 
 import nonsmooth as ns
+from bodies.contacts.surface.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND
 from nonsmooth.bodies import BoxBody, Plate
-from nonsmooth.bodies.contacts.surface.surface_near import EDGE_ACROSS, OVER_FIRST, OVER_SECOND
 from nonsmooth.laws import Coulomb, EnergeticImpact, Unilateral
 
 _BLUE, _RED, _GREY = "tab:blue", "tab:red", "0.35"
