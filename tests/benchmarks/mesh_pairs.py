@@ -24,7 +24,7 @@ from bodies.contacts.frustum.frustum_surface import (
     RIM,
     UNDER,
 )
-from bodies.meshes.features import Features, features_of
+from bodies.meshes.features import Features
 from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
 from bodies.shapes.smooth import extent
 from nonsmooth.interfaces import Shape
@@ -150,18 +150,17 @@ def _with_round(kind: str, part: str) -> Callable[[float, Generator], Known]:
 def _with_box(part: str, other_part: str) -> Callable[[float, Generator], Known]:
     def draw(gap: float, rng: Generator) -> Known:
         mesh, box = any_mesh(rng), Box(*[float(x) for x in rng.uniform(4e-3, 10e-3, 3)])
-        one = mesh.features
-        two = features_of(np.array(box.polytope.vertices), np.array(box.polytope.triangles))
+        one, two = mesh.features, box.features
         number, point, n = _feature(rng, one, part, True)
         other, touching, m = _feature(rng, two, other_part, True)
-        patches = patches_for_body(one, 0.0)
         crossings = len(one.edges) * len(two.edges)
+        patches = patches_of_faces(one) if one.is_convex else patches_for_ball(one, 0.0)
         if part == "edge":
             contact = number * len(two.edges) + other
         elif part == "face":
-            contact = crossings + other * patches.count + patches.of_faces[number]
+            contact = crossings + patches.of_faces[number] * len(two.corners) + other
         else:
-            contact = crossings + len(two.corners) * patches.count + number
+            contact = crossings + patches.count * len(two.corners) + other * len(one.corners) + number
         known = _known(rng, (mesh, box), gap, (point, n), (touching, m), contact)
         if part != "edge":
             return known
@@ -187,7 +186,7 @@ def _with_swept(shape: Callable[[Generator], SweptPolytope], part: str, other_pa
         touching, m, other = feature(rng, second, other_part)
         patches, crossings = patches_for_ball(own, second.sweep), len(own.edges) * len(core.edges)
         if other_part == "vertex":
-            contact = crossings + other * patches.count + _patch(patches, part, number)
+            contact = crossings + _patch(patches, part, number) * len(core.vertices) + other
         elif part == "vertex":
             contact = crossings + len(core.vertices) * patches.count + number
         else:

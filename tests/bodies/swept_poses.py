@@ -117,7 +117,9 @@ class Posed:
         n_edges = len(one.core.edges) * len(two.core.edges)
         self.number = i * len(two.core.edges) + j
         if kind.endswith("vertex"):
-            self.number = n_edges + j
+            # sharp corners have a contact with each face
+            is_sharp = one.sweep + two.sweep == 0.0
+            self.number = n_edges + (i * len(two.core.vertices) if is_sharp else 0) + j
         elif kind.startswith("vertex"):
             self.number = n_edges + len(two.core.vertices) + i
         turn, place = Rotation.random(random_state=rng), rng.uniform(-0.1, 0.1, 3)

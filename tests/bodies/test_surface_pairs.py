@@ -113,13 +113,13 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(name: str, build: An
     """Bodies are listed at random poses, and moved and turned as far as a list may stand: the gap is that of all."""
     first, second, ahead = PAIRS[name]
     rig = Rig((first, second), build.laws(), ahead)
-    assert len(rig.contacts) == surface_pairs.MOST_NEAR
+    assert rig.contacts[0].kinematics.candidates is not None
     every = Rig((first, second), build.laws())
     assert len(every.contacts) > 100
     # an edge that overlaps a rim or a side by more than round-off may have another one's normal
     lowest = 0.0 if isinstance(second, Frustum) else -0.1 * ahead
     rng, compared = np.random.default_rng(3), 0
-    for _ in range(40):
+    for _ in range(60):
         turn = rng.normal(size=3)
         place = _near(name, turn, rng)
         rig.put([(np.zeros(3), UNIT), (place, _turned(turn))], np.zeros(12))
@@ -152,7 +152,7 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any) -> None
         system = ns.System([ground, body])
         with nullcontext() if is_searched else all_features():
             contacts = system.contact(ground, body, **build.laws(0.4, 0.3))
-        assert (len(contacts) == surface_pairs.MOST_NEAR) == is_searched
+        assert (contacts[0].kinematics.candidates is not None) == is_searched
         turn = rng.normal(size=4)
         system.place(
             body,

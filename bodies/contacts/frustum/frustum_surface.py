@@ -278,7 +278,7 @@ class FrustumSurface(ContactKinematics):
         is_sharp = numbers[FRUSTUM_SWEEP] + second.sweep == 0.0
         points = [*feet_of(first), *(apex_of(first) if is_sharp else ())] if n_faces else []
         rows = [(*place, len(star) // 3, *star) for place, star in points]
-        patches = patches_of_faces(own) if is_sharp else patches_for_ball(own, numbers[FRUSTUM_SWEEP])
+        patches = patches_of_faces(own) if is_sharp and own.is_convex else patches_for_ball(own, numbers[FRUSTUM_SWEEP])
         n_rims = len(rims_of(numbers))
         has_side, has_round_apex = numbers[SIDE] > 0.0, numbers[HIGH_RADIUS] == 0.0 and not is_sharp
         counts = {

@@ -6,11 +6,11 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, cross, dot, norm, plus_scaled, vector_at, write_vector
+from ...vectors import Vector3, cross, dot, norm, opposite, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine, sine_off_cone
 from ..features.edge_row import ALONG, INTO_FIRST, LENGTH
 from ..features.ends import CLOSED, END, gap_past_end
-from ..features.frames import point_in_body
+from ..features.frames import point_in_body, vector_in_body
 from ..features.writing import write_principal
 from .overlap_corners import common_direction, crossing_past_corner, part_of_overlap
 from .surface_near import seen_from
@@ -27,7 +27,7 @@ The face is adjacent to one of the edges.
 
 @compiled
 def _past_surface(
-    frame: Floats, other: Floats, surface: Floats, edges: Floats, row: int, depth: float, point: Vector3
+    frame: Floats, other: Floats, surface: Floats, edges: Floats, row: int, depth: float, point: Vector3, n: Vector3
 ) -> float:
     """Return how far an edge of the other body is from an overlap of this depth with a surface [m].
 
@@ -45,13 +45,16 @@ def _past_surface(
         Depth of the overlap [m].
     point : Vector3
         Nearest point of the edge in the world [m].
+    n : Vector3
+        Unit normal of the crossing out of the surface, in the world.
     """
     start, along, length = vector_at(edges, row), vector_at(edges, row + ALONG), edges[row + LENGTH]
     before, behind = beyond_ends(edges, row)
     first, second = plus_scaled(start, -before, along), plus_scaled(start, length + behind, along)
     ends = seen_from(frame, other, first), seen_from(frame, other, second)
     into = block_at(edges, row + INTO_FIRST)
-    return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point)))
+    normal = vector_in_body(frame, n)
+    return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point), normal))
 
 
 @compiled
@@ -76,8 +79,8 @@ def _past_overlap(
         best = max(separation_of_faces(a, b, surface_a, surface_b), separation_of_faces(b, a, surface_b, surface_a))
         return float(best - gap - CLOSED * size)
     # a segment has no inside
-    past = _past_surface(b, a, surface_b, surface_a, row_a, -gap, p) if surface_b[N_FACES] > 0.0 else gap
-    return max(past, _past_surface(a, b, surface_a, surface_b, row_b, -gap, plus_scaled(p, gap, n)))
+    past = _past_surface(b, a, surface_b, surface_a, row_a, -gap, p, opposite(n)) if surface_b[N_FACES] > 0.0 else gap
+    return max(past, _past_surface(a, b, surface_a, surface_b, row_b, -gap, plus_scaled(p, gap, n), n))
 
 
 @compiled
