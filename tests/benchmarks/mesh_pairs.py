@@ -25,7 +25,7 @@ from bodies.contacts.frustum.frustum_surface import (
     UNDER,
 )
 from bodies.meshes.features import Features
-from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body
+from bodies.meshes.patches import Patches, patches_for_ball, patches_for_body, patches_of_faces
 from bodies.shapes.smooth import extent
 from nonsmooth.interfaces import Shape
 from nonsmooth.testing.puck import ContactRig
