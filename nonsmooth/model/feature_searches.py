@@ -6,9 +6,10 @@ assigns them to the contacts of the two shapes.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from nonsmooth.binding import interpreted
 from nonsmooth.binding.bounds import try_out
@@ -20,7 +21,7 @@ from nonsmooth.engine.memory.heap import Heap
 from nonsmooth.engine.memory.layout import NO_PAIR
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import CandidateSearch
+from nonsmooth.interfaces import CandidateSearch, FeaturePair
 from nonsmooth.model.laying import write_record
 from nonsmooth.model.row_table import RowTable
 from nonsmooth.parameters import SharedNumbers
@@ -36,7 +37,7 @@ class FeatureSearch:
     candidates : CandidateSearch
         The function of the search and its parameters.
     row : int
-        Number of the row of the first contact; the others are in this row or the next ones.
+        Number of the row of the contacts.
     contacts : range
         Numbers of the contacts.
     owner : str
@@ -56,9 +57,7 @@ class FeatureSearch:
 
 
 def find_searches(contacts: Contacts) -> list[FeatureSearch]:
-    """The searches for candidate features, in the order of their contacts.
-
-    The contacts of a search are consecutive, and have the same :class:`CandidateSearch`.
+    """The searches for candidate features, in the order of their contacts: one for each row with the same object.
 
     Raises
     ------
@@ -66,23 +65,13 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
         If a shape is unbounded. Its displacement has no bound, so no time for the next search is known.
     """
     found: list[FeatureSearch] = []
-    # rows share their kinematics, most of which have no search
-    needs_search = {
-        id(kinematics): any(one.candidates is not None for one in kinematics)
-        for kinematics in {id(row.kinematics): row.kinematics for row in contacts.rows}.values()
-    }
+    # rows share their kinematics: searches of each, and the indices of their contacts in the row
+    known: dict[int, list[tuple[CandidateSearch, range]]] = {}
     for place, (row, start) in enumerate(zip(contacts.rows, contacts.starts.tolist(), strict=False)):
-        if not needs_search[id(row.kinematics)]:
-            continue
-        for index, kinematics in enumerate(row.kinematics):
-            search, number = kinematics.candidates, start + index
-            if search is None:
-                continue
-            last = found[-1] if found else None
-            if last and last.candidates is search and last.contacts.stop == number:
-                found[-1] = replace(last, contacts=range(last.contacts.start, number + 1))
-                continue
-            contact = row.contact(index)
+        if id(row.kinematics) not in known:
+            known[id(row.kinematics)] = _searches_of(row.kinematics)
+        for search, own in known[id(row.kinematics)]:
+            contact = row.contact(own.start)
             for shape, extent in zip(row.shapes, row.extents, strict=True):
                 if not math.isfinite(extent):
                     raise InvalidInput(
@@ -91,7 +80,18 @@ def find_searches(contacts: Contacts) -> list[FeatureSearch]:
                         extent,
                         "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                     )
-            found.append(FeatureSearch(search, place, range(number, number + 1), str(contact)))
+            numbers = range(start + own.start, start + own.stop)
+            found.append(FeatureSearch(search, place, numbers, str(contact)))
+    return found
+
+
+def _searches_of(kinematics: Sequence[FeaturePair]) -> list[tuple[CandidateSearch, range]]:
+    """The searches of the contacts of two shapes, and the indices of the contacts of each, which are consecutive."""
+    found: list[tuple[CandidateSearch, range]] = []
+    for search, group in itertools.groupby(enumerate(kinematics), lambda item: item[1].candidates):
+        indices = [index for index, _ in group]
+        if search is not None:
+            found.append((search, range(indices[0], indices[-1] + 1)))
     return found
 
 
@@ -108,8 +108,13 @@ def lay_searches(
     their pair. Other features may lie anywhere in their spheres, so their distance from the origin, ``feature_radius``,
     is taken as the radius of the sphere.
     """
+    # rows with the same kinematics share function and parameters
+    known: dict[int, dict[str, int]] = {}
     for number, search in enumerate(searches):
-        fields = _lay_function(blocks, search)
+        key = id(search.candidates)
+        if key not in known:
+            known[key] = _lay_function(blocks, search)
+        fields = {**known[key], "out": blocks.output(search.size)}
         # body and frame of both sides
         sides = zip(table.bodies[search.row].tolist(), table.frames[search.row].tolist(), strict=True)
         sphere_a, sphere_b = (spheres[side] for side in sides)
@@ -124,9 +129,9 @@ def lay_searches(
 
 
 def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
-    """Compile and try out the function of a search, and reserve its parameters and its output among the blocks.
+    """Compile and try out the function of a search, and store its parameters among the blocks.
 
-    The result has the fields of a record: address of the function, and offsets of parameters and output. Tables of
+    The result has fields of a record: address of the function, and offset of the parameters. Tables of
     meshes may be large, so the parameters get a reference to a table, which several searches share.
     """
     function, values = search.candidates.function, search.candidates.values
@@ -139,7 +144,7 @@ def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
     start = blocks.store(numbers)
     for name, table in tables.items():
         blocks.refer(start + parameter_place(function, "pair", name), start, table)
-    return {"function": address, "parameters": start, "out": blocks.output(search.size)}
+    return {"function": address, "parameters": start}
 
 
 def failed_search(memory: Memory, contacts: Contacts) -> str:

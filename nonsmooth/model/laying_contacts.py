@@ -155,8 +155,7 @@ def _lay_block(
     memory[stride][kinds] = size
     write_fields(memory, kinds, {declared: firsts + offset for declared, offset in block.offsets.items()})
     for place, begin, shared in block.tables if start is None else ():
-        for at in starts.tolist():
-            blocks.refer(at + place, at + begin, shared)
+        blocks.refer(starts + place, starts + begin, shared)
     return first
 
 

@@ -135,11 +135,7 @@ class ContactGeometries:
         one, two = (first, second) if in_order else (second, first)
         key = id(one), id(two)
         if key not in self._made:
-            made = kinematics.between(one, two)
-            if any(geometry.candidates is not None for geometry in made):
-                # geometries with a search for features belong to one pair of bodies: do not store them for others
-                return made, in_order
-            self._made[key] = tuple(made)
+            self._made[key] = tuple(kinematics.between(one, two))
         return self._made[key], in_order
 
 

@@ -31,8 +31,8 @@ class Heap:
         # ranges that change in a run: their offsets from the first block, and the length of each of them
         self._written: list[tuple[np.ndarray, int]] = []
         # numbers by which a function finds a table of shared parameters, such as those of a mesh: offset of the number
-        # among all floats, the offset that is subtracted from that of the table, and the table
-        self._references: list[tuple[int, int, SharedNumbers]] = []
+        # among all floats, the offset that is subtracted from that of the table, and the table; several at a time
+        self._references: list[tuple[np.ndarray, np.ndarray, SharedNumbers]] = []
 
     def block(self, size: int) -> int:
         """Append ``size`` zeros, for numbers that the engine writes. Result: their offset among all floats."""
@@ -59,11 +59,11 @@ class Heap:
         self._values.extend(times * array("d", values))
         return start
 
-    def refer(self, place: int, start: int, table: SharedNumbers) -> None:
-        """Let :meth:`close` set the number at offset ``place`` to the distance [floats] of a table from ``start``."""
-        # at start begin the parameters of the function that reads the table. It gets only their address, so the table
+    def refer(self, places: int | np.ndarray, starts: int | np.ndarray, table: SharedNumbers) -> None:
+        """Let :meth:`close` set the numbers at ``places`` to the distances [floats] of a table from ``starts``."""
+        # at a start begin the parameters of the function that reads the table. It gets only their address, so the table
         # must be found from there. Before close no table has an offset
-        self._references.append((place, start, table))
+        self._references.append((np.atleast_1d(places), np.atleast_1d(starts), table))
 
     def output(self, size: int) -> int:
         """Append ``size`` numbers that a plug-in writes, then guards, which show if it wrote too many.
@@ -85,12 +85,15 @@ class Heap:
         written = np.zeros(len(self._values), bool)
         for starts, size in self._written:
             written[starts[:, None] + np.arange(size)] = True
-        references = [(place, start, offsets[id(table)]) for place, start, table in self._references]
+        references = [
+            np.column_stack([places, starts, np.full(len(places), offsets[id(table)])])
+            for places, starts, table in self._references
+        ]
         made = replace(
             old,
             scalars=old.scalars.copy(),
             slots=self._first + len(self._values),
-            references=np.reshape(references, (-1, 3)).astype(int),
+            references=np.concatenate([np.zeros((0, 3), int), *references]),
             written=written,
         )
         numbers = [np.zeros(0), *(np.asarray(table.numbers) for table in tables.values())]
