@@ -144,7 +144,7 @@ def test_a_search_that_writes_beyond_its_room_is_named(tried: bool, monkeypatch:
     """In a trial, with the line; or by the numbers behind its block."""
     if not tried:
         monkeypatch.setattr(bounds, "_MOST", 0)
-    said = "reaches for number 10 of a block of 10" if tried else "has written past the 10 numbers of its block"
+    said = "reaches for number 10 of a block of 7" if tried else "has written past the 7 numbers of its block"
     with pytest.raises(ns.PluginError, match=rf"^[Cc]ontact 'pair 0': beyond in .*{said}"):
         ns.simulate(_approaching(beyond, start=0.75), 0.5)
 
