@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
 from nonsmooth.interfaces import CandidateSearch, FeaturePair
@@ -114,6 +116,14 @@ def bound_of_surfaces(
     out[0] = distance - surface_a[SWEEP] - surface_b[SWEEP]
 
 
+_ROOM = 16
+"""Contacts of two convex surfaces for each side of their largest face, or each edge of a corner.
+
+Convex bodies touch in one area at a time.  Equal prisms that lie flush and aligned have 6 pairs of features near each
+other at each corner of the area, which is the most; a search that finds more than there is room for looks less far.
+"""
+
+
 class Swept(NamedTuple):
     """A surface with a radius about it, as one side of a contact."""
 
@@ -157,6 +167,8 @@ def contacts_of(one: Swept, two: Swept) -> tuple[FeaturePair, ...]:
     if n_pairs <= _MOST_EACH:
         pairs = [(kind, i, j) for kind, (m, n) in counts.items() for i in range(m) for j in range(n)]
         return tuple(_fixed({**values, "candidate": (*map(float, pair), FAR)}, pair, one, two) for pair in pairs)
+    if all(own.features.is_convex for own in (one, two)):
+        n_pairs = min(n_pairs, _ROOM * max(_sides(own.features) for own in (one, two)))
     sought = {key: values[key] for key in ("surface_a", "surface_b")}
     search = CandidateSearch(
         find_near_features, {**sought, **limits(n_pairs, [s.extent for s in (one, two) if s.features.edges])}, counts
@@ -164,6 +176,12 @@ def contacts_of(one: Swept, two: Swept) -> tuple[FeaturePair, ...]:
     names = tuple(f"feature {i}" for i in range(max(len(_parts(s.features)) for s in (one, two))))
     made = FeaturePair(evaluate_surfaces, {**values, "candidate": NO_CANDIDATE}, names, search, bound_of_surfaces)
     return (made,) * min(n_pairs, MOST_NEAR)
+
+
+def _sides(features: Features) -> int:
+    """Return the largest number of sides of a face or of edges of a corner."""
+    faces = np.array(features.edges, dtype=int).reshape(-1, 4)[:, 2:].ravel()
+    return max(int(np.max(np.bincount(faces[faces >= 0]), initial=1)), max(map(len, features.stars)))
 
 
 def limits(n_pairs: int, extents: Sequence[float]) -> dict[str, Value]:
