@@ -258,3 +258,17 @@ def test_a_query_is_that_of_all_features() -> None:
                 assert found.gap == pytest.approx(expected.gap, abs=1e-15)
                 compared += 1
     assert compared > 30
+
+
+@pytest.mark.parametrize("second", [Capsule(0.02, 0.15), Box(0.1, 0.07, 0.05, rounding=0.01), Box(0.1, 0.07, 0.05)])
+def test_the_order_of_two_surfaces_does_not_matter(second: Shape, build: Any) -> None:
+    """At poses from apart to edges that overlap within the radius: the same least gap, with either shape first."""
+    first, rng, overlaps = TriangleMesh(Triangles(*channel())), np.random.default_rng(6), 0
+    rigs = Rig((first, second), build.laws()), Rig((second, first), build.laws())
+    low, high = first.bounds
+    for place in rng.uniform(low - 0.05, high + 0.05, (200, 3)):
+        poses = (np.zeros(3), UNIT), (place, _turned(rng.normal(size=3)))
+        one, two = _least(rigs[0], poses), _least(rigs[1], poses[::-1])
+        assert two == pytest.approx(one, abs=1e-14)
+        overlaps += one < 0.0
+    assert overlaps > 10

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B, TANGENT
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, cross, dot, norm, opposite, plus_scaled, vector_at, write_vector
+from ...vectors import Vector3, cross, dot, norm, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine, sine_off_cone
 from ..features.edge_row import ALONG, INTO_FIRST, LENGTH
 from ..features.ends import CLOSED, END, gap_past_end
-from ..features.frames import point_in_body, vector_in_body
+from ..features.frames import point_in_body
 from ..features.writing import write_principal
 from .overlap_corners import common_direction, crossing_past_corner, part_of_overlap
 from .surface_near import seen_from
@@ -18,6 +20,8 @@ from .surface_search import beyond_ends
 from .surface_tables import IS_CONVEX, N_FACES, SWEEP
 from .surface_vertex import past_depth, separation_of_faces
 
+Edges: TypeAlias = tuple[Floats, int, Floats, int]
+"""Surface of the first body and index of the row of its edge, then those of the second body."""
 _FLUSH = 1e-5
 """Sine of the angle between the common normal of two edges and a face's normal, up to which they count as equal.
 
@@ -27,11 +31,12 @@ The face is adjacent to one of the edges.
 
 @compiled
 def _past_surface(
-    frame: Floats, other: Floats, surface: Floats, edges: Floats, row: int, depth: float, point: Vector3, n: Vector3
+    frame: Floats, other: Floats, surface: Floats, edges: Floats, row: int, depth: float, point: Vector3
 ) -> float:
     """Return how far an edge of the other body is from an overlap of this depth with a surface [m].
 
-    See :func:`bodies.contacts.surface.surface_vertex.past_depth`.
+    See :func:`bodies.contacts.surface.surface_vertex.past_depth`.  A segment has no inside, and does not tell: the
+    result is negative.
 
     Parameters
     ----------
@@ -45,55 +50,35 @@ def _past_surface(
         Depth of the overlap [m].
     point : Vector3
         Nearest point of the edge in the world [m].
-    n : Vector3
-        Unit normal of the crossing out of the surface, in the world.
     """
+    if surface[N_FACES] == 0.0:
+        return -depth
     start, along, length = vector_at(edges, row), vector_at(edges, row + ALONG), edges[row + LENGTH]
     before, behind = beyond_ends(edges, row)
     first, second = plus_scaled(start, -before, along), plus_scaled(start, length + behind, along)
     ends = seen_from(frame, other, first), seen_from(frame, other, second)
     into = block_at(edges, row + INTO_FIRST)
-    normal = vector_in_body(frame, n)
-    return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point), normal))
+    return float(past_depth(frame, other, surface, 2.0, into, ends, depth, point_in_body(frame, point)))
 
 
 @compiled
-def _past_overlap(
-    a: Floats,
-    b: Floats,
-    surface_a: Floats,
-    row_a: int,
-    surface_b: Floats,
-    row_b: int,
-    crossing: Crossing,
-    size: float,
-) -> float:
+def _past_overlap(a: Floats, b: Floats, edges: Edges, crossing: Crossing, size: float) -> float:
     """Return how far two edges whose cores overlap are from touching [m]; negative if their contact is valid.
 
     The bodies separate on the shortest way.  Convex bodies do so along the direction of the largest separation: no
     plane of a face may separate them better than the common normal of the edges.  Of others only the faces next to the
     edges are known: either edge must be below them as deep as the overlap.
     """
-    p, _, _, n, gap, _, _ = crossing
+    (p, _, _, n, gap, _, _), (surface_a, row_a, surface_b, row_b) = crossing, edges
     if surface_a[IS_CONVEX] * surface_b[IS_CONVEX] > 0.0:
         best = max(separation_of_faces(a, b, surface_a, surface_b), separation_of_faces(b, a, surface_b, surface_a))
         return float(best - gap - CLOSED * size)
-    # a segment has no inside
-    past = _past_surface(b, a, surface_b, surface_a, row_a, -gap, p, opposite(n)) if surface_b[N_FACES] > 0.0 else gap
-    return max(past, _past_surface(a, b, surface_a, surface_b, row_b, -gap, plus_scaled(p, gap, n), n))
+    past = _past_surface(b, a, surface_b, surface_a, row_a, -gap, p)
+    return max(past, _past_surface(a, b, surface_a, surface_b, row_b, -gap, plus_scaled(p, gap, n)))
 
 
 @compiled
-def _past_flush(
-    a: Floats,
-    b: Floats,
-    surface_a: Floats,
-    row_a: int,
-    surface_b: Floats,
-    row_b: int,
-    crossing: Crossing,
-    size: float,
-) -> float:
+def _past_flush(a: Floats, b: Floats, edges: Edges, crossing: Crossing, size: float) -> float:
     """Return a positive distance if two sharp edges lie flush in faces that touch, else a negative one [m].
 
     Then the vertices over the faces touch, and not the edges: each corner of the overlap has one contact.  Edges are
@@ -101,7 +86,7 @@ def _past_flush(
     and if a face separates the bodies as well as their common normal, which is normal to a face of an edge within
     ``_FLUSH``.  Of surfaces that are not convex this is not known.
     """
-    _, e, f, n, gap, _, _ = crossing
+    (_, e, f, n, gap, _, _), (surface_a, row_a, surface_b, row_b) = crossing, edges
     margin = CLOSED * size
     ends_apart = min(surface_a[row_a + LENGTH], surface_b[row_b + LENGTH]) * norm(cross(e, f))
     off_cone = max(sine_off_cone(a, surface_a, row_a, 1.0, n), sine_off_cone(b, surface_b, row_b, -1.0, n))
@@ -113,22 +98,13 @@ def _past_flush(
 
 
 @compiled
-def _past_ends(
-    a: Floats,
-    b: Floats,
-    surface_a: Floats,
-    row_a: int,
-    surface_b: Floats,
-    row_b: int,
-    crossing: Crossing,
-    size: float,
-) -> float:
+def _past_ends(a: Floats, b: Floats, edges: Edges, crossing: Crossing, size: float) -> float:
     """Return how far two edges that cross are past their ends [m]; negative if they may touch.
 
     Sharp edges touch up to a margin past their ends, rounded ones end before their corners.  Bodies on springs overlap:
     then the corners of the overlap touch.
     """
-    _, _, _, n, gap, past_ends, _ = crossing
+    (_, _, _, n, gap, past_ends, _), (surface_a, row_a, surface_b, row_b) = crossing, edges
     radius = surface_a[SWEEP] + surface_b[SWEEP]
     past = past_ends + (END if radius > 0.0 else -CLOSED) * size
     fraction = part_of_overlap(radius - gap, size)
@@ -142,7 +118,7 @@ def _past_ends(
             past_limit = past_ends - CLOSED * size - CONE_MARGIN * abs(gap)
             past = (1.0 - fraction) * past + fraction * max(past_corner, past_limit)
     if past <= 0.0 and radius == 0.0:
-        past = max(past, _past_flush(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
+        past = max(past, _past_flush(a, b, edges, crossing, size))
     return past
 
 
@@ -166,13 +142,14 @@ def write_edges(
     """
     radius_a, radius = surface_a[SWEEP], surface_a[SWEEP] + surface_b[SWEEP]
     parallel = least_sine(size) if radius == 0.0 else least_round_sine(radius, size)
+    edges = surface_a, row_a, surface_b, row_b
     # the margin ``size`` skips the test of the ends of the edges, which follows
     crossing = cross_edges(a, b, surface_a, row_a, surface_b, row_b, parallel, size, size)
     p, e, f, n, gap, _, past = crossing
     if past <= 0.0:
-        past = _past_ends(a, b, surface_a, row_a, surface_b, row_b, crossing, size)
+        past = _past_ends(a, b, edges, crossing, size)
     if past <= 0.0 and gap < 0.0:
-        past = max(past, _past_overlap(a, b, surface_a, row_a, surface_b, row_b, crossing, size))
+        past = max(past, _past_overlap(a, b, edges, crossing, size))
     gap = gap_past_end(gap - radius, past, surface_a[IS_CONVEX] * surface_b[IS_CONVEX] > 0.0)
     out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
     write_vector(out, NORMAL, n)

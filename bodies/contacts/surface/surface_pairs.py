@@ -15,9 +15,8 @@ from nonsmooth.types import Floats
 
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball, patches_of_faces
-from ...vectors import scaled, vector_at
+from ...vectors import vector_at
 from ..features.bounds import edges_bound
-from ..features.frames import vector_in_body
 from ..features.writing import NO_CANDIDATE, write_apart
 from .near_pairs import find_near_features
 from .overlap_corners import corner_of_overlap, part_of_overlap
@@ -63,12 +62,9 @@ def _write_corner(
         own_frame, other = (a, b) if swap == 1.0 else (b, a)
         n, point = vector_at(out, NORMAL), seen_from(other, own_frame, place)
         is_known, past_corner, _ = corner_of_overlap(a, b, swap, surface, own, place, n_star, star, n, size)
-        # the normal points from the first body to the second
-        out_of = vector_in_body(other, scaled(1.0 - 2.0 * swap, n))
         past = out[PAST_END]
         if past > 0.0:
-            ends, depth = (point, point), -out[GAP]
-            past = past_depth(other, own_frame, surface, n_star, star, ends, depth, point, out_of)
+            past = past_depth(other, own_frame, surface, n_star, star, (point, point), -out[GAP], point)
         if is_known and past <= 0.0:
             out[PAST_END] = (1.0 - part) * out[PAST_END] + part * past_corner
 

@@ -94,7 +94,6 @@ def past_depth(
     ends: tuple[Vector3, Vector3],
     depth: float,
     point: Vector3,
-    normal: Vector3,
 ) -> float:
     """Return by how much the depth of an overlap exceeds what a surface allows [m]; not positive for a real overlap.
 
@@ -105,7 +104,7 @@ def past_depth(
 
     Only faces that the feature may touch count, however near others are: bodies with flush faces on springs are pressed
     deeper into each other than their sides are apart.  An edge of the feature that leads below a face, or an end below
-    it, excludes this face.  A point outside whose nearest face is turned away from the overlap is behind the body.
+    it, excludes this face.
 
     Parameters
     ----------
@@ -122,14 +121,12 @@ def past_depth(
         Depth of the overlap [m].
     point : Vector3
         The point of the feature, in the axes of the surface [m].
-    normal : Vector3
-        Unit normal of the overlap out of the surface, in its axes.
     """
     margin = CLOSED * surface[SIZE]
     # depths within the margin are round-off: the point may be on a border
     if depth <= margin:
         return -margin
-    least, side, least_deep, nearest = math.inf, 0.0, depth * (1.0 + REACH), 0
+    least, side, least_deep = math.inf, 0.0, depth * (1.0 + REACH)
     first = first_leaf(surface, -1.0, point)
     node = -1
     while node < int(surface[N_NODES]):
@@ -142,9 +139,9 @@ def past_depth(
             if what != ON_FACE:
                 continue
             square, outward = outward_of(surface, face, t, point)
-            f = face_at(surface, face)
             if square < least:
-                least, side, nearest = square, outward, f
+                least, side = square, outward
+            f = face_at(surface, face)
             # depth of a face: of both ends below its plane, and of the point below its triangle, the largest
             deep = max(-face_height(surface, f, ends[0]), -face_height(surface, f, ends[1]))
             deep = max(deep, math.sqrt(square))
@@ -152,8 +149,6 @@ def past_depth(
                 least_deep = deep
         node += 1
     outside = math.sqrt(least) if side >= 0.0 else 0.0
-    if outside > margin and dot(vector_at(surface, nearest), normal) < -CONE_MARGIN:
-        return outside
     return max(depth - (1.0 + REACH) * least_deep, outside - margin - FLUSH * depth)
 
 
@@ -229,10 +224,9 @@ def face_under(
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), past_part, face
         node += 1
-    if depth_face >= 0 and depth * depth < best:
-        n = vector_at(surface, face_at(surface, depth_face))
-        if past_depth(frame, other, surface, n_star, star, (point, point), depth, point, n) <= 0.0:
-            return depth_face, -depth, depth_past
+    is_below = depth_face >= 0 and depth * depth < best
+    if is_below and past_depth(frame, other, surface, n_star, star, (point, point), depth, point) <= 0.0:
+        return depth_face, -depth, depth_past
     return found, height_best if past <= 0.0 or (height_best < 0.0 and is_convex) else math.hypot(apart, past), past
 
 
