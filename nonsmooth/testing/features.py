@@ -13,7 +13,7 @@ _FAR = 1e150
 
 
 def every_pair(contacts: Iterable[FeaturePair]) -> Iterator[FeaturePair]:
-    """Yield contacts of given features: those given, and every pair of features that a search may find.
+    """Yield the contacts of fixed features, and a contact for each pair of features that a search may find.
 
     Contacts that share a search are replaced by one contact for each pair (kind, i, j) of the ``counts`` of the search,
     in the order of its kinds.

@@ -203,7 +203,7 @@ def pose(pair: str, gap: float, rng: Generator) -> Pose:
 
 
 def kinematics_of(shapes: tuple[Shape, Shape]) -> tuple[FeaturePair, ...]:
-    """Return every pair of features of two shapes as a contact, by what is installed."""
+    """Return every pair of features of two shapes as a contact, by the installed kinematics."""
     found = nearest_pair(registry.load_all("kinematics").values(), *shapes)
     if found is None or not found[1]:
         raise LookupError(f"no kinematics for {shapes}")

@@ -111,8 +111,8 @@ def nearest_of_convex(surface: Floats, core: Core, turn: Axes, center: Vector3) 
 
     It is the first valid stop, if its overlap is below ``_SHALLOW``; below ``_DEEP``, if the stop's point is inside of
     the core; or if a ball inside of the core proves that no other stop has a larger gap.  Otherwise it is the largest
-    gap over the stops of all features.  ``turn`` and
-    ``center`` are those of :mod:`bodies.contacts.smooth.smooth_core`, in the axes of the surface.
+    gap over the stops of all features.  ``turn`` and ``center`` are those of
+    :mod:`bodies.contacts.smooth.smooth_core`, in the axes of the surface.
     """
     size = spread(center) + largest_semi_axis(core) + spread(vector_at(surface, edge_at(surface, 0)))
     first = _first_valid(surface, core, turn, center, size)

@@ -138,10 +138,11 @@ class Swept(NamedTuple):
 
 
 def contacts_of(one: Swept, two: Swept) -> tuple[FeaturePair, ...]:
-    """Return the contacts of two surfaces: each pair of features if they are few, else those that a search finds near.
+    """Return the contacts of two surfaces.
 
-    They are, in this order: edges across edges, corners of the second surface over patches of the first, corners of the
-    first one over patches of the second.  If the second one is a ball, it has the contacts of its centre only.
+    Few pairs of features have a contact each.  Of many, a search finds those that are near.  The order is: edges across
+    edges, corners of the second surface over patches of the first, corners of the first one over patches of the second.
+    If the second one is a ball, it has the contacts of its centre only.
     """
     patches = [
         patches_of_faces(own.features)

@@ -19,8 +19,9 @@ from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import Search, Workspace, at, call_pair, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
-_LEAST_REACH = 2.0**-16
-"""Least reach of a pair, relative to the size of the smaller part, if there are more features than contacts."""
+NARROWEST = 2.0**-12
+"""Least margin of the list, relative to the widest one, and least reach of a pair, relative to the size of the smaller
+part, if there are more candidate features than contacts for them."""
 _NOT_A_NUMBER = -1
 """Number of pairs in place of one that is negative or not finite."""
 
@@ -96,7 +97,7 @@ def _narrows(ws: Workspace, search: Search) -> bool:
         return False
     pair = ws.pairs[ws.rows[search.row].pair]
     pair.reach *= 0.5
-    return bool(pair.reach > _LEAST_REACH * pair.size)
+    return bool(pair.reach > NARROWEST * pair.size)
 
 
 @kernel("b1(ws, Search)")

@@ -35,14 +35,12 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 from nonsmooth.engine.pairs.apart import find_apart
-from nonsmooth.engine.pairs.candidates import are_near, find_candidates, has_no_features, try_searches
+from nonsmooth.engine.pairs.candidates import NARROWEST, are_near, find_candidates, has_no_features, try_searches
 from nonsmooth.engine.pairs.motion import speed_of_parts
 from nonsmooth.engine.pairs.overlaps import displacement_bound, known_separation
 
 _SPENT = 0.6
 """Part of the allowed displacement of a sphere after which the list is made anew."""
-_NARROWEST = 2.0**-12
-"""Least margin of the list, relative to the widest one, if there are more candidate features than contacts for them."""
 _REACH = 0.1
 """Displacement of two convex shapes for which a list is enough, relative to the size of the smaller one.
 
@@ -250,7 +248,7 @@ def fill_list(ws: Workspace) -> Status:
     margin = ws.island.list_margin
     ws.island.list_margin = min(ws.options.widest_margin, 2.0 * ws.island.list_margin)
     status = find_candidates(ws)
-    while status == Status.NO_SLOT and ws.island.list_margin > _NARROWEST * ws.options.widest_margin:
+    while status == Status.NO_SLOT and ws.island.list_margin > NARROWEST * ws.options.widest_margin:
         ws.island.list_margin *= 0.5
         status = find_candidates(ws)
     if status != Status.RUNNING:
