@@ -22,7 +22,7 @@ from .smooth import SmoothShape
 from .support_function import FUNCTION, OF_FUNCTION
 
 _SHARPEST, _FLATTEST = 1e-3, 1e3
-"""Least and largest radius of curvature that a shape may have, relative to its size."""
+"""Least of the larger principal radii of curvature, and largest radius, that a shape may have, relative to its size."""
 _LOOKS = 400
 """Number of directions, evenly over the sphere, along which a shape is checked before its first use."""
 _ROUND_OFF = 1e-9
@@ -64,17 +64,17 @@ class SupportShape(SmoothShape):
     and has one method, ``support``.  Its contract:
 
     1. It returns the point of the shape that lies farthest along a direction of any length, in the frame of the body.
-    2. The surface has no edge, no corner and no flat place.  Round the edges of a shape by a ball that rolls over it:
-       add ``radius * direction / |direction|`` to the point.
+    2. The surface has no corner, no straight edge and no flat place.  An edge that is curved may be sharp, as the rim
+       of a lens.  Round a shape by a ball that rolls over it: add ``radius * direction / |direction|`` to the point.
     3. It is compiled if it uses only declared parameters of ``self``, numbers, :mod:`math`, numpy and functions at
        module level.  Otherwise it runs in Python, with a warning.
 
     Raises
     ------
     InvalidInput
-        At the first use: a point is not the farthest one, or a radius of curvature is below a thousandth of the size
-        or above a thousand times the size.  At any call before a run: ``support`` raises, or does not return three
-        finite numbers.
+        At the first use: a point is not the farthest one, both radii of curvature are below a thousandth of the size,
+        or one is above a thousand times the size.  At any call before a run: ``support`` raises, or does not return
+        three finite numbers.
     """
 
     @abstractmethod
@@ -194,15 +194,15 @@ def _check(shape: SupportShape) -> None:
         raise InvalidInput(
             name, "must not depend on the length of the direction", twice, "Divide by np.linalg.norm(direction)."
         )
-    least = least_radius(shape.farthest_of, directions) / size
+    least = sharpest_corner(shape.farthest_of, directions) / size
     most = largest_radius(shape.farthest_of, directions, points) / size
     if not least >= _SHARPEST:
         raise InvalidInput(
             name,
-            f"must have radii of curvature of {_SHARPEST:g} of its size at least",
+            f"must have a radius of curvature of {_SHARPEST:g} of its size or more at each point",
             least * size,
-            f"It is sharp: roll a ball over it by adding radius * direction / np.linalg.norm(direction), with a radius "
-            f"of {_SHARPEST * size:.2g} m or more.",
+            f"It has a corner: roll a ball over it by adding radius * direction / np.linalg.norm(direction), with a "
+            f"radius of {_SHARPEST * size:.2g} m or more.",
         )
     if not most <= _FLATTEST:
         raise InvalidInput(
@@ -242,14 +242,15 @@ def spiral(count: int) -> tuple[Vector, float]:
     return np.column_stack([r * np.cos(angle), r * np.sin(angle), z]), 3.0 / math.sqrt(count)
 
 
-def least_radius(support: Support, directions: Vector) -> float:
-    """Return the least radius of curvature at the points with given normals [m].
+def sharpest_corner(support: Support, directions: Vector) -> float:
+    """Return the least of the larger principal radii of curvature at the points with given normals [m].
 
-    Principal radii are the eigenvalues of the derivative dP/dn, with the shape's farthest point P(n) along n.
+    It is 0 at a corner, but not at a curved edge.  Principal radii are the eigenvalues of the derivative dP/dn, with
+    the shape's farthest point P(n) along n.
     """
     rates = _rates(support, directions)
     middle, half = 0.5 * (rates[:, 0] + rates[:, 2]), 0.5 * (rates[:, 0] - rates[:, 2])
-    return float(np.min(middle - np.hypot(half, rates[:, 1])))
+    return float(np.min(middle + np.hypot(half, rates[:, 1])))
 
 
 def largest_radius(support: Support, directions: Vector, points: Vector) -> float:

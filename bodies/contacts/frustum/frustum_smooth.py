@@ -26,6 +26,7 @@ from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, vector_
 from ..features.frames import point_in_world
 from ..features.writing import write_sweep
 from ..smooth.inscribed import gauge, no_shorter_way
+from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import (
     CENTER,
@@ -40,7 +41,7 @@ from ..smooth.smooth_core import (
     rotated_back,
     spread,
 )
-from ..smooth.smooth_newton import widest_of_round, write_surface
+from ..smooth.smooth_newton import write_surface
 from ..smooth.smooth_starts import starts_of, uphill
 from .frustum import (
     FLANK,
@@ -77,12 +78,6 @@ _CLOSE = 1e-12
 
 Below it the direction from the axis to the centre is round-off, and the search starts at the first axis instead.
 """
-_SAMPLES, _PROJECTIONS = 8, 16
-"""Numbers of points that are tried as common points of both bodies (:func:`_share_a_point`).
-
-``_SAMPLES`` is the number of intervals between the two contact points, whose ends are tried first.  ``_PROJECTIONS`` is
-the largest number of points from alternating projections, which are tried then.
-"""
 _LARGER = 1e-14
 """Least difference of two local maxima of the gap, relative to the size; a smaller difference is round-off."""
 _NEARBY = 1e-3
@@ -93,8 +88,6 @@ _DEEP = 0.9
 The gauge is 0 at the centre and 1 on the surface.  At a deep overlap some searches are left out, because they may end
 at a smaller local maximum of the gap.
 """
-_ON_SURFACE = 1e-12
-"""Round-off by which the gauge of a core (1 on its surface) may exceed 1 at a point inside of the core."""
 _TURNS = 8
 """Number of directions around the axis at which searches start, if the direction to the core's centre fails."""
 
@@ -162,34 +155,6 @@ def _nearest_point(frustum: Floats, point: Vector3) -> Vector3:
 
 
 @compiled
-def _share_a_point(frustum: Floats, point: Core, core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
-    """True if a common point of both bodies is found, which confirms that the bodies overlap as ``found`` says.
-
-    Points of the frustum are tried in two series.  The first series has the frustum's points nearest to points of the
-    line between the two contact points in ``found``.  The second series alternates: the frustum's point nearest to the
-    core's centre, the core's point nearest to this point, the frustum's point nearest to that, and so on.
-    """
-    g, q, n = found
-    p = q
-    for i in range(_SAMPLES + _PROJECTIONS):
-        if i <= _SAMPLES:
-            p = plus_scaled(q, -(g * i / _SAMPLES), n)
-        elif i == _SAMPLES + 1:
-            p = place
-        else:
-            # p is outside of the core: go to the core's nearest point and on into the core, farther each time
-            to_center = minus(place, p)
-            distance, to_core, _ = widest_of_round(point, core, turn, to_center, to_center)
-            if not distance > 0.0:
-                return False
-            p = plus_scaled(p, float(i - _SAMPLES), to_core)
-        p = _nearest_point(frustum, p)
-        if gauge(core, rotated_back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE:
-            return True
-    return False
-
-
-@compiled
 def _nearest(
     frustum: Floats, low: Floats, high: Floats, point: Core, core: Core, turn: Axes, place: Vector3
 ) -> tuple[NearestPoint, int]:
@@ -197,7 +162,7 @@ def _nearest(
 
     The first result holds the gap of the cores [m], the smooth body's point [m] and the normal, in the axes of the
     frustum.  The part is a cap, the side or a rim, such as ``LOW_CAP``.  The gap is nan if no local maximum was found.
-    A negative gap needs a common point of both bodies as a proof.
+    A negative gap needs a proof that both bodies overlap.
 
     All parts are searched, from several starts, until a local maximum is proved to be the largest, or until all starts
     are done.
@@ -265,7 +230,7 @@ def _nearest(
     if is_sharp and not is_deep and best[0] < 0.0:
         # the local maximum with the smallest depth may have been missed: search for larger gaps
         best, best_part = _larger_gap(bodies, best, best_part)
-    if math.isnan(best[0]) or not _share_a_point(frustum, point, core, turn, place, best):
+    if math.isnan(best[0]) or not do_overlap((low, frustum[LOW], high, frustum[HIGH], core, turn, place)):
         # the searches missed the largest gap: ascend the gap of the rims, then that of the side from the apex
         best, best_part = _on_rims(bodies)
         if is_sharp and math.isnan(best[0]) and frustum[SIDE] > 0.0:
@@ -321,10 +286,9 @@ def _on_rims(bodies: Bodies) -> tuple[NearestPoint, int]:
     """Return the largest local maximum of the gap over the normals of both rims, by ascents, and this rim.
 
     The ascents start from several normals (:func:`bodies.contacts.smooth.round_search.up_hills`).  A rim of radius 0 is
-    an apex.  The gap is nan if no maximum was found, or if the gap is negative and no common point of both bodies
-    proves the overlap.
+    an apex.  The gap is nan if no maximum was found, or if the gap is negative and no overlap is proved.
     """
-    frustum, low, high, point, core, turn, place, size = bodies
+    frustum, low, high, _, core, turn, place, size = bodies
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     best_part = LOW_RIM
     for part in (LOW_RIM, HIGH_RIM):
@@ -337,7 +301,7 @@ def _on_rims(bodies: Bodies) -> tuple[NearestPoint, int]:
         gap, p, n = up_hills(low if part == LOW_RIM else high, core, turn, from_rim, side, limit)
         if not math.isnan(gap) and not gap <= best[0]:
             best, best_part = (gap, (p[0], p[1], p[2] + height), n), part
-    if not best[0] >= 0.0 and not _share_a_point(frustum, point, core, turn, place, best):
+    if not best[0] >= 0.0 and not do_overlap((low, frustum[LOW], high, frustum[HIGH], core, turn, place)):
         best = math.nan, best[1], best[2]
     return best, best_part
 

@@ -14,7 +14,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import Core, gauge_of, is_boxy, is_mixed, is_round, support_of
+from ...shapes.support_function import Core, is_boxy, is_mixed, is_round, support_of
 from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled, write_vector
 from ..features.frames import point_in_world, vector_in_world, write_tangent
 from .boxy_line import across_line
@@ -24,6 +24,7 @@ from .chart import write_chart
 from .chart_newton import meet_in_charts
 from .dual_newton import climb
 from .inscribed import gauge, no_shorter_way
+from .overlap_proof import do_overlap
 from .smooth_core import (
     POINT,
     RADIUS,
@@ -48,7 +49,7 @@ In a deeper overlap, a shorter translation could separate the bodies: see :mod:`
 """
 
 _TOUCHING = 1e-12
-"""Overlap, relative to the distance of the centres, up to which no common point of the bodies is required.
+"""Overlap, relative to the distance of the centres, up to which no proof is required.
 
 So small an overlap is round-off of touching bodies, which may have no common point.
 """
@@ -78,13 +79,6 @@ _ON_AXIS, _SUNK = 1e-5, 0.2
 ``_ON_AXIS``: angle to the axis up to which a maximum is on the axis [rad].  ``_SUNK``: largest overlap, relative to the
 least semi-axis, in which maxima are tested.
 """
-_SAMPLES = 8
-"""Number of equal parts into which the line between both contact points is divided.
-
-To prove an overlap, the ends of the parts are tested: is one of them inside of both bodies?
-"""
-_NOWHERE = 1e-300
-"""Least gauge in a division: the gauge of a centre is 0."""
 _ON_SURFACE = 1e-12
 """Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 
@@ -94,10 +88,10 @@ def widest(first: Core, second: Core, turn: Axes, center: Vector3) -> NearestPoi
     """Return the gap of two cores [m], the second core's point [m] and the normal, in the axes of the first core.
 
     The gap is the largest one over all directions.  If it is positive, it is the only maximum.  A negative gap is
-    returned only if a common point of both bodies proves the overlap.  Overlapping bodies can have several maxima: each
-    is a locally shortest translation that separates them.  If the first search fails, or its solution is not proved to
-    be the shortest translation, the search also starts from directions with a large gap.  The gap is nan if no solution
-    was found.
+    returned only if the bodies are proved to overlap (:mod:`bodies.contacts.smooth.overlap_proof`).  Overlapping bodies
+    can have several maxima: each is a locally shortest translation that separates them.  If the first search fails, or
+    its solution is not proved to be the shortest translation, the search also starts from directions with a large gap.
+    The gap is nan if no solution was found.
 
     Parameters
     ----------
@@ -106,7 +100,7 @@ def widest(first: Core, second: Core, turn: Axes, center: Vector3) -> NearestPoi
     """
     is_any_mixed = is_mixed(first) or is_mixed(second)
     best = _from_centers(first, second, turn, center)
-    is_proved = _is_proved(first, second, turn, center, best)
+    is_proved = _is_proved(first, second, turn, center, best[0])
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and is_proved):
         return best
     if is_proved and no_shorter_way(first, second, turn, center, best):
@@ -137,7 +131,7 @@ def widest(first: Core, second: Core, turn: Axes, center: Vector3) -> NearestPoi
                 # Newton's method went to a smaller maximum, or did not converge
                 _, n = uphill(first, second, turn, center, starts[attempt], _NEARBY)
                 candidate = _from_start(first, second, turn, center, n)
-        is_proved = is_proved or _is_proved(first, second, turn, center, candidate)
+        is_proved = is_proved or _is_proved(first, second, turn, center, candidate[0])
         if candidate[0] == candidate[0] and not best[0] >= candidate[0]:
             best = candidate
             if best[0] >= 0.0 or (is_proved and no_shorter_way(first, second, turn, center, best)):
@@ -164,27 +158,11 @@ def _is_thin(first: Core, second: Core) -> bool:
 
 
 @compiled
-def _is_proved(first: Core, second: Core, turn: Axes, center: Vector3, solution: NearestPoint) -> bool:
-    """Return whether a common point of both bodies proves the overlap of a solution, or whether none is needed.
-
-    A gap above ``-_TOUCHING`` needs none.  Tested are the points of the solution, points between them, and the line of
-    centres.
-    """
-    g, q, n = solution
-    if g >= -_TOUCHING * spread(center):
+def _is_proved(first: Core, second: Core, turn: Axes, center: Vector3, gap: float) -> bool:
+    """Return whether a gap needs no proof of an overlap, as it is above ``-_TOUCHING``, or the bodies overlap."""
+    if gap >= -_TOUCHING * spread(center):
         return True
-    for i in range(_SAMPLES + 1):
-        # from the first body's point to the second's
-        p = plus_scaled(q, -(g * (1.0 - i / _SAMPLES)), n)
-        if (
-            gauge(second, rotated_back(turn, minus(p, center))) <= 1.0 + _ON_SURFACE
-            and gauge(first, p) <= 1.0 + _ON_SURFACE
-        ):
-            return True
-    # each body covers the fraction 1 / gauge of the line of centres, from its own centre: the bodies overlap if these
-    # fractions add up to 1
-    gauge_a, gauge_b = gauge_of(first, center), gauge_of(second, rotated_back(turn, opposite(center)))
-    return bool(1.0 / max(gauge_a, _NOWHERE) + 1.0 / max(gauge_b, _NOWHERE) >= 1.0)
+    return gap == gap and do_overlap((first, 0.0, first, 0.0, second, turn, center))
 
 
 @compiled
