@@ -38,12 +38,12 @@ class EllipsoidSum(SupportShape):
 
 @final
 @dataclass(frozen=True)
-class RoundedLens(SupportShape):
+class Lens(SupportShape):
     """What two equal balls have in common, with a smaller ball rolled over it; the rim is in the plane z = 0."""
 
     radius: float = parameter(0.02, doc="radius of the balls", unit="m", above=0.0)
     rim: float = parameter(0.01, doc="radius of the rim, below that of the balls", unit="m", above=0.0)
-    rounding: float = parameter(1e-3, doc="radius of the smaller ball", unit="m", minimum=0.0)
+    rounding: float = parameter(0.0, doc="radius of the smaller ball; 0 leaves the rim sharp", unit="m", minimum=0.0)
 
     def support(self, direction: Vector) -> Vector:
         """Return a point of a cap or of the rim, and the radius of the smaller ball from there [m]."""
@@ -53,6 +53,23 @@ class RoundedLens(SupportShape):
             depth = math.sqrt(self.radius**2 - self.rim**2)
             return np.asarray((self.radius + self.rounding) * n - np.array([0.0, 0.0, math.copysign(depth, n[2])]))
         return np.asarray(np.array([n[0], n[1], 0.0]) * self.rim / across + self.rounding * n)
+
+
+@final
+@dataclass(frozen=True)
+class Spindle(SupportShape):
+    """An arc of a circle turned about its chord, the third axis: it has two tips."""
+
+    radius: float = parameter(0.02, doc="radius of the arc", unit="m", above=0.0)
+    half: float = parameter(0.01, doc="half the chord, below the radius", unit="m", above=0.0)
+
+    def support(self, direction: Vector) -> Vector:
+        """Return a point of the arc or a tip [m]."""
+        n = direction / math.sqrt(np.sum(direction * direction))
+        if abs(n[2]) * self.radius > self.half:
+            return np.asarray(np.array([0.0, 0.0, math.copysign(self.half, n[2])]))
+        depth = math.sqrt(self.radius**2 - self.half**2) / math.sqrt(n[0] ** 2 + n[1] ** 2)
+        return np.asarray(self.radius * n - depth * np.array([n[0], n[1], 0.0]))
 
 
 @final

@@ -48,7 +48,7 @@ from nonsmooth.rotations import rotation
 from nonsmooth.system.pairing import installed_pair
 from nonsmooth.testing.kinematics import check_contact_kinematics
 from tests.bodies.carriers import Rig
-from tests.bodies.given_shapes import EllipsoidSum, RoundedLens, SameEllipsoid, Sum
+from tests.bodies.given_shapes import EllipsoidSum, Lens, SameEllipsoid, Spindle, Sum
 from tests.bodies.polytopes import random_hull
 
 HULL = random_hull(np.random.default_rng(4), 9, 8e-3)
@@ -69,7 +69,8 @@ OTHERS: dict[str, Any] = {
 }
 GIVEN: dict[str, Any] = {
     "sum": EllipsoidSum(),
-    "lens": RoundedLens(),
+    "lens": Lens(),
+    "rounded lens": Lens(rounding=1e-3),
     "egg": MovedShape(Egg(), 1e-3, -2e-3, 5e-4, 0.8, 0.36, -0.48),
 }
 POSES = 5 if PLAIN else 30
@@ -149,6 +150,45 @@ def test_over_a_mesh_and_a_plane(build: Any, name: str) -> None:
         assert plane.geometry[0, 0] == pytest.approx(float(up @ (place + axes @ shape.support(-up @ axes))), abs=1e-15)
 
 
+EDGES: dict[str, tuple[Any, list[float], float]] = {
+    "lens": (Lens(), [0.01, 0.0, 0.0], 0.0),
+    "disc": (Disc(8e-3), [8e-3, 0.0, 0.0], 0.0),
+    "cylinder": (Cylinder(6e-3, 8e-3), [6e-3, 0.0, 8e-3], 0.25 * math.pi),
+    "cone": (Cone(7e-3, 1.2e-2), [7e-3, 0.0, 0.0], -0.5),
+    "box": (Box(8e-3, 5e-3, 4e-3), [8e-3, 1e-3, 4e-3], 0.25 * math.pi),
+    "rounded box": (Box(8e-3, 5e-3, 4e-3, rounding=1e-3), [7e-3, 1e-3, 3e-3], 0.25 * math.pi),
+    "mesh": (TriangleMesh(Triangles(*Box(8e-3, 5e-3, 4e-3).drawing())), [8e-3, 1e-3, 4e-3], 0.25 * math.pi),
+}
+"""Shapes, a point of an edge that runs along y there, and the elevation of a normal of this edge."""
+
+
+@pytest.mark.parametrize("name", EDGES)
+def test_a_sharp_rim_across_another_edge(build: Any, name: str) -> None:
+    """The gap and the normal go on through contact, as far as the edges cross each other."""
+    shape, place, elevation = EDGES[name]
+    rig, rng = Rig((Lens(), shape), build.laws()), np.random.default_rng(9)
+    sweep = 1e-3 if name == "rounded box" else 0.0
+    for _ in range(POSES):
+        tilt, other = rng.uniform(-0.5, 0.5, 2)
+        other += elevation
+        n = np.array([math.cos(tilt), 0.0, math.sin(tilt)])
+        # the edge of the other body crosses the rim at an angle, and its normal faces that of the rim
+        own = np.array([[math.cos(other), 0.0, math.sin(other)], [0.0, 1.0, 0.0]])
+        across = rng.uniform(0.4, math.pi - 0.4)
+        along = math.cos(across) * np.array([0.0, 1.0, 0.0]) + math.sin(across) * np.cross(n, [0.0, 1.0, 0.0])
+        frames = [np.column_stack([u, v, np.cross(u, v)]) for u, v in (own, (-n, along))]
+        turn = Rotation.from_matrix(frames[1] @ frames[0].T)
+        for gap in (1e-3, 1e-6, 1e-9, 0.0, -1e-9, -1e-7, -1e-6):
+            center = np.array([0.01, 0.0, 0.0]) + (gap + sweep) * n - turn.apply(place)
+            poses = [(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])), (center, np.roll(turn.as_quat(), 1))]
+            rig.put(poses, np.zeros(12))
+            blocks = rig.geometry[rig.geometry[:, 30] <= 0.0]
+            block = blocks[np.argmin(blocks[:, 0])]
+            sign = 1.0 if isinstance(rig.contacts[0].shapes[0], Lens) else -1.0
+            assert block[0] == pytest.approx(gap, abs=1e-13), gap
+            np.testing.assert_allclose(sign * block[1:4], n, rtol=0, atol=1e-7, err_msg=str(gap))
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="the checks call compiled functions")
 @pytest.mark.parametrize(("one", "two"), [("sum", "box"), ("egg", "ellipsoid")])
@@ -165,7 +205,9 @@ def test_rates_and_second_order_terms_are_the_derivatives(one: str, two: str) ->
 
 @pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
-@pytest.mark.parametrize(("name", "other"), [("sum", "plate"), ("lens", "box"), ("lens", "mesh"), ("egg", "ellipsoid")])
+@pytest.mark.parametrize(
+    ("name", "other"), [("sum", "plate"), ("lens", "box"), ("rounded lens", "mesh"), ("egg", "ellipsoid")]
+)
 def test_bouncing_keeps_the_energy(name: str, other: str) -> None:
     """Two hundred impacts without loss."""
     grounds = {
@@ -208,7 +250,7 @@ def test_mass_properties() -> None:
     ours, known = KNOWN
     assert ours.volume == pytest.approx(known.volume, rel=1e-8)
     np.testing.assert_allclose(ours.inertia, known.inertia, rtol=0, atol=1e-8 * known.inertia[1, 1])
-    lens = RoundedLens()
+    lens = Lens(rounding=1e-3)
     big, rim, r = lens.radius, lens.rim, lens.rounding
     height = big - math.sqrt(big**2 - rim**2)
     volume, area = 2.0 * math.pi * height**2 * (3.0 * big - height) / 3.0, 4.0 * math.pi * big * height
@@ -229,7 +271,7 @@ def test_mass_properties() -> None:
 @pytest.mark.parametrize("name", GIVEN)
 def test_drawing_length_and_bounds(name: str) -> None:
     shape = GIVEN[name]
-    vertices, triangles = shape.drawing(48)
+    vertices, triangles = shape.drawing(96)
     edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     assert np.all(np.unique(edges, axis=0, return_counts=True)[1] == 2)
     assert solid_of(vertices, triangles)[0] == pytest.approx(shape.volume, rel=2e-2)
@@ -317,7 +359,7 @@ class Wrong(SupportShape):
         (Wrong("not convex"), "farthest of the points"),
         (Wrong("by length"), "length of the direction"),
         (Wrong("no idea"), r"three finite numbers.*RuntimeError\('no idea'\).*asked along \[.*\(line \d+\)"),
-        (RoundedLens(rounding=0.0), "sharp: roll a ball over it"),
+        (Spindle(), "corner: roll a ball over it"),
     ],
 )
 def test_what_is_wrong_is_refused_by_name(shape: SupportShape, message: str) -> None:

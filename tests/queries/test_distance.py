@@ -44,7 +44,7 @@ from nonsmooth.histories.distances import distances
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation
-from tests.bodies.given_shapes import EllipsoidSum, RoundedLens
+from tests.bodies.given_shapes import EllipsoidSum, Lens
 from tests.bodies.meshes.parts import bracket, hills
 from tests.queries.shapes import SHAPES, UNBOUNDED, Pose, pose
 from tests.solids.separation import nearest, piece_of
@@ -279,7 +279,9 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
 
 
 @pytest.mark.fast_cases(1)
-@pytest.mark.parametrize("shape", [EllipsoidSum(), RoundedLens(), Egg(), MovedShape(Egg(), x=2e-3)], ids=repr)
+@pytest.mark.parametrize(
+    "shape", [EllipsoidSum(), Lens(), Lens(rounding=1e-3), Egg(), MovedShape(Egg(), x=2e-3)], ids=repr
+)
 @pytest.mark.parametrize("other", ["plane", "point", "box", "cylinder", "ellipsoid", "mesh"])
 def test_shapes_of_users(shape: ConvexShape, other: str) -> None:
     """What has nothing but farthest points is asked like all others; a search in Python agrees."""

@@ -78,6 +78,10 @@ _CLOSE = 1e-12
 
 Below it the direction from the axis to the centre is round-off, and the search starts at the first axis instead.
 """
+_SAMPLES = 8
+"""Number of equal parts into which the line between both contact points is divided, to find a common point."""
+_ON_SURFACE = 1e-12
+"""Round-off by which the gauge of a core (1 on its surface) may exceed 1 at a point inside of the core."""
 _LARGER = 1e-14
 """Least difference of two local maxima of the gap, relative to the size; a smaller difference is round-off."""
 _NEARBY = 1e-3
@@ -152,6 +156,17 @@ def _nearest_point(frustum: Floats, point: Vector3) -> Vector3:
     # relative change of the distance from the axis
     inwards = distance * radial / away if away > 0.0 else 0.0
     return x - inwards * x, y - inwards * y, z - distance * axial
+
+
+@compiled
+def _has_common_point(frustum: Floats, core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
+    """Return whether a point of the frustum, nearest to a point between both contact points, is in the core."""
+    g, q, n = found
+    for i in range(_SAMPLES + 1):
+        p = _nearest_point(frustum, plus_scaled(q, -(g * i / _SAMPLES), n))
+        if gauge(core, rotated_back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE:
+            return True
+    return False
 
 
 @compiled
@@ -230,11 +245,14 @@ def _nearest(
     if is_sharp and not is_deep and best[0] < 0.0:
         # the local maximum with the smallest depth may have been missed: search for larger gaps
         best, best_part = _larger_gap(bodies, best, best_part)
-    if math.isnan(best[0]) or not do_overlap((low, frustum[LOW], high, frustum[HIGH], core, turn, place)):
+    pair = low, frustum[LOW], high, frustum[HIGH], core, turn, place
+    if math.isnan(best[0]) or not (_has_common_point(frustum, core, turn, place, best) or do_overlap(pair)):
         # the searches missed the largest gap: ascend the gap of the rims, then that of the side from the apex
         best, best_part = _on_rims(bodies)
         if is_sharp and math.isnan(best[0]) and frustum[SIDE] > 0.0:
             best, best_part = _beside_apex(bodies), FLANK
+        if not best[0] >= 0.0 and not do_overlap(pair):
+            best = math.nan, best[1], best[2]
     return best, best_part
 
 
@@ -286,7 +304,7 @@ def _on_rims(bodies: Bodies) -> tuple[NearestPoint, int]:
     """Return the largest local maximum of the gap over the normals of both rims, by ascents, and this rim.
 
     The ascents start from several normals (:func:`bodies.contacts.smooth.round_search.up_hills`).  A rim of radius 0 is
-    an apex.  The gap is nan if no maximum was found, or if the gap is negative and no overlap is proved.
+    an apex.  The gap is nan if no maximum was found.
     """
     frustum, low, high, _, core, turn, place, size = bodies
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
@@ -301,8 +319,6 @@ def _on_rims(bodies: Bodies) -> tuple[NearestPoint, int]:
         gap, p, n = up_hills(low if part == LOW_RIM else high, core, turn, from_rim, side, limit)
         if not math.isnan(gap) and not gap <= best[0]:
             best, best_part = (gap, (p[0], p[1], p[2] + height), n), part
-    if not best[0] >= 0.0 and not do_overlap((low, frustum[LOW], high, frustum[HIGH], core, turn, place)):
-        best = math.nan, best[1], best[2]
     return best, best_part
 
 

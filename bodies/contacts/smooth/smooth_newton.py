@@ -79,6 +79,8 @@ _ON_AXIS, _SUNK = 1e-5, 0.2
 ``_ON_AXIS``: angle to the axis up to which a maximum is on the axis [rad].  ``_SUNK``: largest overlap, relative to the
 least semi-axis, in which maxima are tested.
 """
+_SAMPLES = 8
+"""Number of equal parts into which the line between both contact points is divided, to find a common point."""
 _ON_SURFACE = 1e-12
 """Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 
@@ -100,7 +102,7 @@ def widest(first: Core, second: Core, turn: Axes, center: Vector3) -> NearestPoi
     """
     is_any_mixed = is_mixed(first) or is_mixed(second)
     best = _from_centers(first, second, turn, center)
-    is_proved = _is_proved(first, second, turn, center, best[0])
+    is_proved = _has_common_point(first, second, turn, center, best)
     if best[0] >= 0.0 or (best[0] >= -_DEEP * _thickness(first, second) and is_proved):
         return best
     if is_proved and no_shorter_way(first, second, turn, center, best):
@@ -131,11 +133,12 @@ def widest(first: Core, second: Core, turn: Axes, center: Vector3) -> NearestPoi
                 # Newton's method went to a smaller maximum, or did not converge
                 _, n = uphill(first, second, turn, center, starts[attempt], _NEARBY)
                 candidate = _from_start(first, second, turn, center, n)
-        is_proved = is_proved or _is_proved(first, second, turn, center, candidate[0])
+        is_proved = is_proved or _has_common_point(first, second, turn, center, candidate)
         if candidate[0] == candidate[0] and not best[0] >= candidate[0]:
             best = candidate
             if best[0] >= 0.0 or (is_proved and no_shorter_way(first, second, turn, center, best)):
                 return best
+    is_proved = is_proved or (best[0] < 0.0 and do_overlap((first, 0.0, first, 0.0, second, turn, center)))
     return best[0] if is_proved else math.nan, best[1], best[2]
 
 
@@ -158,11 +161,23 @@ def _is_thin(first: Core, second: Core) -> bool:
 
 
 @compiled
-def _is_proved(first: Core, second: Core, turn: Axes, center: Vector3, gap: float) -> bool:
-    """Return whether a gap needs no proof of an overlap, as it is above ``-_TOUCHING``, or the bodies overlap."""
-    if gap >= -_TOUCHING * spread(center):
+def _has_common_point(first: Core, second: Core, turn: Axes, center: Vector3, solution: NearestPoint) -> bool:
+    """Return whether a point between the two points of a solution belongs to both bodies.
+
+    A gap above ``-_TOUCHING`` needs no such point.
+    """
+    g, q, n = solution
+    if g >= -_TOUCHING * spread(center):
         return True
-    return gap == gap and do_overlap((first, 0.0, first, 0.0, second, turn, center))
+    for i in range(_SAMPLES + 1):
+        # from the first body's point to the second's
+        p = plus_scaled(q, -(g * (1.0 - i / _SAMPLES)), n)
+        if (
+            gauge(second, rotated_back(turn, minus(p, center))) <= 1.0 + _ON_SURFACE
+            and gauge(first, p) <= 1.0 + _ON_SURFACE
+        ):
+            return True
+    return False
 
 
 @compiled
