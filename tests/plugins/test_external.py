@@ -16,7 +16,7 @@ from scenarios.dumbbell import DumbbellScenario
 from tests.environments import ROOT, Environment
 
 SOURCE = ROOT / "tests" / "external_plugin"
-_NAMES = ("rubber", "softening", "hollow_ball", "hollow_ball_on_slope")
+_NAMES = ("rubber", "softening", "hollow_ball", "hollow_ball_on_slope", "lens")
 
 _ROLL = """
 t_end = 0.3
@@ -34,6 +34,29 @@ between = ["ball", "floor"]
 normal = "unilateral"
 friction = { type = "rubber", slow = 0.4, fast = 0.6 }
 impact = "softening"
+"""
+_MEETS_ALL = """
+from nonsmooth.bodies import (
+    Box, Capsule, Cone, ConvexHull, Cylinder, Disc, Egg, Ellipsoid, HalfSpace, Plane, Sphere, Superellipsoid,
+    TriangleMesh, Triangles,
+)
+from nonsmooth.system.pairing import installed_pair
+from nonsmooth.testing.kinematics import check_contact_kinematics
+from rubbery import Lens
+
+sizes = 8e-3, 5e-3, 4e-3
+vertices, triangles = Box(*sizes).drawing()
+shapes = (
+    Plane(), HalfSpace(), Sphere(5e-3), Box(*sizes), Box(*sizes, rounding=1e-3), ConvexHull(vertices.tolist()),
+    TriangleMesh(Triangles(vertices, triangles)), Capsule(2e-3, 7e-3), Cylinder(6e-3, 8e-3), Cone(7e-3, 1.2e-2),
+    Disc(8e-3), Ellipsoid(*sizes), Superellipsoid(*sizes, 1.3, 1.2), Superellipsoid(*sizes, 0.7, 0.8), Egg(), Lens(),
+)
+for shape in shapes:
+    kinematics, is_in_order = installed_pair(Lens(), shape)
+    pair = (Lens(), shape) if is_in_order else (shape, Lens())
+    for row in check_contact_kinematics(kinematics, *pair, contacts=[0]):
+        row.check()
+print(len(shapes), "met")
 """
 
 
@@ -78,7 +101,14 @@ def test_it_passes_the_checks(environment: Environment, tmp_path: Path) -> None:
     checked, errors = environment.run([str(environment.python), "-c", code, *_NAMES], tmp_path)
     assert errors == ""
     assert checked.count(" 0 fail") == len(_NAMES)
-    assert checked.splitlines()[-1] == "0 0 0 0"
+    assert checked.splitlines()[-1] == "0 0 0 0 0"
+
+
+@pytest.mark.slow
+def test_its_lens_meets_every_shape(environment: Environment, tmp_path: Path) -> None:
+    met, errors = environment.run([str(environment.python), "-c", _MEETS_ALL], tmp_path)
+    assert errors == ""
+    assert met == "16 met\n"
 
 
 @pytest.mark.slow

@@ -1,8 +1,9 @@
-"""A friction law, an impact law, a body and a scenario, as a stranger would write them."""
+"""A friction law, an impact law, a body, a shape and a scenario, as a stranger would write them."""
 
 from .body import HollowBall
 from .friction import Rubber
 from .impact import Softening
+from .lens import Lens
 from .scenario import HollowBallOnSlope
 
-__all__ = ["HollowBall", "HollowBallOnSlope", "Rubber", "Softening"]
+__all__ = ["HollowBall", "HollowBallOnSlope", "Lens", "Rubber", "Softening"]
