@@ -19,8 +19,8 @@ from .support_function import FUNCTION, OF_FUNCTION, support_of
 class SmoothShape(ConvexShape):
     """A convex shape without corners and straight edges, given by the numbers of its support function.
 
-    Its radii of curvature are finite; one of them may be 0, at a sharp edge that is curved.  A boxy shape has finite and
-    continuous curvatures instead, which are 0 at its flat points.
+    Its radii of curvature are finite; one of them may be 0, at a sharp edge that is curved.  A boxy shape has finite
+    and continuous curvatures instead, which are 0 at its flat points.
     """
 
     @property
