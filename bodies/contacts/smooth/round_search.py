@@ -22,9 +22,9 @@ from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, dot, minus, plus, plus_scaled
 from .bracket import bracket, narrowed, next_place
 from .inscribed import gauge
-from .smooth_core import POINT, Axes, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
+from .smooth_core import POINT, Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
 from .smooth_newton import widest_of_round
-from .smooth_starts import Start, gap_along, settle, starts_of, uphill
+from .smooth_starts import Start, gap_along, largest_near, local_maximum, starts_of
 from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
@@ -252,12 +252,13 @@ def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, l
         Radial and axial component of the unit normal at this limit, and size of both bodies [m].
     """
     best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
-    for start in starts_of(circle, core, turn, center):
-        top = uphill(circle, core, turn, center, start, _TOP)
+    cores = Cores(circle, core, turn, center)
+    for start in starts_of(cores):
+        top = local_maximum(cores, start, _TOP)
         solution = widest_of_round(circle, core, turn, center, top[1])
         # Newton's method went to a smaller maximum, or did not converge
         if not solution[0] >= top[0] - _TOP * limit[2]:
-            settled = settle(circle, core, turn, center, top)
+            settled = largest_near(cores, top)
             # if two maxima differ by round-off only, the ellipsoid method may go from one to the other
             if _is_in_range(settled[1], up, limit) or not _is_in_range(top[1], up, limit):
                 top = settled
@@ -269,7 +270,7 @@ def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, l
             if radial == 0.0:
                 continue
             n = limit[0] * n[0] / radial, limit[0] * n[1] / radial, limit[1]
-            gap_at_limit = gap_along(circle, core, turn, center, n)
+            gap_at_limit = gap_along(cores, n)
             if not gap_at_limit >= g - _OVER * limit[2]:
                 continue
             solution = _solution_of(circle, (gap_at_limit, n))

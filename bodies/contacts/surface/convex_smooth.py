@@ -21,9 +21,9 @@ from ...vectors import Vector3, cross, dot, minus, opposite, plus, plus_scaled, 
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.ends import REACH
 from ..features.frames import tangent_of
-from ..smooth.inscribed import gauge, no_shorter_way
+from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.round_search import along_segment, up_hills
-from ..smooth.smooth_core import POINT, Axes, largest_semi_axis, rotated_back, spread
+from ..smooth.smooth_core import POINT, Axes, Cores, largest_semi_axis, rotated_back, spread
 from .smooth_stops import Nearest, Stop, over_corner, over_edge, over_face
 from .surface_search import (
     FAR,
@@ -121,7 +121,7 @@ def nearest_of_convex(surface: Floats, core: Core, turn: Axes, center: Vector3) 
         return first
     if g >= -_DEEP * min(core[0], core[1], core[2]) and gauge(core, rotated_back(turn, minus(point, center))) < 1.0:
         return first
-    if g == g and no_shorter_way(POINT, core, turn, minus(center, point), (g, scaled(g, n), n)):
+    if g == g and is_least_overlap(Cores(POINT, core, turn, minus(center, point)), (g, scaled(g, n), n)):
         return first
     if surface[N_FACES] == 0.0:
         return _of_segment(surface, core, turn, center, size, first)
