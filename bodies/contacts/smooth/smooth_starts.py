@@ -107,30 +107,29 @@ def _updated(kept: Starts, new: Start) -> Starts:
 
 
 _CUTS, _WIDE = 400, 0.1
-"""Largest number of ellipses in a run of the ellipsoid method; radius of its first ellipse, which is a circle [rad]."""
-_ELLIPSES = 8
-"""Largest number of runs of the ellipsoid method.
-
-Each run starts from the direction that the run before found.  The search ends after a run that turns the direction by
-less than about 0.045 rad: the maximum is then well inside the first ellipse of the run.
-"""
+"""Largest number of ellipses of the ellipsoid method; radius of its first ellipse, which is a circle [rad]."""
 _HIGHER = 1e-16
 """The ellipsoid method ends if the gap can grow by less than this, relative to the size of the bodies."""
 
 
 @compiled
-def _run_of_ellipses(cores: Cores, start: Start) -> Start:
-    """Return the largest gap near the direction ``start`` [m], and its direction, by one run of the ellipsoid method.
+def largest_near(cores: Cores, start: Start) -> Start:
+    """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
 
-    The method is that of :func:`largest_near`.  The ellipse has the centre (x, y) in the plane, along its
-    tangents t and u, and the matrix E: (w - centre) . E^-1 (w - centre) <= 1.  With the gradient c of the gap and
-    b = E c / sqrt(c . E c), the next centre is moved by b / 3, and the next matrix is 4/3 (E - 2/3 b b^T).
+    The method also converges on narrow ridges, where the gap changes little along one curve of directions.
+
+    Directions are points of the plane that touches the unit sphere at the start.  An ellipse in this plane holds the
+    maximum.  The gradient of the gap at its centre shows in which half of the ellipse the gap can be larger.  The next
+    ellipse is the smallest one round that half.
+
+    The ellipse has the centre (x, y) along the tangents t and u, and the matrix E: (w - centre) . E^-1 (w - centre) <=
+    1.  With the gradient c of the gap and b = E c / sqrt(c . E c), the next centre is moved by b / 3, and the next
+    matrix is 4/3 (E - 2/3 b b^T).
     """
     best: Start = start
     _, n = start
     t = tangent_of(n)
     u = cross(n, t)
-    size = size_of(cores)
     x, y, e_xx, e_xy, e_yy = 0.0, 0.0, _WIDE * _WIDE, 0.0, _WIDE * _WIDE
     for _ in range(_CUTS):
         direction = plus_scaled(plus_scaled(n, x, t), y, u)
@@ -145,32 +144,11 @@ def _run_of_ellipses(cores: Cores, start: Start) -> Start:
         b_x, b_y = e_xx * slope_x + e_xy * slope_y, e_xy * slope_x + e_yy * slope_y
         # squared growth of the gap from the centre to the border of the ellipse, to first order
         growth = slope_x * b_x + slope_y * b_y
-        if not growth > (_HIGHER * size) ** 2:
+        if not growth > (_HIGHER * size_of(cores)) ** 2:
             break
         growth = math.sqrt(growth)
         b_x, b_y = b_x / growth, b_y / growth
         x, y = x + b_x / 3.0, y + b_y / 3.0
         e_xx, e_xy = (e_xx - b_x * b_x / 1.5) / 0.75, (e_xy - b_x * b_y / 1.5) / 0.75
         e_yy = (e_yy - b_y * b_y / 1.5) / 0.75
-    return best
-
-
-@compiled
-def largest_near(cores: Cores, start: Start) -> Start:
-    """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
-
-    The first core is a circle or a point.  The method also converges on narrow ridges, where the gap changes little
-    along one curve of directions.
-
-    Directions are points of the plane that touches the unit sphere at the start.  An ellipse in this plane holds the
-    maximum.  The gradient of the gap at its centre shows in which half of the ellipse the gap can be larger.  The next
-    ellipse is the smallest one round that half.  If the direction found is far from the start, the method starts again
-    from it.
-    """
-    best: Start = start
-    for _ in range(_ELLIPSES):
-        last = best
-        best = _run_of_ellipses(cores, last)
-        if dot(last[1], best[1]) > 1.0 - 0.1 * _WIDE * _WIDE:
-            break
     return best
