@@ -21,7 +21,7 @@ from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN
 from ...shapes.support_function import Core, is_round, support_of
 from ...vectors import Vector3, dot, opposite, plus
 from ..smooth.boxy_line import across_line
-from ..smooth.round_search import round_circle
+from ..smooth.round_search import next_to_axis, round_circle
 from ..smooth.smooth_core import Axes, NearestPoint, bend, rotated, rotated_back
 from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, LOW_CAP, cap_of, rim_of
@@ -271,6 +271,7 @@ def by_search(
     """
     (sx, sy), (x, y, z) = direction, place
     near = _NEAR_BORDER * size
+    found: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     if part == LOW_CAP or part == HIGH_CAP:
         return _on_end_of_cap(frustum, core, turn, place, part, near)
     if part == FLANK:
@@ -282,5 +283,8 @@ def by_search(
     px, py, _ = point_against(core, turn, place, (0.0, 0.0, side))
     if px * px + py * py == 0.0:
         px, py = sx, sy
-    found = round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0))
+    if is_round(core) and radius > 0.0:
+        found = next_to_axis(core, turn, (x, y, z - height), radius, (px, py, 0.0), side)
+    if math.isnan(found[0]):
+        found = round_circle(point, core, turn, (x, y, z - height), radius, (px, py, 0.0))
     return _if_in_cone(frustum, up, height, -_NEAR_BORDER, found)

@@ -60,26 +60,15 @@ def across_line(
     """
     spacing = math.pi / _SAMPLES
     current, slope = _sample(core, turn, center, e, n, cosine, sine, 0.0)
-    # go from the direction n to where the gap rises; if no positive gap is found, begin at the best of all samples
-    best_i, low, high, rising, falling, largest = 0, 0.0, 0.0, slope, slope, current[0]
+    # go from the direction n to where the gap rises, until it falls again
+    low, high, rising, falling = 0.0, 0.0, slope, slope
     sign = 1 if slope > 0.0 else -1
     for i in range(1, _SAMPLES // 2 + 2):
-        sample, slope = _sample(core, turn, center, e, n, cosine, sine, sign * i * spacing)
-        largest = max(largest, sample[0])
+        _, slope = _sample(core, turn, center, e, n, cosine, sine, sign * i * spacing)
         low, high = (high, i * spacing) if sign > 0 else (-i * spacing, low)
         rising, falling = (falling, slope) if sign > 0 else (slope, rising)
         if rising > 0.0 > falling:
             break
-    if largest <= reach:
-        best_gap, last_slope = -math.inf, math.nan
-        for i in range(-_SAMPLES // 2 - 1, _SAMPLES // 2 + 2):
-            sample, slope = _sample(core, turn, center, e, n, cosine, sine, i * spacing)
-            if sample[0] > best_gap and abs(i) <= _SAMPLES // 2:
-                best_gap, best_i, rising = sample[0], i, last_slope
-            elif best_i == i - 1:
-                falling = slope
-            last_slope = slope
-        low, high = (best_i - 1) * spacing, (best_i + 1) * spacing
     if not (rising > 0.0 > falling):
         return math.nan, current[1], current[2]
     zero_slope = _ROUND_OFF * (spread(center) + largest_semi_axis(core))

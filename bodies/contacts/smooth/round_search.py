@@ -1,8 +1,8 @@
-"""Gap of a smooth body and a circle or a segment, by bracketing the nearest point of the circle or segment.
+"""Gap of a smooth body and a circle, by bracketing the nearest point of the circle.
 
-The unknown is the angle of a point round the circle, or its distance along the segment.  The derivative of the point's
-distance from the smooth body is the tangential component of the normal.  Between two places at which this derivative
-is negative and positive, secant steps and bisections narrow the interval.
+The unknown is the angle of a point round the circle.  The derivative of the point's distance from the smooth body is
+the tangential component of the normal.  Between two angles at which this derivative is negative and positive, secant
+steps and bisections narrow the interval.
 
 The search is slow but robust, because it needs no radius of curvature of the circle.  For normals close to the circle's
 axis this radius varies without bound, and Newton's method on the normal does not converge.
@@ -20,9 +20,10 @@ from nonsmooth.compiled import compiled
 from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, dot, minus, plus, plus_scaled
 from .bracket import Bracket, narrowed, next_place
-from .smooth_core import POINT, Axes, Cores, NearestPoint
+from .smooth_core import Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
 from .smooth_newton import widest_of_round
 from .smooth_starts import largest_near, local_maximum, starts_of
+from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""
@@ -37,6 +38,13 @@ At the exact solution it is 0.  The error of the gap is of the order of its squa
 """
 _TOP = 1e-9
 """Angle to a maximum of the gap at which the steps uphill end [rad]."""
+
+_NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
+"""Limits of Newton's method for a normal close to the axis of the circle (:func:`next_to_axis`).
+
+``_NEWTON``: largest number of steps.  ``_CLOSED``: largest residual of a solution, relative to the size of the bodies.
+``_STEEPEST``: angle between normal and axis at which the method gives up [rad].
+"""
 
 Sample: TypeAlias = tuple[float, NearestPoint]
 """Derivative of the distance by the arc length of the circle [1], and the solution for one point of the circle.
@@ -105,35 +113,41 @@ def _between(cores: Cores, radius: float, sides: Bracket) -> NearestPoint:
 
 
 @compiled
-def along_segment(core: Core, turn: Axes, center: Vector3, e: Vector3, length: float) -> tuple[NearestPoint, float]:
-    """Return the least distance of a smooth body from a segment: (gap [m], body's point [m], normal), place on it [m].
+def next_to_axis(core: Core, turn: Axes, center: Vector3, radius: float, start: Vector3, up: float) -> NearestPoint:
+    """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
 
-    The last number is the distance of the segment's nearest point from the start of the segment.  The segment goes
-    from the origin along the unit vector e over ``length`` [m].  The core's centre is ``center`` [m]; ``turn`` is the
-    rotation from the axes of the core to those of the segment.  By bisection: the derivative of the distance along the
-    segment is -n . e.
+    The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
+    the tilt, which is the angle between normal and axis and starts at 0, and the angle round the axis, which starts at
+    the direction ``start``.  The residuals are the derivative of the gap by the tilt, and that by the angle, divided by
+    the sine of the tilt; ``matrix`` is their Jacobian.  With these unknowns the equations are regular at the axis.  The
+    normal is close to the axis if ``up`` is 1, to its opposite if ``up`` is -1.  The gap is nan without convergence.
     """
-    low, high, along = 0.0, length, 0.0
-    best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
-    for i in range(_STEPS):
-        # both ends first, then the middle of the remaining interval
-        s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
-        from_point = plus_scaled(center, -s, e)
-        g, p, n = widest_of_round(POINT, core, turn, from_point, from_point)
-        cosine = dot(n, e)
-        best, along = (g, plus_scaled(p, s, e), n), s
-        if g != g or (i == 0 and cosine <= 0.0) or (i == 1 and cosine >= 0.0):
+    tilt, angle = 0.0, math.atan2(start[1], start[0])
+    size = spread(center) + largest_semi_axis(core) + radius
+    for _ in range(_NEWTON):
+        c, s = math.cos(angle), math.sin(angle)
+        sine, cosine = math.sin(tilt), math.cos(tilt)
+        n, n_by_tilt = (sine * c, sine * s, up * cosine), (cosine * c, cosine * s, -up * sine)
+        p, bends = facing_point(core, turn, center, n)
+        g = dot(n, p) - radius * sine
+        by_tilt, by_angle = dot(n_by_tilt, p) - radius * cosine, c * p[1] - s * p[0]
+        h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, n_by_tilt), rotated_back(turn, (-s, c, 0.0)))
+        matrix = -g - h11, cosine * by_angle - sine * h12, -h12, -(c * p[0] + s * p[1]) - sine * h22
+        det = determinant(matrix)
+        # the gap must be near a maximum
+        if not (matrix[0] < 0.0 and det > 0.0):
             break
-        if i > 1 and (abs(cosine) <= _SAME or s == low or s == high):
-            if g < 0.0 and abs(cosine) > _ACROSS:
-                # deep in the body the nearest surface point is discontinuous along the segment: no solution
-                best = math.nan, best[1], best[2]
+        if abs(by_tilt) + abs(by_angle) <= _CLOSED * size:
+            # a negative tilt: the normal points into the disc
+            if tilt < -_CLOSED:
+                break
+            return g, p, n
+        tilt_step, angle_step = solved(matrix, det, (by_tilt, by_angle))
+        tilt -= tilt_step
+        angle -= angle_step
+        if abs(tilt) > _STEEPEST:
             break
-        if cosine > 0.0:
-            low = s
-        else:
-            high = s
-    return best, along
+    return math.nan, center, (0.0, 0.0, 1.0)
 
 
 @compiled

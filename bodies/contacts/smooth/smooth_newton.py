@@ -35,8 +35,9 @@ from .smooth_core import (
     rotated_back,
     semi_axes_of,
     spread,
+    unit,
 )
-from .smooth_starts import N_STARTS, local_maximum, starts_of
+from .smooth_starts import N_STARTS, gap_along, largest_near, local_maximum, starts_of
 from .tangent_plane import bends_in_plane, tangents_in, write_matrices
 
 _DEEP = 1e-2
@@ -54,8 +55,8 @@ _THIN, _BURIED = 4.0, 0.5
 
 ``_THIN``: ratio of the largest to the least semi-axis.  ``_BURIED``: ratio of the overlap to the least semi-axis.
 """
-_NEARBY, _NEXT_TO = 0.05, 1e-6
-"""Angle to a maximum of the gap at which Newton's method is restarted [rad], and this angle for charts."""
+_NEARBY = 0.05
+"""Angle to a maximum of the gap at which Newton's method is restarted [rad]."""
 _SAMPLES = 8
 """Number of equal parts into which the line between both contact points is divided.
 
@@ -98,7 +99,7 @@ def largest_gap(cores: Cores) -> NearestPoint:
                 # Newton's method went to a smaller maximum, or did not converge
                 candidate = _from_start(cores, local_maximum(cores, top, _NEARBY)[1])
         elif i < 2 * N_STARTS:
-            candidate = _from_start(cores, local_maximum(cores, top, _NEXT_TO)[1])
+            candidate = _from_start(cores, largest_near(cores, local_maximum(cores, top, _NEARBY))[1])
         else:
             candidate = _from_start(cores, _axis(cores.turn, i - 2 * N_STARTS))
         is_proved = is_proved or _is_proved(cores, candidate)
@@ -202,19 +203,14 @@ def widest_of_round(first: Core, second: Core, turn: Axes, center: Vector3, star
 
 @compiled
 def _of_mixed(cores: Cores, start: Vector3) -> NearestPoint:
-    """Return the result of :func:`widest_of_round` for a mixed second core, by searches from several directions."""
-    best = _from_ellipsoids(cores, start)
-    if best[0] != best[0]:
-        best = gap_by_chart(cores, start)
-    for near in (_NEARBY, _NEXT_TO):
-        if best[0] != best[0]:
-            for top in starts_of(cores):
-                solution = gap_by_chart(cores, local_maximum(cores, top, near)[1])
-                if not solution[0] <= best[0]:
-                    best = solution
-                if best[0] >= 0.0:
-                    break
-    return best
+    """Return the result of :func:`widest_of_round` for a mixed second core, by searches ever closer to a maximum."""
+    solution, n = _from_ellipsoids(cores, start), unit(start)
+    if solution[0] != solution[0]:
+        top = local_maximum(cores, (gap_along(cores, n), n), _NEARBY)
+        solution = gap_by_chart(cores, top[1])
+        if solution[0] != solution[0]:
+            solution = gap_by_chart(cores, largest_near(cores, top)[1])
+    return solution
 
 
 @compiled
