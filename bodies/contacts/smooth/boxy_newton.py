@@ -28,6 +28,7 @@ from .tangent_plane import (
     in_plane,
     solved,
     tangents_in,
+    turned_matrix,
     write_matrices,
 )
 
@@ -132,12 +133,6 @@ def write_boxy(out: Floats, side: int, core: Core, axes: Axes, p: Vector3) -> No
     normal and first tangent; ``side`` is the index of the matrices in it.  ``axes`` are the core's axes in the world.
     """
     _, _, first, second, (k11, k12, k22) = place_on(core, p)
-    t, u = tangents_in(axes, out)
-    c11, c12, c21, c22 = from_tangents(t, u, first, second)
-    least, radius = _FLATTEST / largest_semi_axis(core), core[RADIUS]
-    k11, k22 = k11 + least, k22 + least
-    # C K C^T, with the matrix C from the tangents of K to those of the contact
-    s11 = c11 * (k11 * c11 + k12 * c12) + c12 * (k12 * c11 + k22 * c12)
-    s12 = c11 * (k11 * c21 + k12 * c22) + c12 * (k12 * c21 + k22 * c22)
-    s22 = c21 * (k11 * c21 + k12 * c22) + c22 * (k12 * c21 + k22 * c22)
-    write_matrices(out, side, (s11, s12, s22), (1.0 + radius * s11, radius * s12, 1.0 + radius * s22))
+    least = _FLATTEST / largest_semi_axis(core)
+    slide = turned_matrix(from_tangents(*tangents_in(axes, out), first, second), (k11 + least, k12, k22 + least))
+    write_matrices(out, side, slide, plus((1.0, 0.0, 1.0), scaled(core[RADIUS], slide)))

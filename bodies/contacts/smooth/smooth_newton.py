@@ -11,12 +11,10 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core, gauge_of, is_boxy, is_mixed, is_round, support_of
-from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, plus_scaled, write_vector
-from ..features.frames import point_in_world, vector_in_world, write_tangent
+from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, plus_scaled
 from .boxy_line import across_line
 from .boxy_newton import gap_by_point, write_boxy
 from .chart import write_chart
@@ -234,49 +232,17 @@ def widest_from(core: Core, turn: Axes, center: Vector3, axis: Vector3, start: V
 
 
 @compiled
-def write_core(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3) -> None:
-    """Write the curvature matrices slide and turn of a smooth body, along both tangents of the contact.
-
-    ``normal`` is the body's outward normal in the axes of the core.  Slide is the identity.  Turn is the matrix of the
-    radii of curvature [m]: the second derivative of the support function at the normal, plus the core's radius.  The
-    geometry block ``out`` must already hold normal and first tangent; ``axes`` are the core's axes in the world.
-    """
-    _, _, h = support_of(core, normal)
-    t, u = tangents_in(axes, out)
-    h11, h12, h22 = bends_in_plane(h, t, u)
-    write_matrices(out, side, (1.0, 0.0, 1.0), (h11 + core[RADIUS], h12, h22 + core[RADIUS]))
-
-
-@compiled
 def write_surface(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3, p: Vector3) -> None:
     """Write the curvature matrices of a core of any kind at its surface point p with the outward normal ``normal``.
 
     Point [m] and normal are in the core's axes.  ``side`` is the index of the matrices in the geometry block ``out``,
-    which must already hold normal and first tangent; ``axes`` are the core's axes in the world.
+    which must already hold normal and first tangent; ``axes`` are the core's axes in the world.  For a round core,
+    slide is the identity, and turn the matrix of the radii of curvature [m].
     """
     if is_mixed(core):
         write_chart(out, side, core, axes, normal)
     elif is_boxy(core):
         write_boxy(out, side, core, axes, p)
     else:
-        write_core(out, side, core, axes, normal)
-
-
-@compiled
-def write_smooth(
-    a: Floats, out: Floats, gap: float, core: Floats, axes: Axes, turn: Axes, center: Vector3, n: Vector3, p: Vector3
-) -> None:
-    """Write the geometry block of body ``a`` and a smooth body, except for the curvature of the surface of ``a``.
-
-    ``gap`` is the gap of the surfaces [m], ``n`` the normal and ``p`` the point of the smooth body's core [m], both in
-    the axes of the first body.  ``axes`` are the core's axes in the world, ``turn`` and ``center`` its rotation and
-    centre as in :mod:`bodies.contacts.smooth.smooth_core`.
-    """
-    normal = vector_in_world(a, n)
-    point = plus_scaled(point_in_world(a, p), -core[RADIUS], normal)
-    out[GAP] = gap
-    write_vector(out, NORMAL, normal)
-    write_vector(out, POINT_B, point)
-    write_vector(out, POINT_A, plus_scaled(point, -gap, normal))
-    write_tangent(a, out)
-    write_surface(out, SIDE_B, core, axes, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, center)))
+        h11, h12, h22 = bends_in_plane(support_of(core, normal)[2], *tangents_in(axes, out))
+        write_matrices(out, side, (1.0, 0.0, 1.0), (h11 + core[RADIUS], h12, h22 + core[RADIUS]))

@@ -121,9 +121,19 @@ def nearest_of_convex(surface: Floats, core: Core, turn: Axes, center: Vector3) 
         return first
     if g == g and is_least_overlap(Cores(POINT, core, turn, minus(center, point)), (g, scaled(g, n), n)):
         return first
+    best = _of_all(surface, core, turn, center, size, first)
     if surface[N_FACES] == 0.0:
-        return _of_segment(surface, core, turn, center, size, first)
-    return _of_all(surface, core, turn, center, size, first)
+        # a segment: search for stops over its line from several directions
+        row = edge_at(surface, 0)
+        t = tangent_of(vector_at(surface, row + ALONG))
+        u = cross(vector_at(surface, row + ALONG), t)
+        for i in range(_ROUND):
+            angle = 2.0 * math.pi * i / _ROUND
+            start = plus(scaled(math.cos(angle), t), scaled(math.sin(angle), u))
+            stop = over_edge(surface, row, core, turn, center, start, size)
+            if _is_valid(stop, size) and not stop[0] <= best[0][0]:
+                best = stop, ON_EDGE, 0
+    return best
 
 
 @compiled
@@ -184,21 +194,3 @@ def _of_all(surface: Floats, core: Core, turn: Axes, center: Vector3, size: floa
             elif stop[0] == stop[0] and stop[1] <= least:
                 closest, least = (stop, kind, number), stop[1]
     return best if best[0][0] == best[0][0] else closest
-
-
-@compiled
-def _of_segment(surface: Floats, core: Core, turn: Axes, center: Vector3, size: float, first: Nearest) -> Nearest:
-    """Return the valid stop with the largest gap of ``first`` and of a segment that overlaps with the core.
-
-    Stops over its line are searched from ``_ROUND`` directions, in addition to those of :func:`_of_all`.
-    """
-    best, row = _of_all(surface, core, turn, center, size, first), edge_at(surface, 0)
-    t = tangent_of(vector_at(surface, row + ALONG))
-    u = cross(vector_at(surface, row + ALONG), t)
-    for i in range(_ROUND):
-        angle = 2.0 * math.pi * i / _ROUND
-        start = plus(scaled(math.cos(angle), t), scaled(math.sin(angle), u))
-        stop = over_edge(surface, row, core, turn, center, start, size)
-        if _is_valid(stop, size) and not stop[0] <= best[0][0]:
-            best = stop, ON_EDGE, 0
-    return best
