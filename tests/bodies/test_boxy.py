@@ -15,7 +15,8 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import BoxBody, Cylinder, EllipsoidBody, Superellipsoid, SuperellipsoidBody, TriangleMesh, Triangles
 from bodies.contacts.smooth.boxy_newton import place_on as _place_on
-from bodies.contacts.smooth.smooth_newton import widest
+from bodies.contacts.smooth.smooth_core import Cores as _Cores
+from bodies.contacts.smooth.smooth_newton import largest_gap
 from bodies.shapes.support_function import boxy_gauge_of as _boxy_gauge_of
 from bodies.shapes.support_function import support_of as _support_of
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
@@ -24,6 +25,7 @@ from tests.bodies.carriers import Rig, Stand
 from tests.bodies.meshes import parts
 
 # called with arrays in place of tuples
+Cores: Any = _Cores
 place_on: Any = _place_on
 boxy_gauge_of: Any = _boxy_gauge_of
 support_of: Any = _support_of
@@ -116,7 +118,7 @@ def test_gaps_of_known_poses(low: float, other: str, on_faces: bool) -> None:
             for swapped in (False, True):
                 there = -turn.T @ x if swapped else x
                 pair = (two, one, turn.T) if swapped else (one, two, turn)
-                g, _, normal = widest(*pair[:2], tuple(pair[2].ravel()), tuple(there))
+                g, _, normal = largest_gap(Cores(*pair[:2], tuple(pair[2].ravel()), tuple(there)))
                 assert abs(g - gap) <= 1e-12
                 np.testing.assert_allclose(-turn @ np.array(normal) if swapped else normal, n, rtol=0, atol=1e-9)
 
@@ -126,7 +128,7 @@ def test_a_body_on_its_face_is_found_at_its_middle() -> None:
     core = np.array(Superellipsoid(0.01, 0.01, 0.01, 0.2, 0.2).core)
     ball = np.array(Superellipsoid(0.004, 0.005, 0.006).core)
     same = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-    found = widest(core, ball, same, (0.0, 0.0, 0.017))
+    found = largest_gap(Cores(core, ball, same, (0.0, 0.0, 0.017)))
     np.testing.assert_allclose(
         [found[0], *found[1], *found[2]], [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16
     )

@@ -13,12 +13,14 @@ from scipy.spatial.transform import Rotation
 
 from bodies import Superellipsoid
 from bodies.contacts.smooth.chart import chart_of, start_of
-from bodies.contacts.smooth.smooth_newton import widest
+from bodies.contacts.smooth.smooth_core import Cores as _Cores
+from bodies.contacts.smooth.smooth_newton import largest_gap
 from bodies.shapes.support_function import gauge_of
 from bodies.shapes.support_function import support_of as _support_of
 from nonsmooth.engine.native.kernel import PLAIN
 
 # called with arrays in place of tuples
+Cores: Any = _Cores
 support_of: Any = _support_of
 
 Array = NDArray[np.float64]
@@ -74,7 +76,7 @@ def test_gaps_of_known_poses(exponents: Any, other: Any) -> None:
             for swapped in (False, True):
                 there = -turn.T @ x if swapped else x
                 pair = (two, one, turn.T) if swapped else (one, two, turn)
-                g, _, normal = widest(*pair[:2], tuple(pair[2].ravel()), tuple(there))
+                g, _, normal = largest_gap(Cores(*pair[:2], tuple(pair[2].ravel()), tuple(there)))
                 assert abs(g - gap) <= 1e-12
                 np.testing.assert_allclose(-turn @ np.array(normal) if swapped else normal, n, rtol=0, atol=1e-9)
 
@@ -83,7 +85,7 @@ def test_gaps_of_known_poses(exponents: Any, other: Any) -> None:
 def test_a_ball_over_the_third_axis(exponents: Any) -> None:
     """Over the middle of a flat place, or over a tip, where the chart has no directions."""
     ball = np.array(Superellipsoid(0.004, 0.004, 0.004).core)
-    found = widest(_core(exponents), ball, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.012))
+    found = largest_gap(Cores(_core(exponents), ball, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.012)))
     np.testing.assert_allclose(
         [found[0], *found[1], *found[2]], [0.001, 0.0, 0.0, 0.008, 0.0, 0.0, 1.0], rtol=0, atol=1e-16
     )

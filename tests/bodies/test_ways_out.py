@@ -13,22 +13,18 @@ from bodies import Box, Cone, Cylinder, Disc, Ellipsoid, Superellipsoid
 from bodies.contacts.frustum.frustum import HIGH_CAP, LOW_CAP
 from bodies.contacts.frustum.frustum_smooth import is_over_cap
 from bodies.contacts.frustum.frustum_stops import on_cap
-from bodies.contacts.smooth.inscribed import no_shorter_way as _no_shorter_way
-from bodies.contacts.smooth.smooth_newton import widest as _widest
-from bodies.contacts.smooth.smooth_starts import gap_along as _gap_along
-from bodies.contacts.smooth.smooth_starts import starts_of
-from bodies.contacts.smooth.smooth_starts import uphill as _uphill
+from bodies.contacts.smooth.inscribed import is_least_overlap
+from bodies.contacts.smooth.smooth_core import Cores as _Cores
+from bodies.contacts.smooth.smooth_newton import largest_gap
+from bodies.contacts.smooth.smooth_starts import gap_along, local_maximum, starts_of
 from bodies.shapes.support_function import support_of as _support_of
 from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.carriers import Rig
 
 # called with arrays in place of tuples
-widest: Any = _widest
-no_shorter_way: Any = _no_shorter_way
+Cores: Any = _Cores
 support_of: Any = _support_of
-gap_along: Any = _gap_along
-uphill: Any = _uphill
 
 Array = NDArray[np.float64]
 SAME = 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0
@@ -77,7 +73,7 @@ def test_no_direction_is_a_shorter_way_out(first: str, second: str) -> None:
     for gap in (-1e-5, -1e-4, -5e-4, -2e-3):
         for _ in range(count):
             one, two, turn, x, n = _pose(rng, (first, second), gap)
-            g, _, normal = widest(one, two, tuple(turn.ravel()), tuple(x))
+            g, _, normal = largest_gap(Cores(one, two, tuple(turn.ravel()), tuple(x)))
             assert g >= gap - 1e-12
             ways = np.vstack([_directions(rng, 2000), np.array(normal) + 0.1 * rng.normal(size=(200, 3))])
             ways /= np.linalg.norm(ways, axis=1)[:, None]
@@ -85,7 +81,7 @@ def test_no_direction_is_a_shorter_way_out(first: str, second: str) -> None:
             assert g >= most - 1e-12
             # the pose's own answer, whether or not it is the shortest
             stationary = gap, x + turn @ np.array(support_of(two, (-turn.T @ n))[1]), n
-            proved = no_shorter_way(one, two, tuple(turn.ravel()), x, stationary)
+            proved = is_least_overlap(Cores(one, two, tuple(turn.ravel()), x), stationary)
             proofs += proved
             assert not proved or most <= gap + 1e-12
     assert proofs >= count
@@ -97,10 +93,10 @@ def test_a_long_way_out_is_not_proved() -> None:
     for n in np.eye(3):
         reach = float(support_of(large, n)[0])
         inside = -reach - float(support_of(small, n)[0])
-        assert not no_shorter_way(large, small, SAME, (0.0, 0.0, 0.0), (inside, -(reach + inside) * n, n))
+        assert not is_least_overlap(Cores(large, small, SAME, (0.0, 0.0, 0.0)), (inside, -(reach + inside) * n, n))
         deep = -5e-7
         x = -(inside - deep) * n
-        assert no_shorter_way(large, small, SAME, x, (deep, (reach + deep) * n, n))
+        assert is_least_overlap(Cores(large, small, SAME, x), (deep, (reach + deep) * n, n))
 
 
 def test_tips_against_tips() -> None:
@@ -128,27 +124,27 @@ def test_tips_against_tips() -> None:
         one, two = (np.array(Superellipsoid(*s, *e).core) for s, e in ((sizes, exponents), (others, powers)))
         turn, n = Rotation.from_quat(turned).as_matrix(), np.array(way) / np.linalg.norm(way)
         p, q = np.array(support_of(one, n)[1]), np.array(support_of(two, (-turn.T @ n))[1])
-        g, _, normal = widest(one, two, tuple(turn.ravel()), tuple(p + gap * n - turn @ q))
+        g, _, normal = largest_gap(Cores(one, two, tuple(turn.ravel()), tuple(p + gap * n - turn @ q)))
         assert abs(g - gap) <= 1e-12
         np.testing.assert_allclose(normal, n, rtol=0, atol=1e-9)
 
 
-def test_uphill_the_gap_grows() -> None:
+def test_a_local_maximum_is_larger_than_its_start() -> None:
     """From every start, and none nearby is larger at the end; the starts are apart from each other."""
     rng = np.random.default_rng(6)
     for kinds in (("boxy", "round"), ("flat along", "flat across")):
         one, two, turn, x, _ = _pose(rng, kinds, -1e-3)
-        given: Any = (one, two, tuple(turn.ravel()), tuple(x))
-        starts = starts_of(*given)
+        given = Cores(one, two, tuple(turn.ravel()), tuple(x))
+        starts = starts_of(given)
         ways = np.array([way for _, way in starts])
         assert np.max(ways @ ways.T - np.eye(4)) <= 0.95
         for start in starts:
-            assert gap_along(*given, start[1]) == pytest.approx(start[0], abs=1e-15)
-            top = uphill(*given, start, 1e-4)
+            assert gap_along(given, start[1]) == pytest.approx(start[0], abs=1e-15)
+            top = local_maximum(given, start, 1e-4)
             assert top[0] >= start[0]
             nearby = np.array(top[1]) + 1e-4 * rng.normal(size=(20, 3))
             nearby /= np.linalg.norm(nearby, axis=1)[:, None]
-            assert max(gap_along(*given, n) for n in nearby) <= top[0] + 1e-6
+            assert max(gap_along(given, n) for n in nearby) <= top[0] + 1e-6
 
 
 @pytest.mark.fast_cases(10)

@@ -25,7 +25,7 @@ from ...shapes.support_function import Core
 from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
 from ..features.writing import write_sweep
-from ..smooth.inscribed import gauge, no_shorter_way
+from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import (
@@ -33,6 +33,7 @@ from ..smooth.smooth_core import (
     POINT,
     RADIUS,
     Axes,
+    Cores,
     NearestPoint,
     axes_in_world,
     largest_semi_axis,
@@ -42,7 +43,7 @@ from ..smooth.smooth_core import (
     spread,
 )
 from ..smooth.smooth_newton import write_surface
-from ..smooth.smooth_starts import starts_of, uphill
+from ..smooth.smooth_starts import local_maximum, starts_of
 from .frustum import (
     FLANK,
     HIGH_CAP,
@@ -245,13 +246,15 @@ def _nearest(
     if is_sharp and not is_deep and best[0] < 0.0:
         # the local maximum with the smallest depth may have been missed: search for larger gaps
         best, best_part = _larger_gap(bodies, best, best_part)
-    pair = low, frustum[LOW], high, frustum[HIGH], core, turn, place
-    if math.isnan(best[0]) or not (_has_common_point(frustum, core, turn, place, best) or do_overlap(pair)):
+    cores = Cores(low, core, turn, place)
+    if math.isnan(best[0]) or not (
+        _has_common_point(frustum, core, turn, place, best) or do_overlap(low, frustum[LOW], high, frustum[HIGH], cores)
+    ):
         # the searches missed the largest gap: ascend the gap of the rims, then that of the side from the apex
         best, best_part = _on_rims(bodies)
         if is_sharp and math.isnan(best[0]) and frustum[SIDE] > 0.0:
             best, best_part = _beside_apex(bodies), FLANK
-        if not best[0] >= 0.0 and not do_overlap(pair):
+        if not best[0] >= 0.0 and not do_overlap(low, frustum[LOW], high, frustum[HIGH], cores):
             best = math.nan, best[1], best[2]
     return best, best_part
 
@@ -267,10 +270,10 @@ def _larger_gap(bodies: Bodies, best: NearestPoint, best_part: int) -> tuple[Nea
     """Return the larger of the gap ``best`` and the gaps of further local maxima, and the part it belongs to.
 
     No further search is made if a ball inside of the smooth body proves that ``best`` is the largest
-    (:func:`bodies.contacts.smooth.inscribed.no_shorter_way`).
+    (:func:`bodies.contacts.smooth.inscribed.is_least_overlap`).
     """
     frustum, _, _, point, core, turn, place, size = bodies
-    if not no_shorter_way(point, core, turn, place, best):
+    if not is_least_overlap(Cores(point, core, turn, place), best):
         found, part = _on_rims(bodies)
         if found[0] > best[0] + _LARGER * size:
             best, best_part = found, part
@@ -288,10 +291,10 @@ def _beside_apex(bodies: Bodies) -> NearestPoint:
     Searches start at the normals with a maximal gap over the apex.  The gap is nan if no maximum was found.
     """
     frustum, _, high, _, core, turn, place, size = bodies
-    from_apex = (place[0], place[1], place[2] - frustum[HIGH])
+    from_apex = Cores(high, core, turn, (place[0], place[1], place[2] - frustum[HIGH]))
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
-    for start in starts_of(high, core, turn, from_apex):
-        _, (nx, ny, _) = uphill(high, core, turn, from_apex, start, _NEARBY)
+    for start in starts_of(from_apex):
+        _, (nx, ny, _) = local_maximum(from_apex, start, _NEARBY)
         if nx != 0.0 or ny != 0.0:
             found = on_flank(frustum, core, turn, place, (nx, ny), ON_BORDER * size)
             if not math.isnan(found[0]) and not found[0] <= best[0]:

@@ -14,7 +14,7 @@ from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core
 from ...vectors import Vector3, cross, dot, minus, plus, plus_scaled, scaled
-from .bracket import bracket, narrowed, next_place
+from .bracket import Bracket, narrowed, next_place
 from .smooth_core import Axes, NearestPoint, facing_point, largest_semi_axis, spread
 
 _SAMPLES = 8
@@ -60,50 +60,22 @@ def across_line(
     """
     spacing = math.pi / _SAMPLES
     current, slope = _sample(core, turn, center, e, n, cosine, sine, 0.0)
-    # go from the direction n to where the gap rises; if no positive gap is found, begin at the best of all samples
-    best_i, low, high, rising, falling, largest = 0, 0.0, 0.0, slope, slope, current[0]
+    # go from the direction n to where the gap rises, until it falls again
+    low, high, rising, falling = 0.0, 0.0, slope, slope
     sign = 1 if slope > 0.0 else -1
     for i in range(1, _SAMPLES // 2 + 2):
-        sample, slope = _sample(core, turn, center, e, n, cosine, sine, sign * i * spacing)
-        largest = max(largest, sample[0])
+        _, slope = _sample(core, turn, center, e, n, cosine, sine, sign * i * spacing)
         low, high = (high, i * spacing) if sign > 0 else (-i * spacing, low)
         rising, falling = (falling, slope) if sign > 0 else (slope, rising)
         if rising > 0.0 > falling:
             break
-    if largest <= reach:
-        best_gap, last_slope, middle_slope = -math.inf, math.nan, 0.0
-        for i in range(-_SAMPLES // 2 - 1, _SAMPLES // 2 + 2):
-            sample, slope = _sample(core, turn, center, e, n, cosine, sine, i * spacing)
-            if sample[0] > best_gap and abs(i) <= _SAMPLES // 2:
-                best_gap, best_i, rising, middle_slope = sample[0], i, last_slope, slope
-            elif best_i == i - 1:
-                falling = slope
-            last_slope = slope
-        low, high = (best_i - 1) * spacing, (best_i + 1) * spacing
-        # in an overlap the gap may have two maxima between the samples next to the best one: bisect the interval, in
-        # the direction in which the gap rises from the best sample, until one maximum remains
-        for _ in range(_SAMPLES):
-            if rising > 0.0 > falling:
-                break
-            middle = best_i * spacing
-            if middle_slope > 0.0:
-                low, rising = middle, middle_slope
-            else:
-                high, falling = middle, middle_slope
-            if rising > 0.0 > falling:
-                break
-            _, slope = _sample(core, turn, center, e, n, cosine, sine, 0.5 * (low + high))
-            if middle_slope > 0.0:
-                high, falling = 0.5 * (low + high), slope
-            else:
-                low, rising = 0.5 * (low + high), slope
     if not (rising > 0.0 > falling):
         return math.nan, current[1], current[2]
     zero_slope = _ROUND_OFF * (spread(center) + largest_semi_axis(core))
-    sides = bracket(low, high, rising, falling)
+    sides = Bracket(low, high, rising, falling, 0)
     for _ in range(_STEPS):
-        middle, sides = next_place(sides)
-        low, high, _, _, _, _ = sides
+        middle = next_place(sides)
+        low, high = sides.low, sides.high
         current, slope = _sample(core, turn, center, e, n, cosine, sine, middle)
         if abs(slope) <= zero_slope:
             return current[0] - reach, current[1], current[2]

@@ -18,7 +18,7 @@ from ...shapes.support_function import Core, boxy_gauge_of
 from ...vectors import Vector3, cross, divided, dot, minus, norm, plus, scaled
 from ..features.frames import tangent_of
 from .newton import RIGHT, has_ended
-from .smooth_core import RADIUS, Axes, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
+from .smooth_core import RADIUS, Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back, size_of
 from .tangent_plane import (
     Symmetric,
     along,
@@ -28,6 +28,7 @@ from .tangent_plane import (
     in_plane,
     solved,
     tangents_in,
+    turned_matrix,
     write_matrices,
 )
 
@@ -67,37 +68,25 @@ def place_on(core: Core, p: Vector3) -> SurfacePoint:
 
 
 @compiled
-def climb_boxy(core: Core, other: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
-    """Return the gap of a boxy core and another core [m], the point on the boxy core [m], and the normal from it.
+def gap_by_point(cores: Cores, start: Vector3) -> NearestPoint:
+    """Return the gap of a boxy core and a round one [m], the point on the boxy core [m], and the normal from it.
 
-    Point and normal are in the axes of the boxy core.  The gap is nan if the search fails.  The other core must not be
-    boxy.
+    The boxy core is the first one.  The search starts at its point in the direction ``start``, of any length.  The gap
+    is nan if the search fails.
 
     The unknown is the point p of the boxy core, with the normal n and the shape operator K.  The point q of the other
     core is the farthest in the direction -n; H is the second derivative of this core's support function.  The residual
     is the part of d = q - p in the tangent plane.  Newton's step delta solves (1 + (H + g) K) delta = residual, with
     the gap g = n . d.  A step is shortened until it decreases |d|^2 / 2, which is least at the result if the bodies are
     apart.
-
-    Parameters
-    ----------
-    core : Floats
-        The boxy core; its radius is not used.
-    other : Floats
-        The other core, or its semi-axes and powers (:data:`bodies.contacts.smooth.smooth_core.SemiAxes`).
-    turn, center : Axes, Vector3
-        See :mod:`bodies.contacts.smooth.smooth_core`; the boxy core is the first one.
-    start : Vector3
-        Direction of the point to begin with, of any length.
     """
-    extent = largest_semi_axis(core)
-    size = spread(center) + extent + largest_semi_axis(other)
+    extent, size = largest_semi_axis(cores.first), size_of(cores)
     p, last_p, step = start, start, (0.0, 0.0, 0.0)
     # ``decrease``: the part _ENOUGH of the decrease of the merit |d|^2 / 2 that its derivative predicts for the step
     merit, decrease, last_residual, halvings = math.inf, 0.0, math.inf, 0
     for _ in range(_STEPS):
-        p, n, t, u, (k11, k12, k22) = place_on(core, p)
-        q, bends = facing_point(other, turn, center, n)
+        p, n, t, u, (k11, k12, k22) = place_on(cores.first, p)
+        q, bends = facing_point(cores.second, cores.turn, cores.center, n)
         d = minus(q, p)
         new_merit = 0.5 * dot(d, d)
         round_off = _SEEN * size * (_SEEN * size + math.sqrt(new_merit))
@@ -107,7 +96,7 @@ def climb_boxy(core: Core, other: Core, turn: Axes, center: Vector3, start: Vect
             merit, halvings, last_p = new_merit, 0, p
             g, (r, s) = dot(n, d), in_plane(t, u, d)
             residual = math.sqrt(r * r + s * s)
-            h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, t), rotated_back(turn, u))
+            h11, h12, h22 = bends_in_plane(bends, rotated_back(cores.turn, t), rotated_back(cores.turn, u))
             m11, m12 = 1.0 + (h11 + g) * k11 + h12 * k12, (h11 + g) * k12 + h12 * k22
             m21, m22 = h12 * k11 + (h22 + g) * k12, 1.0 + h12 * k12 + (h22 + g) * k22
             m = m11, m12, m21, m22
@@ -144,12 +133,6 @@ def write_boxy(out: Floats, side: int, core: Core, axes: Axes, p: Vector3) -> No
     normal and first tangent; ``side`` is the index of the matrices in it.  ``axes`` are the core's axes in the world.
     """
     _, _, first, second, (k11, k12, k22) = place_on(core, p)
-    t, u = tangents_in(axes, out)
-    c11, c12, c21, c22 = from_tangents(t, u, first, second)
-    least, radius = _FLATTEST / largest_semi_axis(core), core[RADIUS]
-    k11, k22 = k11 + least, k22 + least
-    # C K C^T, with the matrix C from the tangents of K to those of the contact
-    s11 = c11 * (k11 * c11 + k12 * c12) + c12 * (k12 * c11 + k22 * c12)
-    s12 = c11 * (k11 * c21 + k12 * c22) + c12 * (k12 * c21 + k22 * c22)
-    s22 = c21 * (k11 * c21 + k12 * c22) + c22 * (k12 * c21 + k22 * c22)
-    write_matrices(out, side, (s11, s12, s22), (1.0 + radius * s11, radius * s12, 1.0 + radius * s22))
+    least = _FLATTEST / largest_semi_axis(core)
+    slide = turned_matrix(from_tangents(*tangents_in(axes, out), first, second), (k11 + least, k12, k22 + least))
+    write_matrices(out, side, slide, plus((1.0, 0.0, 1.0), scaled(core[RADIUS], slide)))

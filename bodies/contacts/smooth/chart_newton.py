@@ -1,8 +1,9 @@
-"""Newton's method for two smooth bodies of any kind, in their charts (:mod:`bodies.contacts.smooth.chart`).
+"""Newton's method for two smooth bodies of any powers, in their charts (:mod:`bodies.contacts.smooth.chart`).
 
 Let d be the vector from the first point to the second, n and m the outward normals there.  The residuals are the
-components of d and of m in the tangent plane of n, as in :mod:`bodies.contacts.smooth.boxy_pair`.  The equations
-contain neither curvatures nor radii of curvature, which can be infinite.
+components of d and of m in the tangent plane of n.  Both are zero if the line between the points is along n and the
+normals are opposite.  The equations contain neither curvatures nor radii of curvature, which can be infinite.
+Therefore a face of one body may be opposite to an edge or a corner of the other, and two edges may cross.
 """
 
 from __future__ import annotations
@@ -11,10 +12,10 @@ import math
 
 from nonsmooth.compiled import compiled
 
-from ...vectors import Vector3, dot, minus, opposite, plus, scaled
+from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, scaled
 from .chart import chart_of, start_of
-from .newton import CLOSE, RIGHT, away_from_zero, has_ended, misfit
-from .smooth_core import Axes, NearestPoint, SemiAxes, largest_semi_axis, rotated, rotated_back, spread, unit
+from .newton import CLOSE, RIGHT, has_ended
+from .smooth_core import Cores, NearestPoint, largest_semi_axis, rotated, rotated_back, semi_axes_of, size_of, unit
 from .tangent_plane import Symmetric, along, by_symmetric, determinant, from_tangents, in_plane, solved, turned_matrix
 
 _STEPS, _HALVINGS = 40, 10
@@ -24,73 +25,35 @@ _LONGEST = 0.3
 
 
 @compiled
-def meet_in_charts(
-    first: SemiAxes, second: SemiAxes, turn: Axes, center: Vector3, start: Vector3, steps: int
-) -> NearestPoint:
-    """Return the gap of two cores [m], the point on the first core and its outward normal.
+def gap_by_chart(cores: Cores, start: Vector3) -> NearestPoint:
+    """Return the gap of two cores [m], the second core's point [m] and the normal.
 
-    Point and normal are in the axes of the first core, from its centre.  The gap is nan if no solution was found.
-
-    Parameters
-    ----------
-    first, second : SemiAxes
-        Semi-axes and powers; one of them may be a point.
-    turn, center : Axes, Vector3
-        See :mod:`bodies.contacts.smooth.smooth_core`.
-    start : Vector3
-        The normal with which the search starts, of any length.
-    steps : int
-        Used if the direct search fails: the search is repeated with ellipsoids, whose powers then change to the cores'
-        own powers in this number of steps; 0 for no further search.
+    Newton's method starts at the support points of the cores, along ``start``, of any length, and against it.  The gap
+    is nan if no solution was found.
     """
-    n = unit(start)
-    solution = _climb(first, second, turn, center, n)
-    if solution[0] == solution[0]:
-        return solution
-    # solve for ellipsoids first and change their powers step by step, each solution as the next start
-    for i in range(steps + 1 if steps > 0 else 0):
-        solution = _climb(_between(first, i / steps), _between(second, i / steps), turn, center, n)
-        if solution[0] == solution[0]:
-            n = solution[2]
-    return solution
-
-
-@compiled
-def _between(core: SemiAxes, fraction: float) -> SemiAxes:
-    """Return a core between the ellipsoid of equal semi-axes (``fraction`` 0) and ``core`` (``fraction`` 1).
-
-    The reciprocal powers 1 / p and 1 / q vary linearly with ``fraction``.
-    """
-    a, b, c, p, q = core
-    return a, b, c, 1.0 / (0.5 + fraction * (1.0 / p - 0.5)), 1.0 / (0.5 + fraction * (1.0 / q - 0.5))
-
-
-@compiled
-def _climb(first: SemiAxes, second: SemiAxes, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
-    """Return the largest gap of two cores over all directions [m], the first core's point and normal there.
-
-    Newton's method starts at the support points of the cores, along the unit normal ``start`` and against it.  The
-    other arguments are those of :func:`meet_in_charts`.  The gap is nan if no solution was found.
-    """
+    first, second, turn = semi_axes_of(cores.first), semi_axes_of(cores.second), cores.turn
+    n, size = unit(start), size_of(cores)
     extent_a, extent_b = largest_semi_axis(first), largest_semi_axis(second)
-    size, weight = spread(center) + extent_a + extent_b, max(extent_a, extent_b)
+    weight = max(extent_a, extent_b)
     if min(extent_a, extent_b) > 0.0:
         weight = min(extent_a, extent_b)
-    w_a, w_b = start_of(first, start), start_of(second, rotated_back(turn, opposite(start)))
+    w_a, w_b = start_of(first, n), start_of(second, rotated_back(turn, opposite(n)))
     last_w_a, last_w_b, step_a, step_b = w_a, w_b, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     merit, last_residual, halvings = math.inf, math.inf, 0
     for _ in range(_STEPS):
         p, n, t, u, slide_a, turn_a, w_a, w_a_t, w_a_u = chart_of(first, weight, w_a)
         q, m, t_b, u_b, slide_b, turn_b, w_b, w_b_t, w_b_u = chart_of(second, weight, w_b)
         q, m, t_b, u_b = rotated(turn, q), rotated(turn, m), rotated(turn, t_b), rotated(turn, u_b)
-        d = minus(plus(center, q), p)
+        d = minus(plus(cores.center, q), p)
         (r1, r2), (v1, v2), facing = in_plane(t, u, d), in_plane(t, u, m), dot(n, m)
-        new_merit = misfit(r1, r2, v1, v2, facing, weight)
+        # v is 0 for opposite normals and also for equal ones: these get a large merit
+        tilt = weight * (v1 * v1 + v2 * v2 if facing < 0.0 else 2.0 - v1 * v1 - v2 * v2)
+        new_merit = r1 * r1 + r2 * r2 + weight * tilt
         if new_merit > merit and halvings < _HALVINGS and new_merit > (CLOSE * size) ** 2:
             halvings, step_a, step_b = halvings + 1, scaled(0.5, step_a), scaled(0.5, step_b)
         else:
             if halvings >= _HALVINGS or new_merit != new_merit:
-                return math.nan, p, n
+                break
             merit, halvings, last_w_a, last_w_b = new_merit, 0, w_a, w_b
             g, residual = dot(n, d), math.sqrt(new_merit)
             # slide S_B and turn U_B of the second body, along the tangents of the first
@@ -106,9 +69,11 @@ def _climb(first: SemiAxes, second: SemiAxes, turn: Axes, center: Vector3, start
                 # det M is that of S_B (H_A + H_B + g) S_A: below 0 the stationary point is no maximum
                 is_maximum = g >= 0.0 or (det >= 0.0 and not _is_least(g, slide_a, turn_a, slide_b, turn_b))
                 is_wrong = residual > RIGHT * size or facing > 0.0 or not is_maximum
-                return math.nan if is_wrong else g, p, n
+                return math.nan if is_wrong else g, plus_scaled(p, g, n), n
             last_residual = residual
-            det = away_from_zero(det, 1e-14 / (weight * weight))
+            # a singular matrix has no solution: keep the step finite
+            least = 1e-14 / (weight * weight)
+            det = math.copysign(least, det) if abs(det) < least else det
             right = s11 * r1 + s12 * r2 - t11 * v1 - t12 * v2, s12 * r1 + s22 * r2 - t12 * v1 - t22 * v2
             i, j = solved(matrix, det, right)
             f1 = a11 * i + a12 * j - r1 + weight * (facing * (slide_a[0] * i + slide_a[1] * j) - v1)
@@ -120,7 +85,7 @@ def _climb(first: SemiAxes, second: SemiAxes, turn: Axes, center: Vector3, start
                 i, j, i_b, j_b = i / excess, j / excess, i_b / excess, j_b / excess
             step_a, step_b = along((i, j), w_a_t, w_a_u), along((i_b, j_b), w_b_t, w_b_u)
         w_a, w_b = plus(last_w_a, step_a), plus(last_w_b, step_b)
-    return math.nan, center, start
+    return math.nan, cores.center, n
 
 
 @compiled

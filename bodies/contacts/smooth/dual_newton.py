@@ -14,11 +14,11 @@ import math
 
 from nonsmooth.compiled import compiled
 
-from ...shapes.support_function import Core, support_of
+from ...shapes.support_function import support_of
 from ...vectors import Vector3, cross, dot, minus, norm, plus, plus_scaled, scaled
 from ..features.frames import tangent_of
 from .newton import CLOSE, RIGHT, ROUND_OFF, has_ended
-from .smooth_core import Axes, bend, facing_point, largest_semi_axis, rotated_back, spread, unit
+from .smooth_core import Cores, NearestPoint, bend, facing_point, rotated_back, size_of, spread, unit
 from .tangent_plane import along, in_plane
 
 _STEPS, _HALVINGS = 100, 40
@@ -32,21 +32,11 @@ _SADDLE = 0.3
 
 
 @compiled
-def climb(
-    first: Core, second: Core, turn: Axes, center: Vector3, axis: Vector3, start: Vector3
-) -> tuple[float, Vector3]:
-    """Return the largest gap g(n) [m] and its direction n, in the axes of the first core; nan if none was found.
+def gap_by_normal(cores: Cores, axis: Vector3, start: Vector3) -> NearestPoint:
+    """Return the largest gap g(n) [m], the second core's point [m] and the direction n; nan if none was found.
 
-    Parameters
-    ----------
-    first, second : Floats
-        The cores; their radii are not used.
-    turn, center : Axes, Vector3
-        See :mod:`bodies.contacts.smooth.smooth_core`.
-    axis : Vector3
-        A unit vector to which n stays perpendicular, such as an edge; zero if n is free.
-    start : Vector3
-        Start of n, of any length; as a rule along the line of centres.
+    The search starts in the direction ``start``, of any length.  The direction n stays perpendicular to the unit vector
+    ``axis``, such as that of an edge; it is free if ``axis`` is zero.
     """
     is_free = axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0
     n = plus_scaled(start, -dot(start, axis), axis)
@@ -54,12 +44,12 @@ def climb(
     if norm(n) <= CLOSE * spread(start):
         n = tangent_of(axis)
     n = unit(n)
-    size = spread(center) + largest_semi_axis(first) + largest_semi_axis(second)
+    size = size_of(cores)
     g, last_residual, halvings = -math.inf, math.inf, 0
     last_n, step = n, (0.0, 0.0, 0.0)
     for _ in range(_STEPS):
-        _, p, bends_a = support_of(first, n)
-        q, bends_b = facing_point(second, turn, center, n)
+        _, p, bends_a = support_of(cores.first, n)
+        q, bends_b = facing_point(cores.second, cores.turn, cores.center, n)
         d = minus(q, p)
         new_g = dot(n, d)
         if new_g < g - _SEEN * size and halvings < _HALVINGS:
@@ -72,10 +62,10 @@ def climb(
             # gradient r, s and elements of H_A + H_B + g along the tangents t and u; if n turns about the axis only,
             # the gradient has no component along u, and the element there is any positive number
             r, s = in_plane(t, u, d)
-            v = rotated_back(turn, t)
+            v = rotated_back(cores.turn, t)
             tt, tu, uu = bend(bends_a, t, t) + bend(bends_b, v, v) + g, 0.0, size
             if is_free:
-                w = rotated_back(turn, u)
+                w = rotated_back(cores.turn, u)
                 tu, uu = bend(bends_a, t, u) + bend(bends_b, v, w), bend(bends_a, u, u) + bend(bends_b, w, w) + g
             else:
                 s = 0.0
@@ -89,9 +79,9 @@ def climb(
             r_high, r_low = cosine * r + sine * s, cosine * s - sine * r
             if has_ended(residual, last_residual, size):
                 if residual > RIGHT * size:
-                    return math.nan, n
+                    return math.nan, q, n
                 if low >= -CLOSE * size:
-                    return g, n
+                    return g, q, n
                 # a stationary point that is not a maximum: leave it along the direction in which g grows most
                 r_high, r_low, last_residual = 0.0, _SADDLE, math.inf
             else:
@@ -104,4 +94,4 @@ def climb(
                 r, s = r * _WIDEST / length, s * _WIDEST / length
             step = along((r, s), t, u)
         n = unit(plus(last_n, step))
-    return math.nan, n
+    return math.nan, cores.center, n

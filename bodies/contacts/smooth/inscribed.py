@@ -15,28 +15,22 @@ from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import OF_FUNCTION, Core, gauge_of
 from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
-from .dual_newton import climb
-from .smooth_core import POINT, POWERS, Axes, NearestPoint, largest_semi_axis, rotated_back, spread
+from .dual_newton import gap_by_normal
+from .smooth_core import POINT, POWERS, Cores, NearestPoint, largest_semi_axis, rotated_back, spread
 
 
 @compiled
-def no_shorter_way(first: Core, second: Core, turn: Axes, center: Vector3, solution: NearestPoint) -> bool:
+def is_least_overlap(cores: Cores, solution: NearestPoint) -> bool:
     """Return True if inscribed balls prove that no translation shorter than the overlap separates the cores.
 
-    Parameters
-    ----------
-    first, second, turn, center : Floats, Axes, Vector3
-        See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
-    solution : tuple
-        The gap, below 0 [m], the second core's contact point and the normal, in the axes of the first core and from
-        its centre.
+    ``solution`` is the gap, below 0 [m], the second core's contact point and the normal.
     """
     g, q, n = solution
-    radius = _inscribed_radius(first, -g, plus_scaled(q, -g, n), n)
+    radius = _inscribed_radius(cores.first, -g, plus_scaled(q, -g, n), n)
     if radius >= -g:
         return True
-    point, normal = rotated_back(turn, minus(q, center)), rotated_back(turn, opposite(n))
-    return bool(radius + _inscribed_radius(second, -g, point, normal) >= -g)
+    point, normal = rotated_back(cores.turn, minus(q, cores.center)), rotated_back(cores.turn, opposite(n))
+    return bool(radius + _inscribed_radius(cores.second, -g, point, normal) >= -g)
 
 
 @compiled
@@ -89,5 +83,5 @@ def gauge(core: Core, point: Vector3) -> float:
     if spread(point) <= 1e-9 * size:
         return 0.0
     identity = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-    g, _ = climb(POINT, core, identity, opposite(point), no_axis, opposite(point))
+    g, _, _ = gap_by_normal(Cores(POINT, core, identity, opposite(point)), no_axis, opposite(point))
     return float(1.0 + g / size)

@@ -10,21 +10,12 @@ corner of the triangle.  No derivative is needed, so that a body may have flat p
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core, support_of
-from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus
-from .smooth_core import Axes, rotated, rotated_back, spread, unit
+from ...vectors import Vector3, cross, dot, minus, norm, opposite
+from .smooth_core import Cores, facing_point, spread, unit
 
-Bodies: TypeAlias = tuple[Core, float, Core, float, Core, Axes, Vector3]
-"""Arguments ``low, low_height, high, high_height, second, turn, center``.
-
-The first body is the convex hull of two cores, whose centres have two heights on its third axis [m]: the rims of a
-frustum, or twice the same core.  ``second`` is the core of the second body, ``center`` its centre [m] and ``turn`` its
-rotation, as in :mod:`bodies.contacts.smooth.smooth_core`.
-"""
 _STEPS = 100
 """Largest number of support points."""
 _ROUND_OFF = 1e-15
@@ -32,10 +23,14 @@ _ROUND_OFF = 1e-15
 
 
 @compiled
-def do_overlap(bodies: Bodies) -> bool:
-    """Return whether two bodies are proved to have a common point."""
-    _, low_height, _, high_height, _, _, center = bodies
-    inner = minus(center, (0.0, 0.0, 0.5 * (low_height + high_height)))
+def do_overlap(low: Core, low_height: float, high: Core, high_height: float, cores: Cores) -> bool:
+    """Return whether two bodies are proved to have a common point.
+
+    The first body is the convex hull of two cores, whose centres have two heights on its third axis [m]: the rims of a
+    frustum, or twice the first core.  The second body is that of ``cores``.
+    """
+    bodies = low, low_height, high, high_height, cores
+    inner = minus(cores.center, (0.0, 0.0, 0.5 * (low_height + high_height)))
     a = _support(bodies, opposite(inner))
     across = cross(a, inner)
     near = _ROUND_OFF * (spread(inner) + spread(a))
@@ -76,14 +71,13 @@ def do_overlap(bodies: Bodies) -> bool:
 
 
 @compiled
-def _support(bodies: Bodies, direction: Vector3) -> Vector3:
+def _support(bodies: tuple[Core, float, Core, float, Cores], direction: Vector3) -> Vector3:
     """Return the point of the difference that lies farthest along a direction of any length [m]."""
-    low, low_height, high, high_height, second, turn, center = bodies
-    n = unit(direction)
-    m = opposite(n)
-    height, p, _ = support_of(low, m)
-    other, q, _ = support_of(high, m)
-    if other + m[2] * high_height > height + m[2] * low_height:
+    low, low_height, high, high_height, cores = bodies
+    n = opposite(unit(direction))
+    height, p, _ = support_of(low, n)
+    other, q, _ = support_of(high, n)
+    if other + n[2] * high_height > height + n[2] * low_height:
         p, low_height = q, high_height
-    _, q, _ = support_of(second, rotated_back(turn, n))
-    return minus(plus(center, rotated(turn, q)), (p[0], p[1], p[2] + low_height))
+    q, _ = facing_point(cores.second, cores.turn, cores.center, n)
+    return minus(q, (p[0], p[1], p[2] + low_height))

@@ -1,14 +1,13 @@
 """Cores of smooth bodies and their axes, for contacts.
 
 A smooth body is a core with a smooth support function, rounded by a radius.  The numbers of a core are those of
-:func:`bodies.shapes.smooth.core_numbers`.  A search that takes two cores computes in the axes of the first core, from
-its centre.  Its argument ``turn`` converts components along the axes of the second core to components along those of
-the first.  Its argument ``center`` is the centre of the second core [m].
+:func:`bodies.shapes.smooth.core_numbers`.  A search that takes two cores (:class:`Cores`) computes in the axes of the
+first core, from its centre.
 """
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import ROTATION
@@ -25,10 +24,36 @@ SemiAxes: TypeAlias = tuple[float, float, float, float, float]
 NearestPoint: TypeAlias = tuple[float, Vector3, Vector3]
 """Gap [m], point [m] and unit normal, the result of a search; the gap is nan if the search failed."""
 
+
+class Cores(NamedTuple):
+    """Two cores, in the axes of the first and from its centre; their radii are not used.
+
+    Attributes
+    ----------
+    first, second : Floats
+        Numbers of the cores.
+    turn : tuple of float
+        Rotation from the axes of the second core to those of the first.
+    center : tuple of float
+        Centre of the second core [m].
+    """
+
+    first: Core
+    second: Core
+    turn: Axes
+    center: Vector3
+
+
 POWERS, RADIUS, CENTER, CORE_AXES = 3, 5, 6, 9
 """Indices in the numbers of a core, after its semi-axes: powers, radius, centre, rotation to the axes of the body."""
 POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 """Core numbers of a point."""
+
+
+@compiled
+def size_of(cores: Cores) -> float:
+    """Return the size of both bodies together [m], to which tolerances are relative."""
+    return float(spread(cores.center) + largest_semi_axis(cores.first) + largest_semi_axis(cores.second))
 
 
 @compiled

@@ -13,8 +13,8 @@ from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import OF_FUNCTION
 from ...vectors import minus, opposite, plus, plus_scaled, vector_at, write_vector
 from ..features.frames import point_in_world, write_tangent
-from .smooth_core import CENTER, POWERS, RADIUS, relative_rotation, rotated, rotated_back, unit_axes_in_world
-from .smooth_newton import widest, write_surface
+from .smooth_core import CENTER, POWERS, RADIUS, Cores, relative_rotation, rotated, rotated_back, unit_axes_in_world
+from .smooth_newton import largest_gap, write_surface
 
 
 def evaluate_smooth_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
@@ -27,7 +27,7 @@ def evaluate_smooth_smooth(a: Floats, b: Floats, out: Floats, first: Floats, sec
     center_a = point_in_world(a, vector_at(first, CENTER))
     center = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center_a))
     turn = relative_rotation(axes_a, axes_b)
-    g, q, n = widest(first, second, turn, center)
+    g, q, n = largest_gap(Cores(first, second, turn, center))
     p, normal = plus_scaled(q, -g, n), rotated(axes_a, n)
     out[GAP] = g - first[RADIUS] - second[RADIUS]
     write_vector(out, NORMAL, normal)

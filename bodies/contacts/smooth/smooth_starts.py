@@ -11,19 +11,21 @@ from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 
-from ...shapes.support_function import Core, support_of
+from ...shapes.support_function import support_of
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus_scaled
 from ..features.frames import tangent_of
-from .smooth_core import Axes, facing_point, largest_semi_axis, rotated, rotated_back, spread, unit
+from .smooth_core import Cores, facing_point, rotated, rotated_back, size_of, unit
 from .tangent_plane import in_plane
 
 _LONGEST, _MOVES = 0.2, 100
-"""Limits of the search uphill (:func:`uphill`), which increases the gap by turning the direction.
+"""Limits of the search for a maximum (:func:`local_maximum`), which increases the gap by turning the direction.
 
 ``_LONGEST``: first step [rad].  ``_MOVES``: largest number of steps.
 """
 _NEAR = 0.95
 """Cosine of the angle within which two directions are the same start; the one with the larger gap is kept."""
+N_STARTS = 4
+"""Number of directions with a large gap from which a search starts."""
 Start: TypeAlias = tuple[float, Vector3]
 """A gap [m], and the unit vector along which it is measured."""
 Starts: TypeAlias = tuple[Start, Start, Start, Start]
@@ -31,17 +33,18 @@ Starts: TypeAlias = tuple[Start, Start, Start, Start]
 
 
 @compiled
-def gap_along(first: Core, second: Core, turn: Axes, center: Vector3, n: Vector3) -> float:
-    """Return the gap of two cores along a unit vector [m]; arguments as in :func:`starts_of`."""
-    return float(dot(n, center) - support_of(first, n)[0] - support_of(second, rotated_back(turn, opposite(n)))[0])
+def gap_along(cores: Cores, n: Vector3) -> float:
+    """Return the gap of two cores along a unit vector [m]."""
+    to_second = rotated_back(cores.turn, opposite(n))
+    return float(dot(n, cores.center) - support_of(cores.first, n)[0] - support_of(cores.second, to_second)[0])
 
 
 @compiled
-def uphill(first: Core, second: Core, turn: Axes, center: Vector3, start: Start, least: float) -> Start:
+def local_maximum(cores: Cores, start: Start, least: float) -> Start:
     """Return a local maximum of the gap [m] and its direction, to about ``least`` [rad], by steps from ``start``.
 
     A step is the best of eight directions round the present one.  If none of them has a larger gap, the next step is
-    shorter.  The other arguments are those of :func:`starts_of`.
+    shorter.
     """
     g, n = start
     step = _LONGEST
@@ -54,7 +57,7 @@ def uphill(first: Core, second: Core, turn: Axes, center: Vector3, start: Start,
         for i in range(8):
             c, s = step * math.cos(0.25 * math.pi * i), step * math.sin(0.25 * math.pi * i)
             candidate = unit(plus_scaled(plus_scaled(n, c, t), s, u))
-            gap = gap_along(first, second, turn, center, candidate)
+            gap = gap_along(cores, candidate)
             if gap > best[0]:
                 best = (gap, candidate)
         if best[0] <= g:
@@ -64,14 +67,8 @@ def uphill(first: Core, second: Core, turn: Axes, center: Vector3, start: Start,
 
 
 @compiled
-def starts_of(first: Core, second: Core, turn: Axes, center: Vector3) -> Starts:
-    """Return four directions that are not close to each other, with the largest gaps of all directions tried.
-
-    Parameters
-    ----------
-    first, second, turn, center : Floats, Axes, Vector3
-        See :mod:`bodies.contacts.smooth.smooth_core`; the radii of the cores are not used.
-    """
+def starts_of(cores: Cores) -> Starts:
+    """Return four directions that are not close to each other, with the largest gaps of all directions tried."""
     no_start: Start = (-math.inf, (0.0, 0.0, 0.0))
     kept: Starts = (no_start, no_start, no_start, no_start)
     # vectors with the components -1, 0 or 1 in the axes of the first core, then of the second; number 13 is 0
@@ -81,8 +78,8 @@ def starts_of(first: Core, second: Core, turn: Axes, center: Vector3) -> Starts:
             continue
         n = unit((number // 9 - 1.0, number // 3 % 3 - 1.0, number % 3 - 1.0))
         if i >= 27:
-            n = rotated(turn, n)
-        kept = _updated(kept, (gap_along(first, second, turn, center, n), n))
+            n = rotated(cores.turn, n)
+        kept = _updated(kept, (gap_along(cores, n), n))
     return kept
 
 
@@ -110,37 +107,36 @@ def _updated(kept: Starts, new: Start) -> Starts:
 
 
 _CUTS, _WIDE = 400, 0.1
-"""Largest number of ellipses in a run of the ellipsoid method; radius of its first ellipse, which is a circle [rad]."""
-_ELLIPSES = 8
-"""Largest number of runs of the ellipsoid method.
-
-Each run starts from the direction that the run before found.  The search ends after a run that turns the direction by
-less than about 0.045 rad: the maximum is then well inside the first ellipse of the run.
-"""
+"""Largest number of ellipses of the ellipsoid method; radius of its first ellipse, which is a circle [rad]."""
 _HIGHER = 1e-16
 """The ellipsoid method ends if the gap can grow by less than this, relative to the size of the bodies."""
 
 
 @compiled
-def _run_of_ellipses(circle: Core, core: Core, turn: Axes, center: Vector3, start: Start) -> Start:
-    """Return the largest gap near the direction ``start`` [m], and its direction, by one run of the ellipsoid method.
+def largest_near(cores: Cores, start: Start) -> Start:
+    """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
 
-    The method and the arguments are those of :func:`settle`.  The ellipse has the centre (x, y) in the plane, along its
-    tangents t and u, and the matrix E: (w - centre) . E^-1 (w - centre) <= 1.  With the gradient c of the gap and
-    b = E c / sqrt(c . E c), the next centre is moved by b / 3, and the next matrix is 4/3 (E - 2/3 b b^T).
+    The method also converges on narrow ridges, where the gap changes little along one curve of directions.
+
+    Directions are points of the plane that touches the unit sphere at the start.  An ellipse in this plane holds the
+    maximum.  The gradient of the gap at its centre shows in which half of the ellipse the gap can be larger.  The next
+    ellipse is the smallest one round that half.
+
+    The ellipse has the centre (x, y) along the tangents t and u, and the matrix E: (w - centre) . E^-1 (w - centre) <=
+    1.  With the gradient c of the gap and b = E c / sqrt(c . E c), the next centre is moved by b / 3, and the next
+    matrix is 4/3 (E - 2/3 b b^T).
     """
     best: Start = start
     _, n = start
     t = tangent_of(n)
     u = cross(n, t)
-    size = spread(center) + largest_semi_axis(core) + circle[0]
     x, y, e_xx, e_xy, e_yy = 0.0, 0.0, _WIDE * _WIDE, 0.0, _WIDE * _WIDE
     for _ in range(_CUTS):
         direction = plus_scaled(plus_scaled(n, x, t), y, u)
         length = norm(direction)
         direction = divided(direction, length)
-        q, _ = facing_point(core, turn, center, direction)
-        d = minus(q, support_of(circle, direction)[1])
+        q, _ = facing_point(cores.second, cores.turn, cores.center, direction)
+        d = minus(q, support_of(cores.first, direction)[1])
         gap = dot(direction, d)
         if gap > best[0]:
             best = gap, direction
@@ -148,42 +144,11 @@ def _run_of_ellipses(circle: Core, core: Core, turn: Axes, center: Vector3, star
         b_x, b_y = e_xx * slope_x + e_xy * slope_y, e_xy * slope_x + e_yy * slope_y
         # squared growth of the gap from the centre to the border of the ellipse, to first order
         growth = slope_x * b_x + slope_y * b_y
-        if not growth > (_HIGHER * size) ** 2:
+        if not growth > (_HIGHER * size_of(cores)) ** 2:
             break
         growth = math.sqrt(growth)
         b_x, b_y = b_x / growth, b_y / growth
         x, y = x + b_x / 3.0, y + b_y / 3.0
         e_xx, e_xy = (e_xx - b_x * b_x / 1.5) / 0.75, (e_xy - b_x * b_y / 1.5) / 0.75
         e_yy = (e_yy - b_y * b_y / 1.5) / 0.75
-    return best
-
-
-@compiled
-def settle(circle: Core, core: Core, turn: Axes, center: Vector3, start: Start) -> Start:
-    """Return the largest gap near the direction ``start`` [m], and the direction of this gap, by the ellipsoid method.
-
-    The method also converges on narrow ridges, where the gap changes little along one curve of directions.
-
-    Directions are points of the plane that touches the unit sphere at the start.  An ellipse in this plane holds the
-    maximum.  The gradient of the gap at its centre shows in which half of the ellipse the gap can be larger.  The next
-    ellipse is the smallest one round that half.  If the direction found is far from the start, the method starts again
-    from it.
-
-    Parameters
-    ----------
-    circle, core : Floats
-        A circle, or a point, and the smooth body, as cores.
-    turn : Axes
-        Rotation from the axes of the core to those of the circle.
-    center : Vector3
-        The core's centre from that of the circle [m].
-    start : Start
-        Gap and direction to begin with.
-    """
-    best: Start = start
-    for _ in range(_ELLIPSES):
-        last = best
-        best = _run_of_ellipses(circle, core, turn, center, last)
-        if dot(last[1], best[1]) > 1.0 - 0.1 * _WIDE * _WIDE:
-            break
     return best

@@ -16,7 +16,7 @@ from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, divided, dot, minus, norm, opposite, vector_at
 from ..features.edge_row import ALONG, LENGTH
 from ..features.ends import REACH
-from ..smooth.smooth_core import RADIUS, Axes, facing_point, rotated_back
+from ..smooth.smooth_core import RADIUS, Axes, facing_point, rotated_back, spread
 from .smooth_stops import Nearest, Stop, over_corner, over_edge, over_face
 from .surface_search import (
     ON_CORNER,
@@ -60,16 +60,12 @@ def _least(core: Core, turn: Axes, way: Vector3) -> float:
 @compiled
 def _above(surface: Floats, at: int, plane: SupportPlane) -> float:
     """Return the height of the smooth body's supporting plane over the surface's point at index ``at`` [m]."""
-    normal, offset = plane
-    return float(offset - normal[0] * surface[at] - normal[1] * surface[at + 1] - normal[2] * surface[at + 2])
+    return float(plane[1] - dot(plane[0], vector_at(surface, at)))
 
 
 @compiled
 def _above_box(surface: Floats, at: int, plane: SupportPlane) -> float:
-    """Return the height of the smooth body's supporting plane over the highest corner of a node's box [m].
-
-    The row of the node begins at index ``at``.
-    """
+    """Return the height of the supporting plane over the highest corner of a node's box, whose row is at ``at`` [m]."""
     normal, offset = plane
     for i in range(3):
         offset -= normal[i] * surface[at + UPPER + i if normal[i] > 0.0 else at + i]
@@ -96,9 +92,8 @@ def _evaluate(
     corners.  ``plane`` is the body's supporting plane for the nearest feature so far.
     """
     kind, number, at = feature_of(surface, member)
-    none: Vector3 = (0.0, 0.0, 1.0)
-    excluded: tuple[Stop, float] = ((math.inf, 0.0, none, none), -math.inf)
     w = minus(center, vector_at(surface, at))
+    excluded: tuple[Stop, float] = ((math.inf, 0.0, (0.0, 0.0, 1.0), w), -math.inf)
     if patch_of(surface, member) != patch:
         return excluded
     if kind == ON_FACE:
@@ -134,8 +129,7 @@ def _support_plane(surface: Floats, core: Core, turn: Axes, center: Vector3, nor
     The plane is raised by round-off: features in one plane then get the same bound, and none of them is excluded.
     """
     p = facing_point(core, turn, center, normal)[0]
-    none = _SAME * (abs(p[0]) + abs(p[1]) + abs(p[2]) + surface[SIZE])
-    return normal, dot(normal, p) - core[RADIUS] + none
+    return normal, dot(normal, p) - core[RADIUS] + _SAME * (spread(p) + surface[SIZE])
 
 
 @compiled

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import final
 
-from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import PAST_END, SIDE_A
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -15,11 +14,11 @@ from ...meshes.patches import patches_for_body
 from ...shapes.smooth import SmoothShape, extent
 from ...shapes.support_function import is_round
 from ...shapes.surface_shape import SurfaceShape
-from ...vectors import plus_scaled, vector_at
-from ..features.frames import point_in_body, point_in_world
+from ...vectors import minus, opposite, plus_scaled, vector_at, write_vector
+from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
 from ..features.writing import NO_CANDIDATE, write_apart
-from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, axes_of, facing_point, relative_rotation
-from ..smooth.smooth_newton import write_smooth
+from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, axes_of, facing_point, relative_rotation, rotated_back
+from ..smooth.smooth_newton import write_surface
 from .convex_smooth import nearest_of_convex
 from .patch_smooth import nearest_of_patch
 from .smooth_stops import Nearest
@@ -43,32 +42,6 @@ def find_near_patches(a: Floats, b: Floats, out: Floats, surface: Floats, extent
     out[0] = float(patches_near(surface, seen_from(a, b, vector_at(place, 0)), reach, NEAR, 0.0, out, 0, most))
 
 
-@compiled
-def _write(
-    a: Floats, b: Floats, out: Floats, surface: Floats, patch: float, second: Floats, extent: float, reach: float
-) -> None:
-    """Write the geometry block of a patch and a smooth body; features up to the distance ``reach`` are searched [m]."""
-    axes_a, axes_b = axes_of(a), axes_in_world(b, second)
-    center = point_in_body(a, point_in_world(b, vector_at(second, CENTER)))
-    turn = relative_rotation(axes_a, axes_b)
-    if surface[IS_CONVEX] == 1.0:
-        nearest: Nearest = nearest_of_convex(surface, second, turn, center)
-    else:
-        nearest = nearest_of_patch(surface, patch, second, turn, center, extent, reach + surface[SWEEP])
-    (g, past, n, point), kind, number = nearest
-    gap = g - surface[SWEEP] - second[RADIUS]
-    # if there is one patch only, it is the whole surface, which has no end
-    out[PAST_END] = past if surface[N_PATCHES] > 1.0 else 0.0
-    if past > 0.0 and surface[IS_CONVEX] == 0.0:
-        gap = math.hypot(gap, past)
-    p = facing_point(second, turn, center, n)[0]
-    if kind != ON_FACE and not is_round(second):
-        # on a flat place of the smooth body the normal does not determine the point: use the surface's point
-        p = plus_scaled(point, g, n)
-    write_smooth(a, out, gap, second, axes_b, turn, center, n, p)
-    write_feature(a, out, SIDE_A, surface, kind, number)
-
-
 def evaluate_surface_smooth(
     a: Floats, b: Floats, out: Floats, candidate: Floats, surface: Floats, second: Floats, extent: float, size: float
 ) -> None:
@@ -79,8 +52,32 @@ def evaluate_surface_smooth(
     """
     if candidate[0] == 0.0:
         write_apart(a, out, size)
+        return
+    axes_b, is_convex = axes_in_world(b, second), surface[IS_CONVEX] == 1.0
+    center = point_in_body(a, point_in_world(b, vector_at(second, CENTER)))
+    turn = relative_rotation(axes_of(a), axes_b)
+    if is_convex:
+        nearest: Nearest = nearest_of_convex(surface, second, turn, center)
     else:
-        _write(a, b, out, surface, candidate[1], second, extent, candidate[3])
+        reach = candidate[3] + surface[SWEEP]
+        nearest = nearest_of_patch(surface, candidate[1], second, turn, center, extent, reach)
+    (g, past, n, point), kind, number = nearest
+    gap = g - surface[SWEEP] - second[RADIUS]
+    # if there is one patch only, it is the whole surface, which has no end
+    out[PAST_END] = past if surface[N_PATCHES] > 1.0 else 0.0
+    out[GAP] = gap if is_convex or past <= 0.0 else math.hypot(gap, past)
+    p = facing_point(second, turn, center, n)[0]
+    if kind != ON_FACE and not is_round(second):
+        # on a flat place of the smooth body the normal does not determine the point: use the surface's point
+        p = plus_scaled(point, g, n)
+    normal = vector_in_world(a, n)
+    point_b = plus_scaled(point_in_world(a, p), -second[RADIUS], normal)
+    write_vector(out, NORMAL, normal)
+    write_vector(out, POINT_B, point_b)
+    write_vector(out, POINT_A, plus_scaled(point_b, -out[GAP], normal))
+    write_tangent(a, out)
+    write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, center)))
+    write_feature(a, out, SIDE_A, surface, kind, number)
 
 
 @final
