@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from bodies import Box, Cone, Cylinder, Disc, Ellipsoid, Superellipsoid
 from bodies.contacts.frustum.frustum import HIGH_CAP, LOW_CAP
 from bodies.contacts.frustum.frustum_smooth import is_over_cap
+from bodies.contacts.frustum.frustum_stops import Pair as _Pair
 from bodies.contacts.frustum.frustum_stops import on_cap
 from bodies.contacts.smooth.inscribed import is_least_overlap
 from bodies.contacts.smooth.smooth_core import Cores as _Cores
@@ -24,6 +25,7 @@ from tests.bodies.carriers import Rig
 
 # called with arrays in place of tuples
 Cores: Any = _Cores
+Pair: Any = _Pair
 support_of: Any = _support_of
 
 Array = NDArray[np.float64]
@@ -163,7 +165,8 @@ def test_under_a_cap_no_direction_is_a_shorter_way_out(frustum: Any, kind: str) 
             q = turn @ np.array(support_of(core, (-turn.T @ np.array([0.0, 0.0, up])))[1])
             angle, away = rng.uniform(0.0, 2.0 * np.pi), radius * rng.uniform()
             x = np.array([away * np.cos(angle), away * np.sin(angle), level + up * gap]) - q
-            found = on_cap(numbers, core, tuple(turn.ravel()), tuple(x), part, 1e-14)
+            pair = Pair(numbers, core, core, core, core, tuple(turn.ravel()), tuple(x), 1.0)
+            found = on_cap(pair, part, 1e-14)
             assert found[0] == pytest.approx(gap, abs=1e-15)
             proved = is_over_cap(numbers, part, tuple(x), found)
             proofs += proved

@@ -12,7 +12,7 @@ Points and normals are in the axes of the frustum, from its centre; the argument
 from __future__ import annotations
 
 import math
-from typing import ClassVar, TypeAlias, final
+from typing import ClassVar, final
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
@@ -21,7 +21,6 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
-from ...shapes.support_function import Core
 from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
 from ..features.writing import write_sweep
@@ -32,7 +31,6 @@ from ..smooth.smooth_core import (
     CENTER,
     POINT,
     RADIUS,
-    Axes,
     Cores,
     NearestPoint,
     axes_in_world,
@@ -58,16 +56,8 @@ from .frustum import (
     rim_of,
     write_part,
 )
-from .frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
+from .frustum_stops import ON_BORDER, Pair, by_search, from_rim, on_cap, on_flank, on_rim
 from .frustum_writing import write_contact
-
-Bodies: TypeAlias = tuple[Floats, Floats, Floats, Core, Core, Axes, Vector3, float]
-"""Arguments of the searches for both bodies: ``frustum, low, high, point, core, turn, place, size``.
-
-``low``, ``high`` and ``point`` are the rims and a point, each as a core.  ``core`` is the core of the smooth body,
-``place`` its centre in the axes of the frustum and from the frustum's centre [m]; ``turn`` converts components along
-the axes of the core to those of the frustum.  ``size`` is the size of both bodies [m].
-"""
 
 _SHALLOW, _SHALLOW_OF_SHARP = 1e-6, 1e-8
 """Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size.
@@ -98,14 +88,14 @@ _TURNS = 8
 
 
 @compiled
-def _is_centre_outside(core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
+def _is_centre_outside(pair: Pair, found: NearestPoint) -> bool:
     """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there.
 
     If the core has no ridges, such an overlap is taken as the one with the smallest depth.
     """
     g, p, n = found
-    from_centre = minus(plus_scaled(p, -g, n), place)
-    return bool(dot(n, from_centre) < 0.0 and gauge(core, rotated_back(turn, from_centre)) < 1.0)
+    from_centre = minus(plus_scaled(p, -g, n), pair.place)
+    return bool(dot(n, from_centre) < 0.0 and gauge(pair.core, rotated_back(pair.turn, from_centre)) < 1.0)
 
 
 @compiled
@@ -132,68 +122,62 @@ def is_over_cap(frustum: Floats, part: int, place: Vector3, found: NearestPoint)
 
 
 @compiled
-def _contains_ball(frustum: Floats, part: int, found: NearestPoint, near: float) -> bool:
+def _contains_ball(pair: Pair, part: int, found: NearestPoint) -> bool:
     """True if the gap found over a cap or the side is proved to be the largest over all normals.
 
     The proof is a ball about the smooth body's point, with the depth of the overlap as its radius: if the ball lies
-    inside of the frustum, no translation by less than the depth moves the point out.  ``near`` is the tolerance for
-    round-off [m].
+    inside of the frustum, no translation by less than the depth moves the point out.
     """
     if part == LOW_RIM or part == HIGH_RIM:
         return False
     x, y, z = found[1]
-    outside, _, _, _ = nearest_part(frustum, z, math.sqrt(x * x + y * y))
-    return bool(outside <= found[0] + near)
+    outside, _, _, _ = nearest_part(pair.frustum, z, math.sqrt(x * x + y * y))
+    return bool(outside <= found[0] + ON_BORDER * pair.size)
 
 
 @compiled
-def _nearest_point(frustum: Floats, point: Vector3) -> Vector3:
-    """Return the point of the frustum nearest to a point [m]; a point inside of the frustum is its own."""
+def _gauge_near(pair: Pair, point: Vector3) -> float:
+    """Return the gauge of the core at the frustum's point nearest to a point [1]; a point inside is its own."""
     x, y, z = point
     away = math.sqrt(x * x + y * y)
-    distance, radial, axial, _ = nearest_part(frustum, z, away)
-    if distance <= 0.0:
-        return point
-    # relative change of the distance from the axis
-    inwards = distance * radial / away if away > 0.0 else 0.0
-    return x - inwards * x, y - inwards * y, z - distance * axial
+    distance, radial, axial, _ = nearest_part(pair.frustum, z, away)
+    if distance > 0.0:
+        # relative change of the distance from the axis
+        inwards = distance * radial / away if away > 0.0 else 0.0
+        point = x - inwards * x, y - inwards * y, z - distance * axial
+    return float(gauge(pair.core, rotated_back(pair.turn, minus(point, pair.place))))
 
 
 @compiled
-def _has_common_point(frustum: Floats, core: Core, turn: Axes, place: Vector3, found: NearestPoint) -> bool:
+def _has_common_point(pair: Pair, found: NearestPoint) -> bool:
     """Return whether a point of the frustum, nearest to a point between both contact points, is in the core."""
     g, q, n = found
     for i in range(_SAMPLES + 1):
-        p = _nearest_point(frustum, plus_scaled(q, -(g * i / _SAMPLES), n))
-        if gauge(core, rotated_back(turn, minus(p, place))) <= 1.0 + _ON_SURFACE:
+        if _gauge_near(pair, plus_scaled(q, -(g * i / _SAMPLES), n)) <= 1.0 + _ON_SURFACE:
             return True
     return False
 
 
 @compiled
-def _nearest(
-    frustum: Floats, low: Floats, high: Floats, point: Core, core: Core, turn: Axes, place: Vector3
-) -> tuple[NearestPoint, int]:
+def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
     """Return the largest gap found over all normals, with point and normal, and the part of the frustum it belongs to.
 
-    The first result holds the gap of the cores [m], the smooth body's point [m] and the normal, in the axes of the
-    frustum.  The part is a cap, the side or a rim, such as ``LOW_CAP``.  The gap is nan if no local maximum was found.
-    A negative gap needs a proof that both bodies overlap.
+    The first result holds the gap of the cores [m], the smooth body's point [m] and the normal.  The part is a cap, the
+    side or a rim, such as ``LOW_CAP``.  The gap is nan if no local maximum was found, or if the bodies are not proved
+    to overlap as a negative gap says.
 
     All parts are searched, from several starts, until a local maximum is proved to be the largest, or until all starts
     are done.
     """
+    frustum, core, place, size = pair.frustum, pair.core, pair.place, pair.size
     x, y, z = place
-    size = spread(place) + largest_semi_axis(core) + frustum[LOW_RADIUS] + frustum[HIGH] - frustum[LOW]
-    bodies = frustum, low, high, point, core, turn, place, size
-    near = ON_BORDER * size
     away = math.sqrt(x * x + y * y)
     # direction from the axis at which the searches start
-    sx, sy = (x, y) if away > _CLOSE * size else (1.0, 0.0)
+    direction = (x / away, y / away) if away > _CLOSE * size else (1.0, 0.0)
     _, _, _, first_part = nearest_part(frustum, z, away)
     if z > frustum[HIGH] or z < frustum[LOW]:
         part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
-        found = on_cap(frustum, core, turn, place, part, near)
+        found = on_cap(pair, part, ON_BORDER * size)
         if is_over_cap(frustum, part, place, found):
             return found, part
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
@@ -202,124 +186,117 @@ def _nearest(
     shallow = _SHALLOW_OF_SHARP * size if is_sharp else _SHALLOW * size
     for start in range(_TURNS + 4):
         if start == 1:
-            is_deep = _is_deep(frustum, core, turn, place)
+            is_deep = _gauge_near(pair, place) < _DEEP
         # start 0: normals towards the centre; 1: the searches of `by_search`; 2, 3: normals near the side's, near the
         # cap's; from 4 on: directions all around the axis
         tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
         if start > 3:
             # if the bodies overlap, the contact may be on the side of the axis away from the smooth body's centre
-            sx, sy = math.cos(2.0 * math.pi * start / _TURNS), math.sin(2.0 * math.pi * start / _TURNS)
+            angle = 2.0 * math.pi * start / _TURNS
+            direction = math.cos(angle), math.sin(angle)
         for i in range(9):
             # first the part nearest to the centre, then the others in the order of their distance from this part
             part = first_part + ((i + 1) // 2 if i % 2 == 1 else -(i // 2))
             is_rim = part == LOW_RIM or part == HIGH_RIM
             if part < LOW_CAP or part > HIGH_CAP or (frustum[SIDE] == 0.0 and (part == FLANK or part == HIGH_RIM)):
                 continue
-            if not is_rim and (start == 2 or start == 3):
+            if (not is_rim and (start == 2 or start == 3)) or (start == 1 and is_deep):
+                # at a deep overlap the gap has several maxima, of which `by_search` may find a smaller one
                 continue
             if start == 1:
-                if is_deep:
-                    # at a deep overlap the gap has several maxima, of which this search may find a smaller one
-                    continue
-                found = by_search(frustum, point, core, turn, place, (sx, sy), part, size)
+                found = by_search(pair, direction, part)
             elif part == LOW_CAP or part == HIGH_CAP:
-                found = on_cap(frustum, core, turn, place, part, near)
+                found = on_cap(pair, part, ON_BORDER * size)
             elif part == FLANK:
-                found = on_flank(frustum, core, turn, place, (sx, sy), near)
+                found = on_flank(pair, direction)
             else:
-                circle = low if part == LOW_RIM else high
-                found = on_rim(frustum, circle, core, turn, place, (sx, sy), part, tilt)
+                found = on_rim(pair, direction, part, tilt)
             # a comparison with nan is false, so that the first maximum replaces the gap nan
             if not math.isnan(found[0]) and not found[0] <= best[0]:
                 best, best_part = found, part
-                if found[0] >= -shallow or _contains_ball(frustum, part, found, near):
+                if found[0] >= -shallow or _contains_ball(pair, part, found):
                     return best, best_part
-                if not is_sharp and _is_centre_outside(core, turn, place, found):
+                if not is_sharp and _is_centre_outside(pair, found):
                     return best, best_part
-        if is_sharp and (best[0] >= -_SHALLOW * size or _is_centre_outside(core, turn, place, best)):
+        if is_sharp and (best[0] >= -_SHALLOW * size or _is_centre_outside(pair, best)):
             # a tip or ridge of the core next to a rim or apex: another local maximum may have a smaller depth
             is_rim = best_part == LOW_RIM or best_part == HIGH_RIM
-            if is_rim and (is_deep or _is_deep(frustum, core, turn, place)):
+            if is_rim and (is_deep or _gauge_near(pair, place) < _DEEP):
                 return best, best_part
-            best, best_part = _larger_gap(bodies, best, best_part)
-            return best, best_part
+            return _larger_gap(pair, best, best_part)
     if is_sharp and not is_deep and best[0] < 0.0:
         # the local maximum with the smallest depth may have been missed: search for larger gaps
-        best, best_part = _larger_gap(bodies, best, best_part)
-    cores = Cores(low, core, turn, place)
-    if math.isnan(best[0]) or not (
-        _has_common_point(frustum, core, turn, place, best) or do_overlap(low, frustum[LOW], high, frustum[HIGH], cores)
-    ):
-        # the searches missed the largest gap: ascend the gap of the rims, then that of the side from the apex
-        best, best_part = _on_rims(bodies)
-        if is_sharp and math.isnan(best[0]) and frustum[SIDE] > 0.0:
-            best, best_part = _beside_apex(bodies), FLANK
-        if not best[0] >= 0.0 and not do_overlap(low, frustum[LOW], high, frustum[HIGH], cores):
-            best = math.nan, best[1], best[2]
-    return best, best_part
+        best, best_part = _larger_gap(pair, best, best_part)
+    if not math.isnan(best[0]) and (_has_common_point(pair, best) or _do_overlap(pair)):
+        return best, best_part
+    # the searches missed the largest gap: ascend the gap of the rims, then that of the side from the apex
+    best, best_part = _on_rims(pair)
+    if is_sharp and math.isnan(best[0]) and frustum[SIDE] > 0.0:
+        best, best_part = _beside_apex(pair), FLANK
+    return (best if best[0] >= 0.0 or _do_overlap(pair) else (math.nan, best[1], best[2])), best_part
 
 
 @compiled
-def _is_deep(frustum: Floats, core: Core, turn: Axes, place: Vector3) -> bool:
-    """True if the frustum's point nearest to the core's centre lies deep in the core (its gauge is below ``_DEEP``)."""
-    return bool(gauge(core, rotated_back(turn, minus(_nearest_point(frustum, place), place))) < _DEEP)
+def _do_overlap(pair: Pair) -> bool:
+    """Return whether both bodies are proved to have a common point."""
+    cores = Cores(pair.low, pair.core, pair.turn, pair.place)
+    return bool(do_overlap(pair.low, pair.frustum[LOW], pair.high, pair.frustum[HIGH], cores))
 
 
 @compiled
-def _larger_gap(bodies: Bodies, best: NearestPoint, best_part: int) -> tuple[NearestPoint, int]:
+def _larger_gap(pair: Pair, best: NearestPoint, best_part: int) -> tuple[NearestPoint, int]:
     """Return the larger of the gap ``best`` and the gaps of further local maxima, and the part it belongs to.
 
     No further search is made if a ball inside of the smooth body proves that ``best`` is the largest
     (:func:`bodies.contacts.smooth.inscribed.is_least_overlap`).
     """
-    frustum, _, _, point, core, turn, place, size = bodies
-    if not is_least_overlap(Cores(point, core, turn, place), best):
-        found, part = _on_rims(bodies)
-        if found[0] > best[0] + _LARGER * size:
+    if not is_least_overlap(Cores(pair.point, pair.core, pair.turn, pair.place), best):
+        found, part = _on_rims(pair)
+        if found[0] > best[0] + _LARGER * pair.size:
             best, best_part = found, part
-        if frustum[SIDE] > 0.0:
-            found = _beside_apex(bodies)
-            if found[0] > best[0] + _LARGER * size:
+        if pair.frustum[SIDE] > 0.0:
+            found = _beside_apex(pair)
+            if found[0] > best[0] + _LARGER * pair.size:
                 best, best_part = found, FLANK
     return best, best_part
 
 
 @compiled
-def _beside_apex(bodies: Bodies) -> NearestPoint:
+def _beside_apex(pair: Pair) -> NearestPoint:
     """Return gap, point and normal of the largest local maximum of the gap over the side beside the apex.
 
     Searches start at the normals with a maximal gap over the apex.  The gap is nan if no maximum was found.
     """
-    frustum, _, high, _, core, turn, place, size = bodies
-    from_apex = Cores(high, core, turn, (place[0], place[1], place[2] - frustum[HIGH]))
-    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
-    for start in starts_of(from_apex):
-        _, (nx, ny, _) = local_maximum(from_apex, start, _NEARBY)
-        if nx != 0.0 or ny != 0.0:
-            found = on_flank(frustum, core, turn, place, (nx, ny), ON_BORDER * size)
+    cores = from_rim(pair, HIGH_RIM)
+    best: NearestPoint = (math.nan, pair.place, (0.0, 0.0, 1.0))
+    for start in starts_of(cores):
+        _, (x, y, _) = local_maximum(cores, start, _NEARBY)
+        away = math.sqrt(x * x + y * y)
+        if away > 0.0:
+            found = on_flank(pair, (x / away, y / away))
             if not math.isnan(found[0]) and not found[0] <= best[0]:
                 best = found
     return best
 
 
 @compiled
-def _on_rims(bodies: Bodies) -> tuple[NearestPoint, int]:
+def _on_rims(pair: Pair) -> tuple[NearestPoint, int]:
     """Return the largest local maximum of the gap over the normals of both rims, by ascents, and this rim.
 
     The ascents start from several normals (:func:`bodies.contacts.smooth.round_search.up_hills`).  A rim of radius 0 is
     an apex.  The gap is nan if no maximum was found.
     """
-    frustum, low, high, _, core, turn, place, size = bodies
-    best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
+    frustum = pair.frustum
+    best: NearestPoint = (math.nan, pair.place, (0.0, 0.0, 1.0))
     best_part = LOW_RIM
     for part in (LOW_RIM, HIGH_RIM):
         if part == HIGH_RIM and frustum[SIDE] == 0.0:
             continue
         _, height, up = rim_of(frustum, part)
         # the normals of a rim end at the normal of the side; a disc has none, so that all normals are allowed
-        limit, side = (frustum[COS], frustum[SIN], size), up if frustum[SIDE] > 0.0 else 0.0
-        from_rim = (place[0], place[1], place[2] - height)
-        gap, p, n = up_hills(low if part == LOW_RIM else high, core, turn, from_rim, side, limit)
+        limit, side = (frustum[COS], frustum[SIN], pair.size), up if frustum[SIDE] > 0.0 else 0.0
+        circle, core, turn, center = from_rim(pair, part)
+        gap, p, n = up_hills(circle, core, turn, center, side, limit)
         if not math.isnan(gap) and not gap <= best[0]:
             best, best_part = (gap, (p[0], p[1], p[2] + height), n), part
     return best, best_part
@@ -337,7 +314,8 @@ def evaluate_frustum_smooth(
     center = center_in_world(a, first)
     place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
     turn = relative_rotation(axes_a, axes_b)
-    (core_gap, p, n), part = _nearest(first, low, high, point, second, turn, place)
+    size = spread(place) + largest_semi_axis(second) + first[LOW_RADIUS] + first[HIGH] - first[LOW]
+    (core_gap, p, n), part = _nearest(Pair(first, low, high, point, second, turn, place, size))
     gap, normal = core_gap - second[RADIUS] - first[SWEEP], rotated(axes_a, n)
     point_b = plus_scaled(plus(center, rotated(axes_a, p)), -second[RADIUS], normal)
     write_contact(a, out, gap, 0.0, part_number(first, part), normal, point_b, True)
