@@ -31,6 +31,8 @@ def do_overlap(low: Core, low_height: float, high: Core, high_height: float, cor
     """
     bodies = low, low_height, high, high_height, cores
     inner = minus(cores.center, (0.0, 0.0, 0.5 * (low_height + high_height)))
+    if spread(inner) == 0.0:
+        return True
     a = _support(bodies, opposite(inner))
     across = cross(a, inner)
     near = _ROUND_OFF * (spread(inner) + spread(a))
