@@ -37,7 +37,7 @@ _ACROSS = 1e-9
 At the exact solution it is 0.  The error of the gap is of the order of its square.
 """
 _TOP = 1e-9
-"""Angle to a maximum of the gap at which the steps uphill end [rad]."""
+"""Angle to a maximum of the gap at which the steps to it end [rad]."""
 
 _NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
 """Limits of Newton's method for a normal close to the axis of the circle (:func:`next_to_axis`).
