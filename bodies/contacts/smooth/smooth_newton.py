@@ -27,6 +27,7 @@ from .smooth_core import (
     Axes,
     Cores,
     NearestPoint,
+    SemiAxes,
     inverse,
     largest_semi_axis,
     rotated,
@@ -55,6 +56,8 @@ _THIN, _BURIED = 4.0, 0.5
 """
 _NEARBY = 0.05
 """Angle to a maximum of the gap at which Newton's method is restarted [rad]."""
+_FEW_STEPS, _MANY_STEPS = 4, 24
+"""Numbers of steps in which the powers of a mixed core are changed from 2 to their values, if all other starts fail."""
 _SAMPLES = 8
 """Number of equal parts into which the line between both contact points is divided.
 
@@ -190,7 +193,8 @@ def widest_of_round(first: Core, second: Core, turn: Axes, center: Vector3, star
     """
     cores = Cores(first, second, turn, center)
     if is_mixed(second):
-        return _of_mixed(cores, start)
+        solution = _of_mixed(cores, start)
+        return _by_ellipses(cores, start) if solution[0] != solution[0] and first[0] == 0.0 else solution
     if is_boxy(second):
         # the boxy core is the first one of the search, with the normal that points out of it
         swapped = Cores(second, first, inverse(turn), rotated_back(turn, opposite(center)))
@@ -208,7 +212,38 @@ def _of_mixed(cores: Cores, start: Vector3) -> NearestPoint:
         solution = gap_by_chart(cores, top[1])
         if solution[0] != solution[0]:
             solution = gap_by_chart(cores, largest_near(cores, top)[1])
+    for steps in (_FEW_STEPS, _MANY_STEPS):
+        if solution[0] != solution[0]:
+            n = unit(start)
+            for i in range(steps + 1):
+                first = _between(semi_axes_of(cores.first), i / steps)
+                second = _between(semi_axes_of(cores.second), i / steps)
+                solution = gap_by_chart(Cores(first, second, cores.turn, cores.center), n)
+                if solution[0] == solution[0]:
+                    n = solution[2]
     return solution
+
+
+@compiled
+def _between(core: SemiAxes, fraction: float) -> SemiAxes:
+    """Return a core between the ellipsoid of equal semi-axes (``fraction`` 0) and ``core`` (``fraction`` 1)."""
+    a, b, c, p, q = core
+    return a, b, c, 1.0 / (0.5 + fraction * (1.0 / p - 0.5)), 1.0 / (0.5 + fraction * (1.0 / q - 0.5))
+
+
+@compiled
+def _by_ellipses(cores: Cores, start: Vector3) -> NearestPoint:
+    """Return gap [m], point [m] and normal of a core and a point outside of it, by the ellipsoid method.
+
+    Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
+    small distance.  The ellipsoid method needs no curvatures.  The gap is nan for a point inside, and if the result is
+    not on the surface of the core.
+    """
+    n = unit(start)
+    g, n = largest_near(cores, local_maximum(cores, (gap_along(cores, n), n), _NEARBY))
+    p = g * n[0], g * n[1], g * n[2]
+    off_surface = abs(gauge(cores.second, rotated_back(cores.turn, minus(p, cores.center))) - 1.0)
+    return g if g > 0.0 and off_surface <= _ON_SURFACE else math.nan, p, n
 
 
 @compiled
