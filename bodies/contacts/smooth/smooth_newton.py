@@ -27,7 +27,6 @@ from .smooth_core import (
     Axes,
     Cores,
     NearestPoint,
-    SemiAxes,
     inverse,
     largest_semi_axis,
     rotated,
@@ -56,8 +55,6 @@ _THIN, _BURIED = 4.0, 0.5
 """
 _NEARBY = 0.05
 """Angle to a maximum of the gap at which Newton's method is restarted [rad]."""
-_FEW_STEPS, _MANY_STEPS = 4, 24
-"""Numbers of steps in which the powers of a mixed core are changed from 2 to their values, if all other starts fail."""
 _SAMPLES = 8
 """Number of equal parts into which the line between both contact points is divided.
 
@@ -212,23 +209,7 @@ def _of_mixed(cores: Cores, start: Vector3) -> NearestPoint:
         solution = gap_by_chart(cores, top[1])
         if solution[0] != solution[0]:
             solution = gap_by_chart(cores, largest_near(cores, top)[1])
-    for steps in (_FEW_STEPS, _MANY_STEPS):
-        if solution[0] != solution[0]:
-            n = unit(start)
-            for i in range(steps + 1):
-                first = _between(semi_axes_of(cores.first), i / steps)
-                second = _between(semi_axes_of(cores.second), i / steps)
-                solution = gap_by_chart(Cores(first, second, cores.turn, cores.center), n)
-                if solution[0] == solution[0]:
-                    n = solution[2]
     return solution
-
-
-@compiled
-def _between(core: SemiAxes, fraction: float) -> SemiAxes:
-    """Return a core between the ellipsoid of equal semi-axes (``fraction`` 0) and ``core`` (``fraction`` 1)."""
-    a, b, c, p, q = core
-    return a, b, c, 1.0 / (0.5 + fraction * (1.0 / p - 0.5)), 1.0 / (0.5 + fraction * (1.0 / q - 0.5))
 
 
 @compiled
