@@ -2,7 +2,7 @@
 
 The normal n goes round the line, perpendicular to it or, for a cone, at a fixed angle.  With p the body's farthest
 point in the direction -n, the derivative of the gap g(n) by the angle is dn/d(angle) . p.  Between two angles at which
-it has opposite signs, secants and halvings narrow the interval to round-off.  No second derivative is needed, so that
+it has opposite signs, secants narrow the interval to round-off.  No second derivative is needed, so that
 the body may be flat.
 """
 
@@ -18,9 +18,9 @@ from .bracket import Bracket, narrowed, next_place
 from .smooth_core import Axes, NearestPoint, facing_point, largest_semi_axis, spread
 
 _SAMPLES = 8
-"""Number of parts of the half-circle of directions round n, at whose ends the gap is sampled before the search."""
+"""Number of equal parts of a half-circle of directions; the gap is sampled at their ends before the search."""
 _STEPS = 200
-"""Largest number of secants and halvings."""
+"""Largest number of steps of the search."""
 _CLOSED = 4e-16
 """Angle between two directions below which they differ by round-off only [rad]."""
 
@@ -32,31 +32,18 @@ _ROUND_OFF = 4e-16
 def across_line(
     core: Core, turn: Axes, center: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> NearestPoint:
-    """Return the gap of a line and a core with flat places [m], the core's point [m] and the normal.
+    """Return a maximum of the gap of a line and a core with flat places [m], the core's point [m] and the normal.
 
-    The gap is the largest over all normals round the line; it is nan if no maximum was found.  The line goes through
-    the origin.  All vectors are in the axes of the line's body.  A positive ``reach`` replaces the line by a cylinder
-    with this radius, or, if ``sine`` is not 0, by a cone about the line.
+    The line goes through the origin along the unit vector ``e``.  All vectors are in the axes of the line's body, to
+    which ``turn`` converts those of the core.  The maximum is the nearest one to the unit vector ``n``, perpendicular
+    to the line, on the side on which the gap rises.  The gap is nan if it is more than about a right angle away.
 
-    First, samples round the line enclose a maximum between two angles, at which the gap rises (``rising`` > 0) and
+    A positive ``reach`` replaces the line by a cylinder with this radius [m], or, if ``sine`` is not 0, by a cone about
+    the line: ``cosine`` and ``sine`` are the components of the normal across the line and along it, and ``reach`` is
+    the distance of the surface from the origin along its normals.
+
+    First, samples round the line enclose the maximum between two angles, at which the gap rises (``rising`` > 0) and
     falls (``falling`` < 0).  Then :mod:`bodies.contacts.smooth.bracket` finds the zero of the derivative.
-
-    Parameters
-    ----------
-    core : Floats
-        The core, with flat places; its radius is not used.
-    turn : Axes
-        Rotation from the axes of the core to those of the line's body.
-    center : Vector3
-        The core's centre [m].
-    e : Vector3
-        Direction of the line, a unit vector.
-    n : Vector3
-        A unit vector perpendicular to the line; the normal is searched in the half-space around it.
-    cosine, sine : float
-        Component of the normal across the line and along it; 1 and 0 unless the surface is a cone.
-    reach : float
-        Distance of the surface about the line from the origin, along its normals [m]; 0 for the line itself.
     """
     spacing = math.pi / _SAMPLES
     current, slope = _sample(core, turn, center, e, n, cosine, sine, 0.0)

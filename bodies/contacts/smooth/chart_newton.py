@@ -18,7 +18,7 @@ from .newton import CLOSE, RIGHT, has_ended
 from .smooth_core import Cores, NearestPoint, largest_semi_axis, rotated, rotated_back, semi_axes_of, size_of, unit
 from .tangent_plane import Symmetric, along, by_symmetric, determinant, from_tangents, in_plane, solved, turned_matrix
 
-_STEPS, _HALVINGS = 40, 10
+_STEPS, _HALVINGS = 100, 30
 """Largest number of evaluations, and of successive halvings of one step."""
 _LONGEST = 0.3
 """Longest Newton step eps in either chart, a length, relative to the smaller body's size: charts are linearised."""

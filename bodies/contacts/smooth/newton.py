@@ -7,8 +7,8 @@ from nonsmooth.compiled import compiled
 ROUND_OFF, CLOSE, RIGHT = 2e-16, 1e-12, 1e-13
 """Residuals of Newton's method, relative to the size of the bodies.
 
-Below ``ROUND_OFF`` it ends.  Below ``CLOSE`` it ends once a step no longer halves the residual, which round-off limits
-there.  A result with a residual above ``RIGHT`` is rejected.
+Below ``ROUND_OFF`` it ends.  Below ``RIGHT`` it ends once a step no longer halves the residual, which round-off limits
+there.  Below ``CLOSE`` it ends once a step no longer decreases the residual.  Such a result is rejected.
 """
 
 
@@ -18,4 +18,5 @@ def has_ended(residual: float, last_residual: float, size: float) -> bool:
 
     All three have the same unit.
     """
-    return bool(residual <= ROUND_OFF * size or (residual <= CLOSE * size and residual >= 0.5 * last_residual))
+    slow = 0.5 if residual <= RIGHT * size else 1.0
+    return bool(residual <= ROUND_OFF * size or (residual <= CLOSE * size and residual >= slow * last_residual))

@@ -20,9 +20,10 @@ from nonsmooth.compiled import compiled
 from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, dot, minus, plus, plus_scaled
 from .bracket import Bracket, narrowed, next_place
-from .smooth_core import Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
+from .inscribed import gauge
+from .smooth_core import POINT, Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
 from .smooth_newton import widest_of_round
-from .smooth_starts import largest_near, local_maximum, starts_of
+from .smooth_starts import Start, gap_along, largest_near, local_maximum, starts_of
 from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
@@ -37,7 +38,11 @@ _ACROSS = 1e-9
 At the exact solution it is 0.  The error of the gap is of the order of its square.
 """
 _TOP = 1e-9
-"""Angle to a maximum of the gap at which the steps uphill end [rad]."""
+"""Angle to a maximum of the gap at which the steps to it end [rad]."""
+_OVER = 1e-11
+"""Largest distance of the body's contact point from its surface, relative to the size of both bodies."""
+_GOLDEN = 0.3819660112501051
+"""Golden-section search: distance of its two inner points from the ends of the interval, (3 - sqrt 5) / 2 of it."""
 
 _NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
 """Limits of Newton's method for a normal close to the axis of the circle (:func:`next_to_axis`).
@@ -151,24 +156,149 @@ def next_to_axis(core: Core, turn: Axes, center: Vector3, radius: float, start: 
 
 
 @compiled
+def along_segment(core: Core, turn: Axes, center: Vector3, e: Vector3, length: float) -> tuple[NearestPoint, float]:
+    """Return the least distance of a smooth body from a segment: (gap [m], body's point [m], normal), place on it [m].
+
+    The last number is the distance of the segment's nearest point from the start of the segment.  The segment goes
+    from the origin along the unit vector e over ``length`` [m].  The core's centre is ``center`` [m]; ``turn`` is the
+    rotation from the axes of the core to those of the segment.  By bisection: the derivative of the distance along the
+    segment is -n . e.
+    """
+    low, high, along = 0.0, length, 0.0
+    best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
+    for i in range(_STEPS):
+        # both ends first, then the middle of the remaining interval
+        s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
+        from_point = plus_scaled(center, -s, e)
+        g, p, n = widest_of_round(POINT, core, turn, from_point, from_point)
+        cosine = dot(n, e)
+        best, along = (g, plus_scaled(p, s, e), n), s
+        if g != g or (i == 0 and cosine <= 0.0) or (i == 1 and cosine >= 0.0):
+            break
+        if i > 1 and (abs(cosine) <= _SAME or s == low or s == high):
+            if g < 0.0 and abs(cosine) > _ACROSS:
+                # deep in the body the nearest surface point is discontinuous along the segment: no solution
+                best = math.nan, best[1], best[2]
+            break
+        if cosine > 0.0:
+            low = s
+        else:
+            high = s
+    return best, along
+
+
+@compiled
 def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, limit: Vector3) -> NearestPoint:
     """Return the largest gap of a circle and an overlapping smooth body [m], the body's point [m] and the normal.
 
-    The axis of the circle is the third axis.  Normals are allowed between the axis' direction ``up``, 1 or -1, and
-    ``limit``: the radial and the axial component of a unit normal, and the size of both bodies [m].  If ``up`` is 0,
-    all normals are allowed.
+    Parameters
+    ----------
+    circle : Floats
+        The circle as a core; its axis is the third axis.
+    core, turn, center : Floats, Axes, Vector3
+        As in :func:`round_circle`.
+    up : float
+        1 or -1: normals are allowed from this direction of the circle's axis to the normal ``limit``; 0 allows all.
+    limit : tuple of float
+        Radial and axial component of the unit normal at this limit, and size of both bodies [m].
     """
-    cores = Cores(circle, core, turn, center)
     best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
+    cores = Cores(circle, core, turn, center)
     for start in starts_of(cores):
         top = local_maximum(cores, start, _TOP)
         solution = widest_of_round(circle, core, turn, center, top[1])
+        # Newton's method went to a smaller maximum, or did not converge
         if not solution[0] >= top[0] - _TOP * limit[2]:
-            # Newton's method went to a smaller maximum, or did not converge
-            g, n = largest_near(cores, top)
-            solution = g, plus_scaled(support_of(circle, n)[1], g, n), n
+            settled = largest_near(cores, top)
+            # if two maxima differ by round-off only, the ellipsoid method may go from one to the other
+            if _is_in_range(settled[1], up, limit) or not _is_in_range(top[1], up, limit):
+                top = settled
+            solution = _solution_of(circle, top)
         g, _, n = solution
-        from_limit = limit[0] * n[2] - limit[1] * math.sqrt(n[0] * n[0] + n[1] * n[1])
-        if (up == 0.0 or up * from_limit >= -_TOP) and not g <= best[0]:
-            best = solution
+        if not _is_in_range(n, up, limit):
+            # near a sharp place of the body the gap hardly depends on the normal: try the normal at the limit
+            radial = math.sqrt(n[0] * n[0] + n[1] * n[1])
+            if radial == 0.0:
+                continue
+            n = limit[0] * n[0] / radial, limit[0] * n[1] / radial, limit[1]
+            gap_at_limit = gap_along(cores, n)
+            if not gap_at_limit >= g - _OVER * limit[2]:
+                continue
+            solution = _solution_of(circle, (gap_at_limit, n))
+        if not solution[0] <= best[0]:
+            solution, off_surface = _facing_points(circle, core, turn, center, solution)
+            if off_surface <= _OVER * limit[2]:
+                best = solution
     return best
+
+
+@compiled
+def _is_in_range(n: Vector3, up: float, limit: Vector3) -> bool:
+    """Return whether a unit normal is between the axis and the normal ``limit``; arguments as in :func:`up_hills`."""
+    return bool(up == 0.0 or up * (limit[0] * n[2] - limit[1] * math.sqrt(n[0] * n[0] + n[1] * n[1])) >= -_TOP)
+
+
+@compiled
+def _solution_of(circle: Core, top: Start) -> NearestPoint:
+    """Return gap [m], body's point [m] and normal for a maximum ``top`` of the gap: the gap and its direction n.
+
+    The body's point is the circle's farthest point along n, moved by the gap along n.
+    """
+    g, n = top
+    return g, plus_scaled(support_of(circle, n)[1], g, n), n
+
+
+@compiled
+def _facing_points(
+    circle: Core, core: Core, turn: Axes, center: Vector3, solution: NearestPoint
+) -> tuple[NearestPoint, float]:
+    """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
+
+    Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
+    nearly the axis, its radial component is round-off, and so is the direction of the circle's farthest point.  A
+    search along the circle finds its point p for which p + gap normal is nearest to the surface of the body.
+    """
+    g, p, n = solution
+    extent, radius = largest_semi_axis(core), circle[0]
+    best: NearestPoint = solution
+    least = _off_surface(core, turn, center, p)
+    # a point has no arc, and a body's point on the surface is exact
+    if radius == 0.0 or not least > _SAME:
+        return best, least * extent
+    q, _ = facing_point(core, turn, center, n)
+    q, c = plus_scaled(q, -g, n), plus_scaled(p, -g, n)
+    # search an arc about the direction of q, from the body's support point; it includes the circle's present point c
+    middle = math.atan2(q[1], q[0])
+    is_off_axis = c[0] * c[0] + c[1] * c[1] > 0.0
+    half_width = abs(math.atan2(c[0] * q[1] - c[1] * q[0], c[0] * q[0] + c[1] * q[1])) if is_off_axis else 0.0
+    low, high = middle - half_width - _FIRST, middle + half_width + _FIRST
+    for _ in range(_STEPS):
+        angle_1, angle_2 = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
+        point_1, point_2 = _over_rim(radius, angle_1, g, n), _over_rim(radius, angle_2, g, n)
+        off_1, off_2 = _off_surface(core, turn, center, point_1), _off_surface(core, turn, center, point_2)
+        if off_1 < least:
+            least, best = off_1, (g, point_1, n)
+        if off_2 < least:
+            least, best = off_2, (g, point_2, n)
+        if high - low <= _SAME or least <= _SAME:
+            break
+        if off_1 < off_2:
+            high = angle_2
+        else:
+            low = angle_1
+    return best, least * extent
+
+
+@compiled
+def _over_rim(radius: float, angle: float, g: float, n: Vector3) -> Vector3:
+    """Return the point at the distance g [m] along n from the circle's point at an angle [rad]."""
+    return radius * math.cos(angle) + g * n[0], radius * math.sin(angle) + g * n[1], g * n[2]
+
+
+@compiled
+def _off_surface(core: Core, turn: Axes, center: Vector3, point: Vector3) -> float:
+    """Return abs(gauge - 1) of a point [1], a residual: 0 on the surface of the core, positive inside and outside.
+
+    ``point`` is in the axes of the circle [m].  The gauge has a closed form, which the distance has not.
+    """
+    return float(abs(gauge(core, rotated_back(turn, minus(point, center))) - 1.0))

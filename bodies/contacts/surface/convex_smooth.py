@@ -18,10 +18,11 @@ from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core
 from ...vectors import Vector3, cross, dot, minus, opposite, plus, plus_scaled, scaled, vector_at
-from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND
+from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.ends import REACH
 from ..features.frames import tangent_of
 from ..smooth.inscribed import gauge, is_least_overlap
+from ..smooth.round_search import along_segment, up_hills
 from ..smooth.smooth_core import POINT, Axes, Cores, largest_semi_axis, rotated_back, spread
 from .smooth_stops import Nearest, Stop, over_corner, over_edge, over_face
 from .surface_search import (
@@ -34,6 +35,7 @@ from .surface_search import (
     face_at,
     face_height,
     nearest_in_patch,
+    steepest,
 )
 from .surface_tables import (
     FIRST_TRIANGLE,
@@ -121,19 +123,9 @@ def nearest_of_convex(surface: Floats, core: Core, turn: Axes, center: Vector3) 
         return first
     if g == g and is_least_overlap(Cores(POINT, core, turn, minus(center, point)), (g, scaled(g, n), n)):
         return first
-    best = _of_all(surface, core, turn, center, size, first)
     if surface[N_FACES] == 0.0:
-        # a segment: search for stops over its line from several directions
-        row = edge_at(surface, 0)
-        t = tangent_of(vector_at(surface, row + ALONG))
-        u = cross(vector_at(surface, row + ALONG), t)
-        for i in range(_ROUND):
-            angle = 2.0 * math.pi * i / _ROUND
-            start = plus(scaled(math.cos(angle), t), scaled(math.sin(angle), u))
-            stop = over_edge(surface, row, core, turn, center, start, size)
-            if _is_valid(stop, size) and not stop[0] <= best[0][0]:
-                best = stop, ON_EDGE, 0
-    return best
+        return _of_segment(surface, core, turn, center, size, first)
+    return _of_all(surface, core, turn, center, size, first)
 
 
 @compiled
@@ -194,3 +186,40 @@ def _of_all(surface: Floats, core: Core, turn: Axes, center: Vector3, size: floa
             elif stop[0] == stop[0] and stop[1] <= least:
                 closest, least = (stop, kind, number), stop[1]
     return best if best[0][0] == best[0][0] else closest
+
+
+@compiled
+def _of_segment(surface: Floats, core: Core, turn: Axes, center: Vector3, size: float, first: Nearest) -> Nearest:
+    """Return the result of :func:`nearest_of_convex` for a segment that overlaps with the core.
+
+    First, the segment's point nearest to the core is found by bisection.  If its gap is not negative, it is the result.
+    Otherwise it is the largest gap over valid stops, over the side from ``_ROUND`` directions.  If no stop is valid, it
+    is the overlap of the point by bisection, or the largest gap of searches from directions with a large gap at an end.
+    """
+    row = edge_at(surface, 0)
+    begin, e, length = vector_at(surface, row), vector_at(surface, row + ALONG), surface[row + LENGTH]
+    (g, _, n), s = along_segment(core, turn, minus(center, begin), e, length)
+    kind, number = (ON_CORNER, 0) if s == 0.0 else (ON_CORNER, 1) if s == length else (ON_EDGE, 0)
+    bisected: Nearest = (g, 0.0, n, plus_scaled(begin, s, e)), kind, number
+    if g >= 0.0:
+        return bisected
+    best = _of_all(surface, core, turn, center, size, first)
+    t = tangent_of(e)
+    u = cross(e, t)
+    for i in range(_ROUND):
+        angle = 2.0 * math.pi * i / _ROUND
+        start = plus(scaled(math.cos(angle), t), scaled(math.sin(angle), u))
+        stop = over_edge(surface, row, core, turn, center, start, size)
+        if _is_valid(stop, size) and not stop[0] <= best[0][0]:
+            best = stop, ON_EDGE, 0
+    if best[0][0] == best[0][0]:
+        return best
+    if g == g:
+        return bisected
+    for end in range(2):
+        c = corner_row(surface, end)
+        place = vector_at(surface, c)
+        g, _, n = up_hills(POINT, core, turn, minus(center, place), 0.0, (1.0, 0.0, size))
+        if steepest(surface, c, n) <= 0.0 and g == g and not g <= best[0][0]:
+            best = (g, 0.0, n, place), ON_CORNER, end
+    return best
