@@ -21,7 +21,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
-from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, vector_at
+from ...vectors import Vector3, minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
 from ..features.writing import write_sweep
 from ..smooth.inscribed import gauge, is_least_overlap
@@ -30,6 +30,7 @@ from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import (
     CENTER,
     POINT,
+    POWERS,
     RADIUS,
     Cores,
     NearestPoint,
@@ -41,14 +42,12 @@ from ..smooth.smooth_core import (
     spread,
 )
 from ..smooth.smooth_newton import write_surface
-from ..smooth.smooth_starts import local_maximum, starts_of
 from .frustum import (
     FLANK,
     HIGH_CAP,
     HIGH_RIM,
     LOW_CAP,
     LOW_RIM,
-    cap_of,
     center_in_world,
     nearest_part,
     part_names,
@@ -59,24 +58,15 @@ from .frustum import (
 from .frustum_stops import ON_BORDER, Pair, by_search, from_rim, on_cap, on_flank, on_rim
 from .frustum_writing import write_contact
 
-_SHALLOW, _SHALLOW_OF_SHARP = 1e-6, 1e-8
-"""Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size.
-
-``_SHALLOW`` is for smooth bodies without ridges, the smaller one for bodies with ridges (a power of the core above 2).
-"""
+_SHALLOW = 1e-8
+"""Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size."""
 _CLOSE = 1e-12
 """Least distance of the smooth body's centre from the frustum's axis, relative to the size of both bodies.
 
 Below it the direction from the axis to the centre is round-off, and the search starts at the first axis instead.
 """
-_SAMPLES = 8
-"""Number of equal parts into which the line between both contact points is divided, to find a common point."""
-_ON_SURFACE = 1e-12
-"""Round-off by which the gauge of a core (1 on its surface) may exceed 1 at a point inside of the core."""
 _LARGER = 1e-14
 """Least difference of two local maxima of the gap, relative to the size; a smaller difference is round-off."""
-_NEARBY = 1e-3
-"""Angle to a maximum of the gap at which the ascent may end [rad], because Newton's method continues from there."""
 _DEEP = 0.9
 """Gauge of the core below which an overlap is deep, at the frustum's point nearest to the core's centre.
 
@@ -85,40 +75,6 @@ at a smaller local maximum of the gap.
 """
 _TURNS = 8
 """Number of directions around the axis at which searches start, if the direction to the core's centre fails."""
-
-
-@compiled
-def _is_centre_outside(pair: Pair, found: NearestPoint) -> bool:
-    """True if the frustum's contact point is in the core and the core's centre outside of the tangent plane there.
-
-    If the core has no ridges, such an overlap is taken as the one with the smallest depth.
-    """
-    g, p, n = found
-    from_centre = minus(plus_scaled(p, -g, n), pair.place)
-    return bool(dot(n, from_centre) < 0.0 and gauge(pair.core, rotated_back(pair.turn, from_centre)) < 1.0)
-
-
-@compiled
-def is_over_cap(frustum: Floats, part: int, place: Vector3, found: NearestPoint) -> bool:
-    """True if the gap found over a cap is proved to be the largest over all normals.
-
-    It always is if the bodies are apart.  At an overlap of depth d, two points of the smooth body prove it.  The first
-    is the lowest point, at the depth d below the cap.  The second lies on the line from there to the body's centre, at
-    the height d above the cap.  If both are at least d inside of the rim, in any direction one of the two is at least d
-    behind a point of the rim, so that no translation by less than d separates the bodies.
-    """
-    gap, (px, py, _), _ = found
-    if gap >= 0.0:
-        return True
-    x, y, z = place
-    radius, cap_height, up = cap_of(frustum, part)
-    height, most_away = up * (z - cap_height), radius + gap
-    if math.isnan(gap) or height < -gap or most_away < 0.0:
-        return False
-    # the second point, at this fraction of the line from the lowest point to the centre
-    fraction = -2.0 * gap / (height - gap)
-    qx, qy = px + fraction * (x - px), py + fraction * (y - py)
-    return bool(max(px * px + py * py, qx * qx + qy * qy) <= most_away * most_away)
 
 
 @compiled
@@ -149,16 +105,6 @@ def _gauge_near(pair: Pair, point: Vector3) -> float:
 
 
 @compiled
-def _has_common_point(pair: Pair, found: NearestPoint) -> bool:
-    """Return whether a point of the frustum, nearest to a point between both contact points, is in the core."""
-    g, q, n = found
-    for i in range(_SAMPLES + 1):
-        if _gauge_near(pair, plus_scaled(q, -(g * i / _SAMPLES), n)) <= 1.0 + _ON_SURFACE:
-            return True
-    return False
-
-
-@compiled
 def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
     """Return the largest gap found over all normals, with point and normal, and the part of the frustum it belongs to.
 
@@ -167,7 +113,8 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
     to overlap as a negative gap says.
 
     All parts are searched, from several starts, until a local maximum is proved to be the largest, or until all starts
-    are done.
+    are done.  The proofs of an overlap are balls inside of one of the bodies that touch its surface at the contact
+    point, with the depth as radius (:func:`_contains_ball`, :mod:`bodies.contacts.smooth.inscribed`).
     """
     frustum, core, place, size = pair.frustum, pair.core, pair.place, pair.size
     x, y, z = place
@@ -178,12 +125,12 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
     if z > frustum[HIGH] or z < frustum[LOW]:
         part = HIGH_CAP if z > frustum[HIGH] else LOW_CAP
         found = on_cap(pair, part, ON_BORDER * size)
-        if is_over_cap(frustum, part, place, found):
+        if found[0] >= 0.0:
             return found, part
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     best_part = LOW_CAP
-    is_deep, is_sharp = False, max(core[3], core[4]) > 2.0
-    shallow = _SHALLOW_OF_SHARP * size if is_sharp else _SHALLOW * size
+    in_core = Cores(pair.point, core, pair.turn, place)
+    is_deep, is_sharp = False, max(core[POWERS], core[POWERS + 1]) > 2.0
     for start in range(_TURNS + 4):
         if start == 1:
             is_deep = _gauge_near(pair, place) < _DEEP
@@ -214,69 +161,18 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
             # a comparison with nan is false, so that the first maximum replaces the gap nan
             if not math.isnan(found[0]) and not found[0] <= best[0]:
                 best, best_part = found, part
-                if found[0] >= -shallow or _contains_ball(pair, part, found):
+                if found[0] >= -_SHALLOW * size or _contains_ball(pair, part, found):
                     return best, best_part
-                if not is_sharp and _is_centre_outside(pair, found):
+                if is_least_overlap(in_core, found):
                     return best, best_part
-        if is_sharp and (best[0] >= -_SHALLOW * size or _is_centre_outside(pair, best)):
-            # a tip or ridge of the core next to a rim or apex: another local maximum may have a smaller depth
-            is_rim = best_part == LOW_RIM or best_part == HIGH_RIM
-            if is_rim and (is_deep or _gauge_near(pair, place) < _DEEP):
-                return best, best_part
-            return _larger_gap(pair, best, best_part)
-    if is_sharp and not is_deep and best[0] < 0.0:
-        # the local maximum with the smallest depth may have been missed: search for larger gaps
-        best, best_part = _larger_gap(pair, best, best_part)
-    if not math.isnan(best[0]) and (_has_common_point(pair, best) or _do_overlap(pair)):
-        return best, best_part
-    # the searches missed the largest gap: ascend the gap of the rims, then that of the side from the apex
-    best, best_part = _on_rims(pair)
-    if is_sharp and math.isnan(best[0]) and frustum[SIDE] > 0.0:
-        best, best_part = _beside_apex(pair), FLANK
-    return (best if best[0] >= 0.0 or _do_overlap(pair) else (math.nan, best[1], best[2])), best_part
-
-
-@compiled
-def _do_overlap(pair: Pair) -> bool:
-    """Return whether both bodies are proved to have a common point."""
-    cores = Cores(pair.low, pair.core, pair.turn, pair.place)
-    return bool(do_overlap(pair.low, pair.frustum[LOW], pair.high, pair.frustum[HIGH], cores))
-
-
-@compiled
-def _larger_gap(pair: Pair, best: NearestPoint, best_part: int) -> tuple[NearestPoint, int]:
-    """Return the larger of the gap ``best`` and the gaps of further local maxima, and the part it belongs to.
-
-    No further search is made if a ball inside of the smooth body proves that ``best`` is the largest
-    (:func:`bodies.contacts.smooth.inscribed.is_least_overlap`).
-    """
-    if not is_least_overlap(Cores(pair.point, pair.core, pair.turn, pair.place), best):
+    if (is_sharp and not is_deep and best[0] < 0.0) or math.isnan(best[0]):
+        # next to a ridge or a tip of the core the local maximum with the smallest depth may have been missed
         found, part = _on_rims(pair)
-        if found[0] > best[0] + _LARGER * pair.size:
+        if not math.isnan(found[0]) and not found[0] <= best[0] + _LARGER * size:
             best, best_part = found, part
-        if pair.frustum[SIDE] > 0.0:
-            found = _beside_apex(pair)
-            if found[0] > best[0] + _LARGER * pair.size:
-                best, best_part = found, FLANK
+    if not best[0] >= 0.0 and not do_overlap(pair.low, frustum[LOW], pair.high, frustum[HIGH], in_core):
+        best = math.nan, best[1], best[2]
     return best, best_part
-
-
-@compiled
-def _beside_apex(pair: Pair) -> NearestPoint:
-    """Return gap, point and normal of the largest local maximum of the gap over the side beside the apex.
-
-    Searches start at the normals with a maximal gap over the apex.  The gap is nan if no maximum was found.
-    """
-    cores = from_rim(pair, HIGH_RIM)
-    best: NearestPoint = (math.nan, pair.place, (0.0, 0.0, 1.0))
-    for start in starts_of(cores):
-        _, (x, y, _) = local_maximum(cores, start, _NEARBY)
-        away = math.sqrt(x * x + y * y)
-        if away > 0.0:
-            found = on_flank(pair, (x / away, y / away))
-            if not math.isnan(found[0]) and not found[0] <= best[0]:
-                best = found
-    return best
 
 
 @compiled
