@@ -180,6 +180,8 @@ def _of_all(surface: Floats, core: Core, turn: Axes, center: Vector3, size: floa
         count = surface[N_FACES if kind == ON_FACE else N_EDGES if kind == ON_EDGE else N_CORNERS]
         for number in range(int(count)):
             stop = _stop(surface, kind, number, core, turn, center, size, True)
+            if stop[0] != stop[0]:
+                stop = _stop(surface, kind, number, core, turn, center, size, False)
             if _is_valid(stop, size):
                 if not stop[0] <= best[0][0]:
                     best = stop, kind, number
