@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from bodies import Box, Cone, Cylinder, Disc, Ellipsoid, Superellipsoid
-from bodies.contacts.smooth.inscribed import is_least_overlap
+from bodies.contacts.smooth.inscribed import is_least_overlap as _is_least_overlap
 from bodies.contacts.smooth.smooth_core import Cores as _Cores
 from bodies.contacts.smooth.smooth_newton import largest_gap
 from bodies.contacts.smooth.smooth_starts import gap_along, local_maximum, starts_of
@@ -22,6 +22,7 @@ from tests.bodies.carriers import Rig
 
 # called with arrays in place of tuples
 Cores: Any = _Cores
+is_least_overlap: Any = _is_least_overlap
 support_of: Any = _support_of
 
 Array = NDArray[np.float64]
