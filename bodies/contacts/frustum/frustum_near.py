@@ -15,10 +15,9 @@ from ..features.ends import CLOSED
 from ..features.frames import across
 from ..surface.surface_search import face_at, in_triangle, steepest
 from ..surface.surface_tables import CORNER, CORNERS, FACE_NUMBER
-from .frustum import FLANK, HIGH_CAP, LOW_CAP, nearest_part
-from .frustum_corner import has_part, normal_of_part, over_part
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, nearest_part, normal_of_part, over_part
 from .frustum_writing import off_cone_of_rim
-from .rim_face import FrustumPose, lowest_on_rim
+from .over_faces import FrustumPose, lowest_on_rim
 
 _HALVINGS = 40
 """Largest number of halvings of an edge: the rest is shorter than round-off of its length."""
@@ -62,7 +61,7 @@ def _lowest(frustum: Floats, upper: int, pose: FrustumPose, n: Vector3) -> tuple
     center, axis = pose
     # for an axis along n any point of the rim is lowest: the bound of :func:`_swing` is then a diameter
     axial, radial, outward = lowest_on_rim(n, axis, (1.0, 0.0, 0.0))
-    off_cone = off_cone_of_rim(frustum, 2.0 * upper - 1.0, radial, axial, frustum[SIDE] == 0.0)
+    off_cone = off_cone_of_rim(frustum, 2.0 * upper - 1.0, radial, axial)
     lowest = plus_scaled(plus_scaled(center, frustum[LOW + upper], axis), frustum[LOW_RADIUS + upper], outward)
     return lowest, radial, off_cone
 
@@ -238,8 +237,6 @@ def corner_is_near(
         inward, displacement = opposite(normal_of_part(axis, outward, radial, axial)), reach - sweep
         return bool(distance <= 0.0 or distance * steepest(surface, row, inward) <= displacement + turn * distance)
     for part in (LOW_CAP, FLANK, HIGH_CAP):
-        if not has_part(frustum, part):
-            continue
         height, past, radial, axial = over_part(frustum, part, along, away)
         most_angle = turn
         if part == FLANK:

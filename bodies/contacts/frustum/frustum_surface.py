@@ -35,13 +35,11 @@ from ..surface.surface_tables import (
     star_lengths,
     surface_numbers,
 )
-from .edge_in_surface import write_across_rim, write_across_side
+from .edges import write_across_rim, write_across_side
 from .frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, part_names, rims_of, set_back
-from .frustum_corner import write_corner
 from .frustum_near import corner_is_near, edge_is_near, from_core, rim_is_near
 from .frustum_sphere import write_frustum_vertex
-from .rim_face import FrustumPose, frustum_in_surface, write_rim
-from .tips_over_surface import write_apex, write_tip
+from .over_faces import FrustumPose, frustum_in_surface, write_apex, write_corner, write_rim, write_tip
 
 RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
 """Kinds of candidates, the first of a candidate's three numbers.
