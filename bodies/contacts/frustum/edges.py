@@ -45,8 +45,7 @@ from .over_faces import frustum_in_surface, past_faces
 _STEEP = 0.5
 """Cosine of the angle between edge and axis, above which both contacts are searched on the half nearer to the edge.
 
-The edge is then too steep to cross both halves of the rim.  Each contact is valid for its own directions of the edge
-(:func:`_past_division`).
+The edge is then too steep to cross both halves of the rim.  Each contact is valid for its own directions of the edge.
 """
 _CONE_MARGIN = 1e-6
 """Sine of the largest angle between a contact normal and the edge's normal cone; if it is larger, a face is nearer."""
@@ -182,18 +181,6 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 
 @compiled
-def _past_division(half: float, radial: float, axial: float) -> float:
-    """Return a sine that is positive if a steep edge belongs to the contact of the other half, not to that of ``half``.
-
-    ``radial`` is the component of the edge's unit vector along the outward radius at the crossing.  ``axial`` is the
-    cosine of the angle between edge and axis, above ``_STEEP``.  At ``_STEEP`` the limit is at ``radial`` = 0, where
-    the crossing is between the two halves, so that a contact keeps its crossing when the edge becomes steep.  An edge
-    along the axis is far from the limit: its direction in the plane of the rim, and so its half, would be round-off.
-    """
-    return -half * (radial + axial - _STEEP)
-
-
-@compiled
 def _cross_rim(
     frustum: Floats, rim: float, half: float, b: Floats, edge: Floats, seen: _Edge, is_rounded: bool, size: float
 ) -> _Crossing:
@@ -254,7 +241,10 @@ def _cross_rim(
             least_off, off_cone, chosen_sign = off_both, off_rim, sign
     past_ends = max(-s, s - edge[LENGTH])
     if axial > _STEEP:
-        past_ends = max(past_ends, size * _past_division(half, d[0] * e[0] + d[1] * e[1], axial))
+        # a steep edge belongs to one half, by its component along the outward radius. At _STEEP the limit is between
+        # the two halves, so that a contact keeps its crossing when the edge becomes steep. An edge along the axis is
+        # far from the limit: its direction in the plane of the rim would be round-off
+        past_ends = max(past_ends, -size * half * (d[0] * e[0] + d[1] * e[1] + axial - _STEEP))
     if past_evolute > 0.0 or crossing_sine <= PARALLEL:
         # the rim has no nearest point on this half, or the edge is along its tangent: no valid crossing
         past_ends = size
@@ -330,7 +320,7 @@ def _write_crossing(
     else:
         past = max(
             _past_bodies(b, out, frustum, seen, surface, size),
-            past_faces(surface, frustum, frustum_in_surface(a, b, frustum), -gap, point_in_body(b, point)),
+            past_faces(surface, frustum_in_surface(a, b, frustum), -gap, point_in_body(b, point)),
         )
     if past > 0.0:
         out[GAP], out[PAST_END] = gap_past_end(gap, past, is_convex), past

@@ -284,10 +284,9 @@ def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point
     Apex and feet have the radius 0.  The apex is left out unless ``is_sharp``: if a body of the pair is rounded, the
     apex is a sphere, which has contacts of its own.
     """
-    for has_radius in (True, False):
-        for i, (radius, place) in enumerate(first.standing_rims):
-            if (radius > 0.0) == has_radius and (has_radius or is_sharp):
-                yield radius, place, f"rim {i}" if has_radius else "apex"
+    for i, (radius, place) in enumerate(first.standing_rims):
+        if radius > 0.0 or is_sharp:
+            yield radius, place, f"rim {i}" if radius > 0.0 else "apex"
     for i, foot in enumerate(first.feet):
         yield 0.0, foot, f"foot {i}"
 

@@ -6,9 +6,8 @@ The surface, of the second body, need not be convex.  The corner and its frustum
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
@@ -25,6 +24,8 @@ from ..surface.surface_search import (
     FAR,
     ON_FACE,
     box_square,
+    corner_at,
+    corner_row,
     depth_inside,
     distance_from_ends,
     face_at,
@@ -35,14 +36,16 @@ from ..surface.surface_search import (
     nearest_in_patch,
     node_at,
     signed_distance,
+    steepest,
 )
-from ..surface.surface_tables import IS_CONVEX, N_FACES, N_MEMBERS, N_NODES, N_PATCHES, SIZE, SKIP, SWEEP
+from ..surface.surface_tables import IS_CONVEX, N_FACES, N_MEMBERS, N_NODES, N_PATCHES, SIZE, SKIP, STAR, SWEEP
 from ..surface.surface_vertex import face_under, over_triangle
 from .frustum import (
     FLANK,
     HIGH_CAP,
     LOW_CAP,
     LOW_RIM,
+    Placed,
     axis_in_world,
     center_in_world,
     least_height,
@@ -57,14 +60,12 @@ from .frustum_writing import off_cone_of_rim, past_apex, write_contact
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
-FrustumPose: TypeAlias = tuple[Vector3, Vector3]
-"""Centre [m] and axis of a frustum in the axes of a surface."""
 
 
 @compiled
-def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> FrustumPose:
-    """Return centre [m] and axis of the first body's frustum in the axes of the second body."""
-    return point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum))
+def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> Placed:
+    """Return the first body's frustum in the axes of the second body."""
+    return Placed(frustum, point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum)))
 
 
 @compiled
@@ -79,14 +80,14 @@ def lowest_on_rim(n: Vector3, axis: Vector3, otherwise: Vector3) -> tuple[float,
 
 
 @compiled
-def past_faces(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float, point: Vector3) -> float:
+def past_faces(surface: Floats, frustum: Placed, depth: float, point: Vector3) -> float:
     """Return by how much the depth of an overlap exceeds that of the least deep face [m]; not positive for a real one.
 
     Through the least deep face the bodies separate on a shorter way.  A face is as deep as the frustum is below its
     plane, or as the ``point`` of the overlap is distant from it, if this is more: faces far away do not count.
-    ``pose`` and ``point`` are in the axes of the surface.
+    ``frustum`` and ``point`` are in the axes of the surface.
     """
-    center, axis = pose
+    numbers, center, axis = frustum
     margin = REACH * (surface[SIZE] + depth)
     least_deep, node = depth + margin, 0
     while node < int(surface[N_NODES]):
@@ -99,7 +100,7 @@ def past_faces(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float
             if kind != ON_FACE:
                 continue
             row = face_at(surface, face)
-            deep = -least_height(frustum, face_height(surface, row, center), axis, vector_at(surface, row))
+            deep = -least_height(numbers, face_height(surface, row, center), axis, vector_at(surface, row))
             if deep < least_deep:
                 x, y, z, _ = in_triangle(surface, triangle_row, point)
                 least_deep = min(least_deep, max(deep, norm(minus(point, (x, y, z)))))
@@ -108,7 +109,7 @@ def past_faces(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float
 
 
 @compiled
-def _is_real(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float, point: Vector3) -> bool:
+def _is_real(surface: Floats, frustum: Placed, depth: float, point: Vector3) -> bool:
     """Return whether a rim's point at a depth below a face [m] is inside of the body, and no other face is less deep.
 
     Depths within the margin ``CLOSED`` are real without a search.  Outside of the body the point has a margin, too: it
@@ -119,12 +120,12 @@ def _is_real(surface: Floats, frustum: Floats, pose: FrustumPose, depth: float, 
         return True
     if signed_distance(surface, point) > margin + FLUSH * depth:
         return False
-    return past_faces(surface, frustum, pose, depth, point) <= 0.0
+    return past_faces(surface, frustum, depth, point) <= 0.0
 
 
 @compiled
 def _rim_over(
-    surface: Floats, face: int, frustum: Floats, upper: int, pose: FrustumPose, otherwise: Vector3, reach: float
+    surface: Floats, face: int, frustum: Placed, upper: int, otherwise: Vector3, reach: float
 ) -> tuple[float, float]:
     """Return gap and distance past the border [m] of a rim over a face; the gap includes the sweeps of both bodies.
 
@@ -135,17 +136,17 @@ def _rim_over(
     The lowest point of a rim nearly parallel to the face moves far while the bodies hardly move.  Above the face the
     distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum.past_of_rim`).
 
-    ``pose`` is that of the frustum in the axes of the surface; ``otherwise`` is the unit vector to the contact point of
-    a rim parallel to the face.
+    ``frustum`` is in the axes of the surface; ``otherwise`` is the unit vector to the contact point of a rim
+    parallel to the face.
     """
-    middle, axis = pose
-    center, radius = plus_scaled(middle, frustum[LOW + upper], axis), frustum[LOW_RADIUS + upper]
-    up, sweep = 2.0 * upper - 1.0, frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    numbers, middle, axis = frustum
+    center, radius = plus_scaled(middle, numbers[LOW + upper], axis), numbers[LOW_RADIUS + upper]
+    up, sweep = 2.0 * upper - 1.0, numbers[FRUSTUM_SWEEP] + surface[SWEEP]
     size, face_row = surface[SIZE], face_at(surface, face)
     axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, face_row)), axis, otherwise)
     point = plus_scaled(center, radius, outward)
     height = face_height(surface, face_row, point)
-    past_cone = size * (off_cone_of_rim(frustum, up, radial, axial) - CONE_MARGIN)
+    past_cone = size * (off_cone_of_rim(numbers, up, radial, axial) - CONE_MARGIN)
     least_key, apart, past = reach * reach, reach, reach
     is_under, past_under = False, 0.0
     node = 0
@@ -167,7 +168,7 @@ def _rim_over(
             if key < least_key:
                 least_key, apart, past = key, math.sqrt(square), past_part
         node += 1
-    if is_under and _is_real(surface, frustum, pose, -height, point):
+    if is_under and _is_real(surface, frustum, -height, point):
         return height - sweep, past_under
     if past <= 0.0:
         return height - sweep, past
@@ -191,8 +192,8 @@ def write_rim(
     otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
     radius, sweep = frustum[LOW_RADIUS + upper], frustum[FRUSTUM_SWEEP]
     # any point of the rim may become the lowest one
-    pose, reach = frustum_in_surface(a, b, frustum), reach + 2.0 * radius
-    gap, past = _rim_over(surface, face, frustum, upper, pose, vector_in_body(b, otherwise), reach)
+    placed, reach = frustum_in_surface(a, b, frustum), reach + 2.0 * radius
+    gap, past = _rim_over(surface, face, placed, upper, vector_in_body(b, otherwise), reach)
     n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
     _, radial, outward = lowest_on_rim(n, axis, otherwise)
     point = plus_scaled(plus_scaled(center, radius, outward), sweep, n)
@@ -298,30 +299,8 @@ def _tip_past_rim(
 
 
 @compiled
-def _steepest(b: Floats, n_star: float, star: Floats, normal: Vector3) -> float:
-    """Return the sine of the largest angle at which an edge of a corner leads below the plane with a given normal.
-
-    It is negative if all edges lead above the plane.  ``normal`` is in the world; ``star`` holds ``n_star`` unit
-    vectors along the edges, in the frame ``b``.
-    """
-    n, down = vector_in_body(b, normal), -1.0
-    for i in range(int(n_star)):
-        down = max(down, -dot(n, vector_at(star, 3 * i)))
-    return down
-
-
-@compiled
 def write_corner(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    frustum: Floats,
-    place: Vector3,
-    n_star: float,
-    star: Floats,
-    lengths: Floats,
-    surface: Floats,
-    size: float,
+    a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats, corner: int, lengths: Floats, size: float
 ) -> None:
     """Write the geometry block of a corner of the second body and the nearest part of the first, cap or side.
 
@@ -329,9 +308,10 @@ def write_corner(
     plane; otherwise the edge touches it first.  The nearest part has the least sum of two squares, of the corner's
     height over the part and of its distance past the part's border.
 
-    ``place`` is the corner in its body frame [m].  ``star`` holds unit vectors along its ``n_star`` edges, ``lengths``
-    their lengths, for a disc [m].  ``size`` is the size of the larger body [m].
+    ``corner`` is the number of the corner.  For a disc, ``lengths`` are those of the edges of all corners, one corner
+    after the other [m].  ``size`` is the size of the larger body [m].
     """
+    row, (place, n_star, star) = corner_row(surface, corner), corner_at(surface, corner)
     axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
     point = point_in_world(b, place)
     along, away, outward = across(minus(point, center), axis)
@@ -345,11 +325,14 @@ def write_corner(
         if height < 0.0 and not is_disc:
             # a corner below a cap's plane or the side's cone touches it only if the corner is inside of the frustum
             past_border = max(past_border, highest)
-        past_border = max(past_border - margin, size * (_steepest(b, n_star, star, n) - CONE_MARGIN))
+        steepness = steepest(surface, row, vector_in_body(b, opposite(n)))
+        past_border = max(past_border - margin, size * (steepness - CONE_MARGIN))
         if is_disc and height < -CLOSED * size and past_border <= 0.0:
             # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
             # the point of the disc nearest to the corner
-            past_rim = _tip_past_rim(b, n_star, star, lengths, minus(point, center), n, -height, frustum[LOW_RADIUS])
+            own_lengths = block_at(lengths, int(surface[row + STAR]) // 3)
+            vertex = minus(point, center)
+            past_rim = _tip_past_rim(b, n_star, star, own_lengths, vertex, n, -height, frustum[LOW_RADIUS])
             foot = vector_in_body(b, minus(plus_scaled(point, -height, n), vector_at(b, POSITION)))
             if past_rim > 0.0 and depth_inside(surface, foot) == 0.0:
                 past_border = min(-height, past_rim)

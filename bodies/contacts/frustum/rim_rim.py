@@ -133,7 +133,8 @@ def evaluate_rims(
 
     Two rims may cross twice, once on either side of this line: ``half`` is 1 or -1, for the half circle of the first
     rim on one side or the other.  The contact points are the nearest points of the rims, and the normal is
-    perpendicular to both.  ``rim_a`` and ``rim_b`` are 1 for the lower rim, 3 for the upper one; ``size`` is the size of the bodies [m].
+    perpendicular to both.  ``rim_a`` and ``rim_b`` are 1 for the lower rim, 3 for the upper one.  ``size`` is the size
+    of the bodies [m].
     """
     one, two, axes = placed(a, first), placed(b, second), axes_in_world(b, second)
     (radius, height, up_a), (other_radius, height_b, up_b) = rim_of(first, rim_a), rim_of(second, rim_b)
