@@ -11,7 +11,7 @@ from nonsmooth.compiled import compiled
 Given = TypeVar("Given")
 Rule: TypeAlias = Callable[[Given, float], tuple[float, float, float]]
 """``rule(given, angle)``: value, slope and derivative of the slope of a function at an angle [rad]."""
-_STEPS = 100
+_STEPS = 60
 """Largest number of Newton steps; each keeps or narrows the bounds of the angle."""
 
 

@@ -67,6 +67,15 @@ def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> fl
 
 
 @compiled
+def off_side(frustum: Floats, up: float, radial: float, axial: float) -> float:
+    """Return the sine of the angle from the side's normal to a contact normal at a rim; 1 for a disc without a side.
+
+    The arguments are those of :func:`off_cone_of_rim`.  The sine is positive towards the normal of the cap.
+    """
+    return up * (frustum[COS] * axial - frustum[SIN] * radial) if frustum[SIDE] > 0.0 else 1.0
+
+
+@compiled
 def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float) -> float:
     """Return the sine of the angle between a contact normal and the normal cone of a rim; negative inside this cone.
 
@@ -74,9 +83,7 @@ def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float) -> 
     along it.  The cone lies between the normals of side and cap, or of both caps of a disc.  ``up`` is 1 for the upper
     rim and -1 for the lower one.
     """
-    if frustum[SIDE] == 0.0:
-        return -radial
-    return float(max(-radial, -up * (frustum[COS] * axial - frustum[SIN] * radial)))
+    return float(max(-radial, -off_side(frustum, up, radial, axial)))
 
 
 @compiled

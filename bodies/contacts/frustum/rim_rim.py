@@ -12,7 +12,7 @@ from typing import NamedTuple
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, SIDE, SIN, SWEEP
+from ...shapes.frustum import SIDE, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL
 from ..features.ends import CLOSED, REACH
@@ -20,7 +20,7 @@ from ..features.frames import across
 from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .circle import least_sample, zero_of_slope
 from .frustum import FLANK, LOW_RIM, placed, rim_of
-from .frustum_writing import Spot, off_cone_of_rim, past_border, past_depth, write_pair
+from .frustum_writing import Spot, off_cone_of_rim, off_side, past_border, past_depth, write_pair
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
@@ -187,10 +187,8 @@ def evaluate_rims(
     n = scaled(chosen_sign, n)
     gap = dot(n, w)
     past = past_border(-size, off_cone, size)
-    # sines of the angles between the contact normal and the normals of the two sides; a disc has no side
-    off_side_a = up_a * (first[COS] * dot(n, axis) - first[SIN] * dot(n, u)) if first[SIDE] > 0.0 else 1.0
-    radial = n[0] * e[0] + n[1] * e[1]
-    off_side_b = -up_b * (second[COS] * n[2] - second[SIN] * radial) if second[SIDE] > 0.0 else 1.0
+    off_side_a = off_side(first, up_a, dot(n, u), dot(n, axis))
+    off_side_b = off_side(second, up_b, -(n[0] * e[0] + n[1] * e[1]), -n[2])
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(off_side_a, off_side_b))
