@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,7 +31,7 @@ from ...shapes.frustum import (
     Point,
     frustum_numbers,
 )
-from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus_scaled, scaled, vector_at
+from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import PARALLEL
 from ..features.frames import across, point_in_world, vector_in_world
 from ..features.writing import write_flat, write_principal, write_round
@@ -81,34 +82,37 @@ def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
 
 
 @compiled
-def rim_of(frustum: Floats, rim: float) -> tuple[float, float, float]:
-    """Return radius [m], height over the centre [m] and side of a rim: 1 for ``HIGH_RIM``, -1 for ``LOW_RIM``."""
-    if rim > LOW_RIM:
+def rim_of(frustum: Floats, part: float) -> tuple[float, float, float]:
+    """Return radius [m], height over the centre [m] and side, 1 or -1 for an upper or a lower one, of a rim or cap."""
+    if part > FLANK:
         return frustum[HIGH_RADIUS], frustum[HIGH], 1.0
     return frustum[LOW_RADIUS], frustum[LOW], -1.0
+
+
+cap_of = rim_of
+
+
+class Placed(NamedTuple):
+    """A frustum in the world: its numbers, its centre [m] and its unit axis."""
+
+    numbers: Floats
+    center: Vector3
+    axis: Vector3
 
 
 @compiled
-def cap_of(frustum: Floats, cap: float) -> tuple[float, float, float]:
-    """Return radius [m], height over the centre [m] and side of a cap: 1 for ``HIGH_CAP``, -1 for ``LOW_CAP``."""
-    if cap > LOW_CAP:
-        return frustum[HIGH_RADIUS], frustum[HIGH], 1.0
-    return frustum[LOW_RADIUS], frustum[LOW], -1.0
+def placed(frame: Floats, frustum: Floats) -> Placed:
+    """Return a frustum in the world."""
+    return Placed(frustum, center_in_world(frame, frustum), axis_in_world(frame, frustum))
 
 
 @compiled
 def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float, float, float, int]:
     """Return the part of a frustum nearest to a point: signed distance [m], outward normal there, and part.
 
-    The distance is negative inside.  The normal is given by two components: radial, away from the axis, and axial.  The
-    plane through the axis and the point shows a trapezium, whose sides and corners are the parts.
-
-    Parameters
-    ----------
-    frustum : Floats
-        Numbers of the frustum.
-    along, away : float
-        Coordinate of the point along the axis from the centre, and its distance from the axis [m].
+    The distance is negative inside.  The normal is given by two components: radial, away from the axis, and axial.
+    ``along`` is the coordinate of the point along the axis from the centre, ``away`` its distance from the axis [m].
+    The plane through the axis and the point shows a trapezium, whose sides and corners are the parts.
     """
     # heights of the point over the planes of both caps and over the side, continued past its rims
     over_low, over_high = frustum[LOW] - along, along - frustum[HIGH]
@@ -135,6 +139,33 @@ def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float,
         dr, dz = away - frustum[HIGH_RADIUS], over_high
     distance = math.sqrt(dr * dr + dz * dz)
     return distance, dr / distance, dz / distance, part
+
+
+@compiled
+def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
+    """Return height of a point over a cap's plane or the side's cone, distance past its border [m], and the normal.
+
+    The height is positive outside, the distance past the border is negative over the part.  The arguments and the
+    components of the normal are those of :func:`nearest_part`.  A part that the frustum does not have, the side of a
+    disc or the upper cap of a cone, is infinitely far above the point.
+    """
+    if part == LOW_CAP:
+        return frustum[LOW] - along, away - frustum[LOW_RADIUS], 0.0, -1.0
+    if (frustum[SIDE] if part == FLANK else frustum[HIGH_RADIUS]) == 0.0:
+        return -math.inf, math.inf, 0.0, 1.0
+    if part == HIGH_CAP:
+        return along - frustum[HIGH], away - frustum[HIGH_RADIUS], 0.0, 1.0
+    cosine, sine = frustum[COS], frustum[SIN]
+    dr, dz = away - frustum[LOW_RADIUS], along - frustum[LOW]
+    # coordinate of the point along the side, from the lower rim upwards
+    up = cosine * dz - sine * dr
+    return cosine * dr + sine * dz, max(-up, up - frustum[SIDE]), cosine, sine
+
+
+@compiled
+def normal_of_part(axis: Vector3, outward: Vector3, radial: float, axial: float) -> Vector3:
+    """Return the normal with the components ``radial`` along the unit vector ``outward``, ``axial`` along the axis."""
+    return plus(scaled(radial, outward), scaled(axial, axis))
 
 
 @compiled
@@ -165,56 +196,44 @@ def least_height(frustum: Floats, height: float, axis: Vector3, normal: Vector3)
 
 
 @compiled
-def separation_along(a: Floats, first: Floats, b: Floats, second: Floats, n: Vector3) -> float:
+def separation_along(first: Placed, second: Placed, n: Vector3) -> float:
     """Return the separation of two frustums along the unit vector ``n`` from the first to the second [m].
 
     It is the width of the gap between two planes with the normal n, each of which touches one frustum.  It is negative
-    if the frustums overlap along n.  ``n`` is in the world.
+    if the frustums overlap along n.
     """
-    height = dot(n, minus(center_in_world(b, second), center_in_world(a, first)))
-    height = least_height(first, height, axis_in_world(a, first), opposite(n))
-    return float(least_height(second, height, axis_in_world(b, second), n))
+    height = dot(n, minus(second.center, first.center))
+    height = least_height(first.numbers, height, first.axis, opposite(n))
+    return float(least_height(second.numbers, height, second.axis, n))
 
 
 @compiled
-def separation_by_second(a: Floats, first: Floats, b: Floats, second: Floats) -> float:
+def separation_by_second(first: Placed, second: Placed) -> float:
     """Return the largest separation of two frustums along normals of the second one's surface [m].
 
     It is a lower bound of their separation, which may be larger along another direction.  The normals are those of both
     caps, and that of the side where the side faces the first centre.  All directions lead from the first frustum to the
     second, so they point into the second one.
     """
-    axis = axis_in_world(b, second)
-    _, _, radial = across(minus(center_in_world(b, second), center_in_world(a, first)), axis)
-    best = separation_along(a, first, b, second, axis)
-    best = max(best, separation_along(a, first, b, second, opposite(axis)))
-    best = max(best, separation_along(a, first, b, second, radial))
+    axis, sine = second.axis, second.numbers[SIN]
+    _, _, radial = across(minus(second.center, first.center), axis)
+    best = max(separation_along(first, second, axis), separation_along(first, second, opposite(axis)))
+    best = max(best, separation_along(first, second, radial))
     # the radial direction is the normal of a cylinder's side, not of a cone's
-    if second[SIN] != 0.0:
-        inward = plus_scaled(scaled(second[COS], radial), -second[SIN], axis)
-        best = max(best, separation_along(a, first, b, second, inward))
+    if sine != 0.0:
+        inward = plus_scaled(scaled(second.numbers[COS], radial), -sine, axis)
+        best = max(best, separation_along(first, second, inward))
     return float(best)
 
 
 @compiled
 def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
-    """Write the curvature matrices (slide, turn) of a part of a frustum at the contact point to the geometry block.
+    """Write the curvature matrices of a part of a frustum at the contact point from index ``side`` of a geometry block.
 
     They are explained in :func:`bodies.contacts.features.writing.write_principal`.  The caller has already written the
-    normal and the first tangent to ``out``.
-
-    Parameters
-    ----------
-    out, side : Floats, int
-        The geometry block, and the index at which the matrices begin.
-    part : int
-        Number of the part, such as ``FLANK``.
-    axis, outward : Vector3
-        The unit axis, and the unit vector from the axis towards the point, perpendicular to the axis, in the world.
-    radial : float
-        Component of the outward normal along ``outward``.
-    away : float
-        Distance of the point from the axis [m].
+    normal and the first tangent to ``out``.  ``outward`` is the unit vector from the axis towards the point, across the
+    axis.  ``radial`` is the component of the outward normal along it, ``away`` the distance of the point from the axis
+    [m].
     """
     # the apex, a rim of radius 0, has the curvature of a point
     if part == LOW_CAP or part == HIGH_CAP:
@@ -226,41 +245,6 @@ def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector
         # along the axis does not turn; the least value keeps the matrices regular
         flank, slide = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
         write_principal(out, side, cross(axis, outward), slide, away, 1.0 - flank, flank)
-
-
-@compiled
-def tip_past_rim(
-    b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
-) -> float:
-    """Return a length [m] that is negative if a vertex behind a disc went through the disc.
-
-    Each edge of the vertex that leads back through the disc's plane crosses it at a distance from the disc's centre.
-    The result is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the
-    plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise
-    the edges pass the rim from the side.
-
-    Parameters
-    ----------
-    b : Floats
-        Frame block of the body with the vertex.
-    n_star, star, lengths : float, Floats, Floats
-        Number of edges of the vertex, unit vectors along them in the body frame, and their lengths [m].
-    p, n : Vector3
-        The vertex, from the centre of the disc [m], and the unit normal of the disc, in the world.
-    depth, radius : float
-        Distance of the vertex from the disc's plane, in the direction -n, and radius of the disc [m].
-    """
-    least = math.inf
-    for i in range(int(n_star)):
-        edge = vector_in_world(b, vector_at(star, 3 * i))
-        rise = dot(n, edge)
-        # ignore edges that do not lead back, or that cross the plane only in their far half, next to another vertex
-        if rise * lengths[i] <= 2.0 * depth:
-            continue
-        crossing = plus_scaled(p, depth / rise, edge)
-        along = dot(n, crossing)
-        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - radius)
-    return least + depth
 
 
 _N_EDGES = 12
@@ -300,10 +284,9 @@ def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point
     Apex and feet have the radius 0.  The apex is left out unless ``is_sharp``: if a body of the pair is rounded, the
     apex is a sphere, which has contacts of its own.
     """
-    for has_radius in (True, False):
-        for i, (radius, place) in enumerate(first.standing_rims):
-            if (radius > 0.0) == has_radius and (has_radius or is_sharp):
-                yield radius, place, f"rim {i}" if has_radius else "apex"
+    for i, (radius, place) in enumerate(first.standing_rims):
+        if radius > 0.0 or is_sharp:
+            yield radius, place, f"rim {i}" if radius > 0.0 else "apex"
     for i, foot in enumerate(first.feet):
         yield 0.0, foot, f"foot {i}"
 

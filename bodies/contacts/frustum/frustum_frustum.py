@@ -6,17 +6,17 @@ import itertools
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, final
 
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import FEET, HIGH_RADIUS, SIDE, SWEEP, Frustum, without_feet
-from ...vectors import minus, opposite, plus_scaled, scaled, vector_at
-from ..features.ends import CLOSED, REACH
+from ...shapes.frustum import COS, FEET, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum, without_feet
+from ...vectors import Vector3, dot, minus, norm, plus_scaled, scaled, vector_at
+from ..features.ends import CLOSED, END, NEAR, REACH
 from ..features.frames import across, point_in_world
-from .apex_frustum import evaluate_apex_over_frustum
-from .flank_flank import evaluate_sides
 from .frustum import (
     FLATTEST,
     HIGH_CAP,
@@ -24,20 +24,61 @@ from .frustum import (
     LOW_CAP,
     LOW_RIM,
     RIM_NAMES,
-    axis_in_world,
+    Placed,
     cap_of,
-    center_in_world,
+    nearest_part,
     part_names,
+    part_number,
     past_of_rim,
+    placed,
     rims_and_tips,
     rims_of,
     separation_along,
     separation_by_second,
     set_back,
 )
-from .frustum_writing import past_depth, past_disc, write_rounded_part, write_two
-from .rim_flank import evaluate_rim_over_side
+from .frustum_writing import Spot, past_apex, past_depth, write_pair
 from .rim_rim import evaluate_rims
+from .sides import evaluate_rim_over_side, evaluate_sides
+
+
+@compiled
+def _past_disc(first: Placed, second: Placed, up: float, gap: float, p: Vector3, is_tip: bool, size: float) -> float:
+    """Return the distance of a contact of a disc's face past its boundary [m]; negative if it is valid.
+
+    The face is the upper one of the disc ``second`` if ``up`` is 1, the lower one if it is -1.  ``p`` is the point of
+    the frustum ``first`` that is lowest over the face, or the tip of a foot or cone (``is_tip``), in the world [m];
+    ``gap`` is its height over the face [m].
+
+    If p lies below the face, one of two conditions must hold:
+
+    - the line from p to the middle of the frustum leads back through the disc, and the rim of the disc lies below it;
+    - the point of the face above p is inside of the frustum, and no other direction separates the bodies better.
+
+    The second one holds where p passes below the rim, so that the contact of both rims ends where this one begins.
+    Discs in one plane touch with the faces of both sides; the engine takes the face on the side from which the other
+    disc came.
+    """
+    numbers = first.numbers
+    middle = plus_scaled(first.center, 0.5 * (numbers[LOW] + numbers[HIGH]), first.axis)
+    height, to_middle = up * dot(second.axis, minus(middle, second.center)), minus(middle, p)
+    # the end of a frustum with a tip must face the disc; a raised foot may be higher than the middle
+    if is_tip and up * dot(to_middle, first.axis) * dot(first.axis, second.axis) < 0.0:
+        return size
+    if gap >= -REACH * size:
+        return -size
+    # a frustum with its middle below the face touches the other face, and so does a rounded one with its core below it
+    if height <= REACH * size or numbers[SWEEP] + second.numbers[SWEEP] > 0.0:
+        return size
+    # first condition: distance from the disc's axis at which the line from p to the middle crosses the face, and
+    # distance of the disc's rim from the line, negative if the line crosses the disc. The margin keeps a disc whose rim
+    # only touches the frustum
+    _, away, _ = across(minus(plus_scaled(p, gap / (gap - height), to_middle), second.center), second.axis)
+    past_rim = REACH * size - (second.numbers[LOW_RADIUS] - away) * (height - gap) / norm(to_middle)
+    # second condition: distance of the point of the face above p from the frustum
+    along, away, _ = across(minus(plus_scaled(p, -up * gap, second.axis), first.center), first.axis)
+    outside = nearest_part(numbers, along, away)[0] - REACH * size
+    return float(min(past_rim, max(outside, past_depth(first, second, gap, size))))
 
 
 def evaluate_rim_over_cap(
@@ -54,56 +95,72 @@ def evaluate_rim_over_cap(
 ) -> None:
     """Write the geometry block of a cap of one body and the point of a rim of the other that is lowest over the cap.
 
-    Feet and apices are rims of radius 0.  The contact ends at the border of the cap.
-
-    Parameters
-    ----------
-    a, b, out : Floats
-        Frame blocks of both bodies, and the geometry block.
-    swap : float
-        1 if the rim belongs to the second body, else 0.
-    first, second : Floats
-        The body with the rim, and the body with the cap.
-    radius : float
-        Radius of the rim [m].
-    center : Floats
-        Centre of the rim in the body frame [m].
-    cap : float
-        0 for the lower cap, 4 for the upper one.
-    size : float
-        Size of the bodies [m].
+    Feet and apices are rims of radius 0.  The contact ends at the border of the cap.  ``first`` is the body with the
+    rim, the second body if ``swap`` is 1; ``second`` is the body with the cap.  The rim has a ``radius`` [m] and the
+    ``center`` in its body frame [m].  ``cap`` is 0 for the lower cap, 4 for the upper one.  ``size`` is the size of the
+    bodies [m].
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
-    axis, cap_axis, cap_center = axis_in_world(own, first), axis_in_world(other, second), center_in_world(other, second)
+    one, two = placed(own, first), placed(other, second)
     cap_radius, height, up = cap_of(second, cap)
-    n, middle = scaled(-up, cap_axis), point_in_world(own, vector_at(center, 0))
-    _, sine, outward = across(n, axis)
+    n, middle = scaled(-up, two.axis), point_in_world(own, vector_at(center, 0))
+    _, sine, outward = across(n, one.axis)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
     if radius > 0.0 and sine < FLATTEST:
         # a rim parallel to the cap has no lowest point: take the one towards the cap's centre, which moves no faster
         # than the bodies. Feet touch first, if they are over the cap
-        _, _, outward = across(minus(cap_center, middle), axis)
+        _, _, outward = across(minus(two.center, middle), one.axis)
         margin, sine = -4.0 * CLOSED, 1.0
     p = plus_scaled(middle, radius, outward)
-    along, away, from_axis = across(minus(p, cap_center), cap_axis)
+    along, away, from_axis = across(minus(p, two.center), two.axis)
     gap = up * (along - height)
     past = away - cap_radius - margin * size
     if gap > first[SWEEP] + second[SWEEP]:
         past = past_of_rim(past, radius, sine)
     if second[SIDE] == 0.0:
-        past = max(past, past_disc(own, first, other, second, up, gap, p, radius == 0.0, size))
+        past = max(past, _past_disc(one, two, up, gap, p, radius == 0.0, size))
     else:
         # the feet of a disc protrude from its core
         foot = first[FEET] if first[SIDE] == 0.0 and radius == 0.0 else 0.0
-        past = max(past, past_depth(own, first, other, second, gap + foot, size))
+        past = max(past, past_depth(one, two, gap + foot, size))
         if gap < 0.0:
             # another part of the body with the cap may separate the bodies by a shorter translation
-            best = separation_by_second(own, first, other, second)
-            past = max(past, best - separation_along(own, first, other, second, n) - REACH * size)
-    write_two(a, out, swap, first, second, gap, past, n, p)
-    write_rounded_part(out, swap, first, LOW_RIM, axis, outward, n, radius)
-    write_rounded_part(out, 1.0 - swap, second, int(cap), cap_axis, from_axis, opposite(n), away)
+            past = max(past, separation_by_second(one, two) - separation_along(one, two, n) - REACH * size)
+    write_pair(a, out, swap, one, two, gap, past, n, p, Spot(LOW_RIM, outward, radius), Spot(int(cap), from_axis, away))
+
+
+def evaluate_apex_over_frustum(
+    a: Floats, b: Floats, out: Floats, swap: float, first: Floats, second: Floats, size: float
+) -> None:
+    """Write the geometry block of the apex of a body and the nearest part of the other, if one of the two is rounded.
+
+    ``first`` is the frustum with the apex, that of the second body if ``swap`` is 1; ``second`` is the other frustum.
+    ``size`` is the size of the bodies [m].  The contact ends if the side of the cone is nearer than the apex.
+    """
+    own, other = (b, a) if swap == 1.0 else (a, b)
+    one, two = placed(own, first), placed(other, second)
+    p = plus_scaled(one.center, first[HIGH], one.axis)
+    along, away, outward = across(minus(p, two.center), two.axis)
+    distance, radial, axial, part = nearest_part(second, along, away)
+    n = plus_scaled(scaled(-radial, outward), -axial, two.axis)
+    past = past_apex(first, distance, dot(n, one.axis), size)
+    if distance - first[SWEEP] - second[SWEEP] > NEAR * size:
+        # the apex sphere is part of the body: its gap is an upper bound, so at a large gap the contact stays valid
+        past = min(past, -END * size)
+    if swap == 1.0 and second[HIGH_RADIUS] == 0.0:
+        # two apices have one contact, that of the first body's apex: this contact ends before the other apex. ``up`` is
+        # the coordinate of the point along the other side, from the lower rim
+        up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[LOW_RADIUS])
+        past = max(past, END * size - (second[SIDE] - up))
+    # distance of the other contact point from its axis: exact on a rim
+    point_away = max(away - distance * radial, 0.0)
+    if part == LOW_RIM or part == HIGH_RIM:
+        point_away, _, _ = cap_of(second, float(part))
+    write_pair(
+        a, out, swap, one, two, distance, past, n, p, Spot(HIGH_RIM, outward, 0.0), Spot(part, outward, point_away)
+    )
+    out[FEATURE] = part_number(second, part)
 
 
 @final

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN
+from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.ends import CLOSED
 from ..features.frames import across
 from ..surface.surface_search import face_at, in_triangle, steepest
-from ..surface.surface_tables import CORNER, CORNERS, FACE_NUMBER
-from .frustum import FLANK, HIGH_CAP, LOW_CAP, nearest_part
-from .frustum_corner import has_part, normal_of_part, over_part
+from ..surface.surface_tables import CORNER, CORNERS, FACE_NUMBER, SWEEP
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, Placed, nearest_part, normal_of_part, over_part
 from .frustum_writing import off_cone_of_rim
-from .rim_face import FrustumPose, lowest_on_rim
+from .over_faces import lowest_on_rim
 
 _HALVINGS = 40
 """Largest number of halvings of an edge: the rest is shorter than round-off of its length."""
@@ -28,18 +29,41 @@ _SHARP = 1e-3
 """Margin for round-off of angles [rad], and length of the sum of two unit normals below which it has no direction."""
 
 
-@compiled
-def from_core(frustum: Floats, pose: FrustumPose, point: Vector3) -> float:
-    """Return the signed distance of a point, in the surface's axes, from the frustum's core [m]; negative inside."""
-    along, away, _ = across(minus(point, pose[0]), pose[1])
-    return float(nearest_part(frustum, along, away)[0])
+class Search(NamedTuple):
+    """A search for features of a surface that may soon touch a frustum, in the axes of the surface."""
+
+    surface: Floats
+    """The surface (:mod:`bodies.contacts.surface.surface_tables`)."""
+    frustum: Placed
+    """The frustum."""
+    reach: float
+    """Distance from the frustum's core up to which features are near [m]."""
+    turn: float
+    """Largest relative rotation of the bodies until the next search [rad]."""
+    size: float
+    """Size of the bodies [m]."""
+
+
+class _Segment(NamedTuple):
+    """An edge: its start [m], unit vector and length [m]."""
+
+    start: Vector3
+    along: Vector3
+    length: float
 
 
 @compiled
-def _from_rim(frustum: Floats, upper: int, pose: FrustumPose, point: Vector3) -> float:
+def from_core(frustum: Placed, point: Vector3) -> float:
+    """Return the signed distance of a point from the frustum's core [m]; negative inside."""
+    along, away, _ = across(minus(point, frustum.center), frustum.axis)
+    return float(nearest_part(frustum.numbers, along, away)[0])
+
+
+@compiled
+def _from_rim(frustum: Placed, upper: int, point: Vector3) -> float:
     """Return the distance of a point from a rim of the core [m]; ``upper`` is 1 for the upper rim, 0 for the lower."""
-    along, away, _ = across(minus(point, pose[0]), pose[1])
-    return math.hypot(along - frustum[LOW + upper], away - frustum[LOW_RADIUS + upper])
+    along, away, _ = across(minus(point, frustum.center), frustum.axis)
+    return math.hypot(along - frustum.numbers[LOW + upper], away - frustum.numbers[LOW_RADIUS + upper])
 
 
 @compiled
@@ -53,73 +77,60 @@ def _swing(radial: float, turn: float) -> float:
 
 
 @compiled
-def _lowest(frustum: Floats, upper: int, pose: FrustumPose, n: Vector3) -> tuple[Vector3, float, float]:
+def _lowest(frustum: Placed, upper: int, n: Vector3) -> tuple[Vector3, float, float]:
     """Return a rim's farthest point along n [m], the radial component of n, and a sine.
 
-    n points into the surface, so that this is the rim's lowest point over it.  ``upper`` is 1 for the upper rim, 0 for
-    the lower one.  The sine is that of the angle between n and the normal cone of the rim, negative inside this cone.
+    n points into the surface, so that this is the rim's lowest point over it.  The sine is that of the angle between n
+    and the normal cone of the rim, negative inside this cone.
     """
-    center, axis = pose
+    numbers, center, axis = frustum
     # for an axis along n any point of the rim is lowest: the bound of :func:`_swing` is then a diameter
     axial, radial, outward = lowest_on_rim(n, axis, (1.0, 0.0, 0.0))
-    off_cone = off_cone_of_rim(frustum, 2.0 * upper - 1.0, radial, axial, frustum[SIDE] == 0.0)
-    lowest = plus_scaled(plus_scaled(center, frustum[LOW + upper], axis), frustum[LOW_RADIUS + upper], outward)
+    off_cone = off_cone_of_rim(numbers, 2.0 * upper - 1.0, radial, axial)
+    lowest = plus_scaled(plus_scaled(center, numbers[LOW + upper], axis), numbers[LOW_RADIUS + upper], outward)
     return lowest, radial, off_cone
 
 
 @compiled
-def rim_is_near(
-    surface: Floats, row: int, frustum: Floats, upper: int, pose: FrustumPose, reach: float, turn: float
-) -> bool:
+def rim_is_near(search: Search, row: int, upper: int) -> bool:
     """Return whether a rim may touch a triangle, at its point that is lowest over it, before the next search.
 
-    Parameters
-    ----------
-    surface, row : Floats, int
-        The surface, and the index at which the row of the triangle begins.
-    frustum, upper, pose : Floats, int, tuple
-        The frustum, 1 for its upper rim or 0 for the lower one, and its pose in the axes of the surface.
-    reach, turn : float
-        Distance from the frustum's core up to which features are near [m], and largest relative rotation of the bodies
-        until the next search [rad].
+    The row of the triangle begins at index ``row`` of the surface; ``upper`` is 1 for the upper rim, 0 for the lower.
     """
+    surface, frustum, reach, turn, _ = search
     n = opposite(vector_at(surface, face_at(surface, int(surface[row + FACE_NUMBER]))))
-    lowest, radial, off_cone = _lowest(frustum, upper, pose, n)
+    lowest, radial, off_cone = _lowest(frustum, upper, n)
     if off_cone > CONE_MARGIN + turn:
         return False
     # a cheap test first: the whole rim and a ball about the triangle
     p, q, r = vector_at(surface, row), vector_at(surface, row + 3), vector_at(surface, row + 6)
     middle = divided(plus(plus(p, q), r), 3.0)
     radius = max(norm(minus(p, middle)), norm(minus(q, middle)), norm(minus(r, middle)))
-    if _from_rim(frustum, upper, pose, middle) > reach + radius:
+    if _from_rim(frustum, upper, middle) > reach + radius:
         return False
     x, y, z, _ = in_triangle(surface, row, lowest)
-    apart, most = minus(lowest, (x, y, z)), reach + frustum[LOW_RADIUS + upper] * _swing(radial, turn)
+    apart, most = minus(lowest, (x, y, z)), reach + frustum.numbers[LOW_RADIUS + upper] * _swing(radial, turn)
     return bool(dot(apart, apart) <= most * most)
 
 
 @compiled
-def _edge_comes_near(
-    frustum: Floats, pose: FrustumPose, start: Vector3, direction: Vector3, length: float, reach: float
-) -> bool:
+def _edge_comes_near(frustum: Placed, edge: _Segment, reach: float) -> bool:
     """Return whether a point of an edge is within the signed distance ``reach`` [m] of the core.
 
-    A negative ``reach`` is a depth inside the core.  The edge begins at ``start`` [m] and has the unit vector
-    ``direction`` and a ``length`` [m].  The distance from a convex body is a convex function along a line, so that
-    halvings find its minimum.
+    A negative ``reach`` is a depth inside the core.  The distance from a convex body is a convex function along a line,
+    so that halvings find its minimum.
     """
-    center, axis = pose
-    low, high = 0.0, length
+    low, high = 0.0, edge.length
     for _ in range(_HALVINGS):
         s, half = 0.5 * (low + high), 0.5 * (high - low)
-        along, away, outward = across(minus(plus_scaled(start, s, direction), center), axis)
-        distance, radial, axial, _ = nearest_part(frustum, along, away)
+        along, away, outward = across(minus(plus_scaled(edge.start, s, edge.along), frustum.center), frustum.axis)
+        distance, radial, axial, _ = nearest_part(frustum.numbers, along, away)
         if distance <= reach:
             return True
         # the distance changes by at most the length of half of the interval
         if distance - half > reach:
             return False
-        if radial * dot(outward, direction) + axial * dot(axis, direction) > 0.0:
+        if radial * dot(outward, edge.along) + axial * dot(frustum.axis, edge.along) > 0.0:
             high = s
         else:
             low = s
@@ -127,7 +138,7 @@ def _edge_comes_near(
 
 
 @compiled
-def edge_normal(surface: Floats, row: int) -> tuple[Vector3, float]:
+def _edge_normal(surface: Floats, row: int) -> tuple[Vector3, float]:
     """Return the inward unit vector opposite to the mean normal of an edge's faces, and half of their angle [rad].
 
     The row of the edge begins at index ``row``.  If the outward normals of both faces are nearly opposite, they have no
@@ -144,91 +155,70 @@ def edge_normal(surface: Floats, row: int) -> tuple[Vector3, float]:
 
 
 @compiled
-def edge_is_near(
-    surface: Floats, row: int, frustum: Floats, pose: FrustumPose, reach: float, turn: float, size: float
-) -> tuple[bool, bool, bool]:
-    """Return whether an edge may touch the side, the lower rim and the upper rim before the next search.
-
-    The arguments are those of :func:`rim_is_near`; the row of the edge begins at index ``row``, and ``size`` is the
-    size of the bodies [m].  An edge that passes through the frustum may touch each part that the frustum has, at any
-    angle between the normals, because the bodies overlap.
-    """
-    start, along, length = vector_at(surface, row), vector_at(surface, row + ALONG), surface[row + LENGTH]
-    has_upper = frustum[SIDE] > 0.0 and frustum[HIGH_RADIUS] > 0.0
-    if not _edge_comes_near(frustum, pose, start, along, length, reach):
-        return False, False, False
-    # a disc has no inside
-    inside = 0.0 if frustum[SIDE] == 0.0 else -CLOSED * size
-    if _edge_comes_near(frustum, pose, start, along, length, inside):
-        return frustum[SIDE] > 0.0, True, has_upper
-    # an edge touches with the normals between those of its faces
-    n, half = edge_normal(surface, row)
-    most_angle = half + turn + _SHARP
-    flank = frustum[SIDE] > 0.0 and abs(dot(n, pose[1]) - frustum[SIN]) <= most_angle
-    lower = _rim_crosses(frustum, 0, pose, n, most_angle, start, along, length, reach)
-    upper = has_upper and _rim_crosses(frustum, 1, pose, n, most_angle, start, along, length, reach)
-    return flank, lower, upper
-
-
-@compiled
-def _rim_crosses(
-    frustum: Floats,
-    upper: int,
-    pose: FrustumPose,
-    normal: Vector3,
-    most_angle: float,
-    start: Vector3,
-    along: Vector3,
-    length: float,
-    reach: float,
-) -> bool:
+def _rim_crosses(search: Search, upper: int, normal: Vector3, most_angle: float, edge: _Segment) -> bool:
     """Return whether an edge may touch a rim at the rim's farthest point along a normal near ``normal``.
 
-    All normals within ``most_angle`` [rad] of ``normal`` are considered.  The edge is given by its start [m], its unit
-    vector ``along`` and its length [m].  ``upper`` is 1 for the upper rim, 0 for the lower one.  ``reach`` is the
-    distance from the core up to which features are near [m].
+    All normals within ``most_angle`` [rad] of ``normal`` are considered.  ``upper`` is 1 for the upper rim, 0 for the
+    lower one.
     """
-    lowest, radial, off_cone = _lowest(frustum, upper, pose, normal)
+    frustum, reach, (start, along, length) = search.frustum, search.reach, edge
+    lowest, radial, off_cone = _lowest(frustum, upper, normal)
     if off_cone > most_angle:
         return False
     # the edge must be near the lowest point, which moves round the rim as the normal turns
-    most = reach + frustum[LOW_RADIUS + upper] * _swing(radial, most_angle)
+    radius = frustum.numbers[LOW_RADIUS + upper]
+    most = reach + radius * _swing(radial, most_angle)
     s = min(max(dot(minus(lowest, start), along), 0.0), length)
     apart = minus(plus_scaled(start, s, along), lowest)
     if dot(apart, apart) > most * most:
         return False
     # and a piece of the edge must be near the rim: pieces of a quarter of the rim's radius, if these are not too many
-    pieces = min(_PIECES, 1 + int(4.0 * length / frustum[LOW_RADIUS + upper]))
+    pieces = min(_PIECES, 1 + int(4.0 * length / radius))
     half = 0.5 * length / pieces
     for i in range(pieces):
-        if _from_rim(frustum, upper, pose, plus_scaled(start, (2 * i + 1) * half, along)) <= reach + half:
+        if _from_rim(frustum, upper, plus_scaled(start, (2 * i + 1) * half, along)) <= reach + half:
             return True
     return False
 
 
 @compiled
-def corner_is_near(
-    surface: Floats,
-    corner: int,
-    frustum: Floats,
-    pose: FrustumPose,
-    sweep: float,
-    reach: float,
-    turn: float,
-    size: float,
-) -> bool:
-    """Return whether a corner may touch the frustum before the next search; arguments as in :func:`rim_is_near`.
+def edge_is_near(search: Search, row: int) -> tuple[bool, bool, bool]:
+    """Return whether an edge may touch the side, the lower rim and the upper rim before the next search.
 
-    ``corner`` is the number of the corner, ``sweep`` the sum of both rounding radii [m], ``size`` the size of the
-    bodies [m].  If a body is rounded, a corner touches only if none of its edges leads towards the point of the
-    frustum's core that is nearest to the corner.  The vector from the corner to this point changes by at most the
-    displacement of the corner.  A sharp corner touches a cap or the side of a sharp frustum only if none of its edges
-    leads into the frustum more steeply than ``CONE_MARGIN``.
+    The row of the edge begins at index ``row`` of the surface.  An edge that passes through the frustum may touch each
+    part that the frustum has, at any angle between the normals, because the bodies overlap.
     """
-    row = int(surface[CORNERS]) + CORNER * corner
-    center, axis = pose
+    surface, frustum = search.surface, search.frustum
+    numbers = frustum.numbers
+    edge = _Segment(vector_at(surface, row), vector_at(surface, row + ALONG), surface[row + LENGTH])
+    has_side = numbers[SIDE] > 0.0
+    has_upper = has_side and numbers[HIGH_RADIUS] > 0.0
+    if not _edge_comes_near(frustum, edge, search.reach):
+        return False, False, False
+    # a disc has no inside
+    if _edge_comes_near(frustum, edge, -CLOSED * search.size if has_side else 0.0):
+        return has_side, True, has_upper
+    # an edge touches with the normals between those of its faces
+    n, half = _edge_normal(surface, row)
+    most_angle = half + search.turn + _SHARP
+    flank = has_side and abs(dot(n, frustum.axis) - numbers[SIN]) <= most_angle
+    upper = has_upper and _rim_crosses(search, 1, n, most_angle, edge)
+    return flank, _rim_crosses(search, 0, n, most_angle, edge), upper
+
+
+@compiled
+def corner_is_near(search: Search, corner: int) -> bool:
+    """Return whether a corner may touch the frustum before the next search.
+
+    If a body is rounded, a corner touches only if none of its edges leads towards the point of the frustum's core that
+    is nearest to the corner.  The vector from the corner to this point changes by at most the displacement of the
+    corner.  A sharp corner touches a cap or the side of a sharp frustum only if none of its edges leads into the
+    frustum more steeply than ``CONE_MARGIN``.
+    """
+    surface, (numbers, center, axis), reach, turn, size = search
+    row, sweep = int(surface[CORNERS]) + CORNER * corner, numbers[FRUSTUM_SWEEP] + surface[SWEEP]
     along, away, outward = across(minus(vector_at(surface, row), center), axis)
-    distance, radial, axial, _ = nearest_part(frustum, along, away)
+    distance, radial, axial, _ = nearest_part(numbers, along, away)
     if distance > reach:
         return False
     if distance < -CLOSED * size:
@@ -238,9 +228,7 @@ def corner_is_near(
         inward, displacement = opposite(normal_of_part(axis, outward, radial, axial)), reach - sweep
         return bool(distance <= 0.0 or distance * steepest(surface, row, inward) <= displacement + turn * distance)
     for part in (LOW_CAP, FLANK, HIGH_CAP):
-        if not has_part(frustum, part):
-            continue
-        height, past, radial, axial = over_part(frustum, part, along, away)
+        height, past, radial, axial = over_part(numbers, part, along, away)
         most_angle = turn
         if part == FLANK:
             # as the corner moves by up to ``reach``, the side's normal turns round the axis: add a bound of the angle

@@ -24,24 +24,19 @@ from ..surface.surface_near import patches_near, patches_under, room_ahead
 from ..surface.surface_pairs import MOST_NEAR, limits
 from ..surface.surface_search import ON_EDGE, ON_FACE, corner_at, edge_at, feature_of, member_of, node_at
 from ..surface.surface_tables import (
-    CORNER,
-    CORNERS,
     N_MEMBERS,
     N_NODES,
     SKIP,
-    STAR,
     SWEEP,
     UPPER,
     star_lengths,
     surface_numbers,
 )
-from .edge_in_surface import write_across_rim, write_across_side
+from .edges import write_across_rim, write_across_side
 from .frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, part_names, rims_of, set_back
-from .frustum_corner import write_corner
-from .frustum_near import corner_is_near, edge_is_near, from_core, rim_is_near
+from .frustum_near import Search, corner_is_near, edge_is_near, from_core, rim_is_near
 from .frustum_sphere import write_frustum_vertex
-from .rim_face import FrustumPose, frustum_in_surface, write_rim
-from .tips_over_surface import write_apex, write_tip
+from .over_faces import frustum_in_surface, write_apex, write_corner, write_rim, write_tip
 
 RIM, POINT, APEX, UNDER, ACROSS_FLANK, ACROSS_BACK, ACROSS_FRONT = 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
 """Kinds of candidates, the first of a candidate's three numbers.
@@ -62,8 +57,12 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
     """Append a candidate to the ``n`` candidates in ``out``, unless n exceeds ``most``; return the new number.
 
     ``kind``, ``second`` and ``third`` are the three numbers of the candidate: its kind and its two features.  One
-    candidate more than ``most`` may be appended; it means that there are too many.
+    candidate more than ``most`` may be appended; it means that there are too many.  A face of several triangles is
+    found once for each of them, and appended once.
     """
+    for i in range(n if kind == RIM else 0):
+        if out[1 + 3 * i] == RIM and out[2 + 3 * i] == second and out[3 + 3 * i] == third:
+            return n
     if n > most:
         return n
     out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, second, third
@@ -71,64 +70,29 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 
 
 @compiled
-def _add_face(face: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Append a rim over a face to the ``n`` candidates, unless it is one of them; return their new number.
-
-    A face of several triangles is found once for each of them.  ``upper`` is 1 for the upper rim, 0 for the lower one.
-    """
-    for i in range(n):
-        if out[1 + 3 * i] == RIM and out[2 + 3 * i] == face and out[3 + 3 * i] == upper:
-            return n
-    return int(_add(RIM, face, upper, out, n, most))
-
-
-@compiled
-def _add_halves(edge: float, upper: float, out: Floats, n: int, most: int) -> int:
-    """Append two candidates, an edge of the surface with each half of a rim, to the ``n`` candidates in ``out``.
-
-    ``upper`` is 1 for the upper rim, 0 for the lower one.  Nothing is appended if n exceeds ``most``.  Return the new
-    number of candidates.
-    """
-    n = _add(ACROSS_BACK, edge, upper, out, n, most)
-    return int(_add(ACROSS_FRONT, edge, upper, out, n, most))
-
-
-@compiled
-def _member_near(
-    surface: Floats,
-    member: int,
-    frustum: Floats,
-    pose: FrustumPose,
-    reach: float,
-    turn: float,
-    size: float,
-    out: Floats,
-    n: int,
-    most: int,
-) -> int:
+def _member_near(search: Search, member: int, out: Floats, n: int, most: int) -> int:
     """Append the candidates of one triangle, edge or corner of the surface that may soon touch the frustum.
 
-    ``member`` counts triangles first, then edges, then corners.  A feature may touch if it is within ``reach`` [m] of
-    the core, the frustum without its rounding, and if its normals agree with those of the frustum after a rotation by
-    up to ``turn`` [rad], the largest until the next search.  ``size`` is the size of the bodies [m].  ``out`` holds
-    ``n`` candidates.  Return the new number of candidates; a number above ``most`` means that there are too many.
+    ``member`` counts triangles first, then edges, then corners.  A feature may touch if it is within the reach of the
+    core, the frustum without its rounding, and if its normals agree with those of the frustum after a rotation by up to
+    the largest until the next search.  ``out`` holds ``n`` candidates.  Return the new number of candidates; a number
+    above ``most`` means that there are too many.
     """
+    surface, numbers = search.surface, search.frustum.numbers
     kind, number, row = feature_of(surface, member)
     if kind == ON_FACE:
-        for upper in range(2 if frustum[SIDE] > 0.0 and frustum[HIGH_RADIUS] > 0.0 else 1):
-            if rim_is_near(surface, row, frustum, upper, pose, reach, turn):
-                n = _add_face(float(number), float(upper), out, n, most)
-        return n
-    if kind == ON_EDGE:
-        flank, lower, upper_rim = edge_is_near(surface, row, frustum, pose, reach, turn, size)
+        for upper in range(2 if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] > 0.0 else 1):
+            if rim_is_near(search, row, upper):
+                n = _add(RIM, float(number), float(upper), out, n, most)
+    elif kind == ON_EDGE:
+        flank, lower, upper_rim = edge_is_near(search, row)
         if flank:
             n = _add(ACROSS_FLANK, float(number), 0.0, out, n, most)
-        if lower:
-            n = _add_halves(float(number), 0.0, out, n, most)
-        if upper_rim:
-            n = _add_halves(float(number), 1.0, out, n, most)
-        return n
-    if corner_is_near(surface, number, frustum, pose, frustum[FRUSTUM_SWEEP] + surface[SWEEP], reach, turn, size):
+        for upper in range(2):
+            if upper_rim if upper == 1 else lower:
+                n = _add(ACROSS_BACK, float(number), float(upper), out, n, most)
+                n = _add(ACROSS_FRONT, float(number), float(upper), out, n, most)
+    elif corner_is_near(search, number):
         n = _add(UNDER, float(number), 0.0, out, n, most)
     return n
 
@@ -154,30 +118,31 @@ def find_near_frustum(
     until the next search, per metre of ``out[0]`` [rad/m].  ``most`` is the largest number of candidates; if ``out[0]``
     exceeds ``narrow`` [m], the limit is smaller (:func:`bodies.contacts.surface.surface_near.room_ahead`).
     """
-    reach, limit, n, node = out[0], room_ahead(out[0], narrow, int(most)), 0, 0
-    turn, sweep = turning * reach, frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    limit, n, node = room_ahead(out[0], narrow, int(most)), 0, 0
+    turn, sweep = turning * out[0], frustum[FRUSTUM_SWEEP] + surface[SWEEP]
     # distances are measured between the cores
-    core_reach = sweep + reach
-    pose = frustum_in_surface(a, b, frustum)
+    reach, placed = sweep + out[0], frustum_in_surface(a, b, frustum)
+    search = Search(surface, placed, reach, turn, size)
     while node < int(surface[N_NODES]) and n <= limit:
         at = node_at(surface, node)
         corner = vector_at(surface, at)
         diagonal = minus(vector_at(surface, at + UPPER), corner)
         # a ball about the box of the node
-        if from_core(frustum, pose, plus_scaled(corner, 0.5, diagonal)) > core_reach + 0.5 * norm(diagonal):
+        if from_core(placed, plus_scaled(corner, 0.5, diagonal)) > reach + 0.5 * norm(diagonal):
             node = int(surface[at + SKIP])
             continue
         for i in range(int(surface[at + N_MEMBERS])):
-            member = member_of(surface, at, i)
-            n = _member_near(surface, member, frustum, pose, core_reach, turn, size, out, n, limit)
+            n = _member_near(search, member_of(surface, at, i), out, n, limit)
         node += 1
     for i in range(int(n_points)):
         row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * i
         place, n_star, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
-        n = patches_under(b, a, surface, place, n_star, star, core_reach, turn, POINT, float(i), out, n, limit)
+        n = patches_under(b, a, surface, place, n_star, star, reach, turn, POINT, float(i), out, n, limit)
     # the apex is a sphere if a body is rounded
     if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[HIGH_RADIUS] == 0.0:
-        n = patches_near(surface, plus_scaled(pose[0], frustum[HIGH], pose[1]), core_reach, APEX, 0.0, out, n, limit)
+        n = patches_near(
+            surface, plus_scaled(placed.center, frustum[HIGH], placed.axis), reach, APEX, 0.0, out, n, limit
+        )
     out[0] = float(n) if n <= limit else most + 1.0
 
 
@@ -194,20 +159,9 @@ def evaluate_frustum_and_candidate(
 ) -> None:
     """Write the geometry block of a feature of a frustum and a feature of a surface that is currently near it.
 
-    Parameters
-    ----------
-    a, b, out, candidate : Floats
-        Frame blocks of both bodies, the geometry block, and the pair of features.
-    frustum : Floats
-        The first body (:func:`bodies.shapes.frustum.frustum_numbers`).
-    points : Floats
-        Rows of the feet and of a sharp apex (:data:`POINT_ROW`).
-    surface : Floats
-        The second body (:mod:`bodies.contacts.surface.surface_tables`).
-    lengths : Floats
-        For a disc, lengths of the edges of the surface's corners, one corner after the other [m]; else a single 0.
-    size : float
-        Size of the larger body [m].
+    ``candidate`` is the pair of features.  ``points`` are the rows of the feet and of a sharp apex (:data:`POINT_ROW`).
+    For a disc, ``lengths`` are those of the edges of the surface's corners, one corner after the other [m]; else a
+    single 0.  ``size`` is the size of the larger body [m].
     """
     kind, i, j = candidate[0], int(candidate[1]), int(candidate[2])
     sweep = frustum[FRUSTUM_SWEEP] + surface[SWEEP]
@@ -222,13 +176,11 @@ def evaluate_frustum_and_candidate(
     elif kind == APEX:
         write_apex(a, b, out, frustum, surface, float(i), size, reach)
     elif kind == UNDER:
-        corner, n, star = corner_at(surface, i)
         if sweep > 0.0:
+            corner, n, star = corner_at(surface, i)
             write_frustum_vertex(a, b, out, frustum, surface[SWEEP], corner, n, star, size)
         else:
-            # only a disc uses the lengths of the edges at its corner; for other frustums the table is a single 0
-            first = int(surface[int(surface[CORNERS]) + CORNER * i + STAR]) // 3 if frustum[SIDE] == 0.0 else 0
-            write_corner(a, b, out, frustum, corner, n, star, block_at(lengths, first), surface, size)
+            write_corner(a, b, out, frustum, surface, i, lengths, size)
     elif kind == ACROSS_FLANK:
         write_across_side(a, b, out, frustum, block_at(surface, edge_at(surface, i)), surface, size)
     elif kind == ACROSS_BACK or kind == ACROSS_FRONT:

@@ -1,25 +1,26 @@
 """Contact of two frustums where their rims cross each other.
 
 The line from a point of the first circle to the nearest point of the second circle is perpendicular to the second.  If
-it is perpendicular to the first as well, its ends are the nearest points.  Samples of the first circle bracket such a
-point, then Newton's method between bounds finds it.
+it is perpendicular to the first as well, its ends are the nearest points.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import COS, SIDE, SIN, SWEEP
+from ...shapes.frustum import SIDE, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL
 from ..features.ends import CLOSED, REACH
 from ..features.frames import across
 from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
-from .frustum import FLANK, LOW_RIM, center_in_world, rim_of
-from .frustum_writing import off_cone_of_rim, past_border, past_depth, write_rounded_part, write_two
+from .circle import least_sample, zero_of_slope
+from .frustum import FLANK, LOW_RIM, placed, rim_of
+from .frustum_writing import Spot, off_cone_of_rim, off_side, past_border, past_depth, write_pair
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
@@ -30,8 +31,22 @@ The offset [m] is the distance of the rims' cores, times the sine of the angle b
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
 """
-_SAMPLES, _LEVELS, _STEPS = 16, 3, 60
-"""Number of intervals into which half of a rim is sampled; largest numbers of rounds of sampling and Newton steps."""
+_SAMPLES, _LEVELS = 16, 3
+"""Number of intervals into which half of a rim is sampled, and largest number of rounds of sampling."""
+
+
+class _Circles(NamedTuple):
+    """Two circles: the second one lies round the origin in the plane z = 0.
+
+    The first has the point ``middle`` + ``radius`` (g cos(angle) + h sin(angle)) at an angle, with the perpendicular
+    unit vectors ``g`` and ``h``; lengths in m.
+    """
+
+    other_radius: float
+    radius: float
+    middle: Vector3
+    g: Vector3
+    h: Vector3
 
 
 @compiled
@@ -42,16 +57,13 @@ def _on_circle(g: Vector3, h: Vector3, angle: float) -> tuple[Vector3, Vector3]:
 
 
 @compiled
-def _squared_distance(
-    other_radius: float, radius: float, middle: Vector3, g: Vector3, h: Vector3, angle: float
-) -> tuple[float, float, float]:
-    """Return the squared distance of a point of one circle from another circle [m^2], a slope [m], and its derivative.
+def _squared_distance(circles: _Circles, angle: float) -> tuple[float, float, float]:
+    """Return the squared distance of the first circle's point from the second [m^2], a slope [m], and its derivative.
 
-    The first circle has the centre ``middle`` [m]; its point at ``angle`` [rad] is middle + radius (g cos(angle) + h
-    sin(angle)), with the ``radius`` [m] and the perpendicular unit vectors ``g`` and ``h``.  The other circle lies
-    round the origin in the plane z = 0, with the radius ``other_radius`` [m].  The slope is the derivative of the
-    squared distance by the angle, over 2 ``radius``.  The last number is the derivative of the slope by the angle [m].
+    The slope is the derivative of the squared distance by the angle, over 2 ``radius``.  The last number is the
+    derivative of the slope by the angle [m].
     """
+    other_radius, radius, middle, g, h = circles
     u, (tx, ty, tz) = _on_circle(g, h, angle)
     x, y, z = plus_scaled(middle, radius, u)
     away = max(math.sqrt(x * x + y * y), 1e-300)
@@ -65,14 +77,13 @@ def _squared_distance(
 
 
 @compiled
-def _link_depth(other_radius: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> float:
+def _link_depth(circles: _Circles) -> float:
     """Return how deep one circle lies inside of another one with which it is linked like the links of a chain [m].
 
     The first circle then crosses the plane of the second at two points, and exactly one of them is inside the second.
-    The result is the distance of this point from the second circle, or 0 if the circles are not linked.  The second
-    circle has the radius ``other_radius`` [m], about the origin in the plane z = 0.  The first has the given centre [m]
-    and ``radius`` [m] in the plane of the perpendicular unit vectors g and h.
+    The result is the distance of this point from the second circle, or 0 if the circles are not linked.
     """
+    other_radius, radius, center, g, h = circles
     # the height of the first circle's point is center_z + amplitude cos(angle - highest); it is zero at two angles
     amplitude = radius * math.sqrt(g[2] * g[2] + h[2] * h[2])
     if abs(center[2]) >= amplitude:
@@ -88,42 +99,23 @@ def _link_depth(other_radius: float, radius: float, center: Vector3, g: Vector3,
 
 
 @compiled
-def _nearest_angle(other_radius: float, radius: float, middle: Vector3, g: Vector3, h: Vector3) -> float:
+def _nearest_angle(circles: _Circles) -> float:
     """Return the angle round half of the first circle at the least distance from the other circle [rad].
 
-    The arguments are those of :func:`_squared_distance`.  The half begins at g, on the line of centres, and ends at
-    -g.  The result may lie outside of the half, or may be no minimum: the caller checks it.
+    The half begins at g, on the line of centres, and ends at -g.  The result may lie outside of the half, or may be no
+    minimum: the caller checks it.
     """
     low, high = -_BOTH, math.pi + _BOTH
     begin, step, angle = low, (high - low) / _SAMPLES, low
     for _ in range(_LEVELS):
-        least_square, least_bend, chosen = math.inf, 0.0, 0
-        for i in range(_SAMPLES + 1):
-            square, _, bend = _squared_distance(other_radius, radius, middle, g, h, begin + i * step)
-            if square < least_square:
-                least_square, least_bend, chosen = square, bend, i
-        angle = begin + chosen * step
+        angle, bend = least_sample(_squared_distance, circles, begin, step, _SAMPLES)
         # the least sample is next to a minimum, or well inside of the half
-        if least_bend > 0.0 or low + 0.5 * step < angle < high - 0.5 * step:
+        if bend > 0.0 or low + 0.5 * step < angle < high - 0.5 * step:
             break
         # circles that cross close to the line of centres have a maximum of the distance on this line: refine next to it
         begin = low if angle < 1.0 else high - step
         step /= _SAMPLES
-    least, most = angle - step, angle + step
-    for _ in range(_STEPS):
-        _, slope, bend = _squared_distance(other_radius, radius, middle, g, h, angle)
-        if slope > 0.0:
-            most = angle
-        else:
-            least = angle
-        # without a positive bend, or out of bounds, halve the interval
-        after = angle - slope / bend if bend > 0.0 else math.inf
-        if after < least or after > most:
-            after = 0.5 * (least + most)
-        if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):
-            break
-        angle = after
-    return angle
+    return float(zero_of_slope(_squared_distance, circles, angle, angle - step, angle + step))
 
 
 def evaluate_rims(
@@ -139,33 +131,22 @@ def evaluate_rims(
 ) -> None:
     """Write the geometry block of a rim of each body that cross, on one side of the line of the rims' centres.
 
-    Two rims may cross twice, once on either side of this line.  The contact points are the nearest points of the rims,
-    and the normal is perpendicular to both.
-
-    Parameters
-    ----------
-    a, b, out : Floats
-        Frame blocks of both bodies, and the geometry block.
-    first, second : Floats
-        The bodies (:func:`bodies.shapes.frustum.frustum_numbers`).
-    rim_a, rim_b : float
-        1 for the lower rim, 3 for the upper one.
-    half : float
-        1 or -1, for the half circle of the first rim on one side or the other of the line of centres.
-    size : float
-        Size of the bodies [m].
+    Two rims may cross twice, once on either side of this line: ``half`` is 1 or -1, for the half circle of the first
+    rim on one side or the other.  The contact points are the nearest points of the rims, and the normal is
+    perpendicular to both.  ``rim_a`` and ``rim_b`` are 1 for the lower rim, 3 for the upper one.  ``size`` is the size
+    of the bodies [m].
     """
-    axes_a, axes = axes_in_world(a, first), axes_in_world(b, second)
-    axis_a, center_b = (axes_a[2], axes_a[5], axes_a[8]), center_in_world(b, second)
+    one, two, axes = placed(a, first), placed(b, second), axes_in_world(b, second)
     (radius, height, up_a), (other_radius, height_b, up_b) = rim_of(first, rim_a), rim_of(second, rim_b)
     # centre of the first rim, from the centre of the second rim, and axis of the first, in the axes of the second body
-    axis = rotated_back(axes, axis_a)
-    cx, cy, cz = plus_scaled(rotated_back(axes, minus(center_in_world(a, first), center_b)), height, axis)
+    axis = rotated_back(axes, one.axis)
+    cx, cy, cz = plus_scaled(rotated_back(axes, minus(one.center, two.center)), height, axis)
     middle = (cx, cy, cz - height_b)
     # g: unit vector in the plane of the first rim, towards the second rim's centre; h: perpendicular to it
     _, _, g = across(opposite(middle), axis)
     h = scaled(half, cross(axis, g))
-    angle = _nearest_angle(other_radius, radius, middle, g, h)
+    circles = _Circles(other_radius, radius, middle, g, h)
+    angle = _nearest_angle(circles)
     total = first[SWEEP] + second[SWEEP]
     are_discs = total == 0.0 and first[SIDE] == 0.0 and second[SIDE] == 0.0
     # discs in one plane touch on the line of centres, where their rims are parallel; other discs cross or pass by
@@ -198,18 +179,16 @@ def evaluate_rims(
         if total > 0.0 and sign * dot(n, w) < 0.0:
             # rounded bodies: the normal must point from the first rim to the second
             continue
-        off_both = off_cone_of_rim(first, up_a, sign * dot(n, u), sign * dot(n, axis), first[SIDE] == 0.0)
+        off_both = off_cone_of_rim(first, up_a, sign * dot(n, u), sign * dot(n, axis))
         radial = -sign * (n[0] * e[0] + n[1] * e[1])
-        off_both = max(off_both, off_cone_of_rim(second, up_b, radial, -sign * n[2], second[SIDE] == 0.0))
+        off_both = max(off_both, off_cone_of_rim(second, up_b, radial, -sign * n[2]))
         if off_both < off_cone:
             off_cone, chosen_sign = off_both, sign
     n = scaled(chosen_sign, n)
     gap = dot(n, w)
     past = past_border(-size, off_cone, size)
-    # sines of the angles between the contact normal and the normals of the two sides; a disc has no side
-    off_side_a = up_a * (first[COS] * dot(n, axis) - first[SIN] * dot(n, u)) if first[SIDE] > 0.0 else 1.0
-    radial = n[0] * e[0] + n[1] * e[1]
-    off_side_b = -up_b * (second[COS] * n[2] - second[SIN] * radial) if second[SIDE] > 0.0 else 1.0
+    off_side_a = off_side(first, up_a, dot(n, u), dot(n, axis))
+    off_side_b = off_side(second, up_b, -(n[0] * e[0] + n[1] * e[1]), -n[2])
     if total > 0.0:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(off_side_a, off_side_b))
@@ -224,16 +203,13 @@ def evaluate_rims(
         # at an overlap, a normal outside of the normal cones has no margin
         past = max(past, size * (off_cone - PARALLEL))
     if not is_edge_to_edge:
-        past = max(past, past_depth(a, first, b, second, gap, size))
+        past = max(past, past_depth(one, two, gap, size))
     if are_discs and gap < 0.0 and not is_edge_to_edge:
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
-        past = max(past, sine * (-0.5 * gap - REACH * size) - _link_depth(other_radius, radius, middle, g, h))
+        past = max(past, sine * (-0.5 * gap - REACH * size) - _link_depth(circles))
     normal, from_center = rotated(axes, n), rotated(axes, (point[0], point[1], point[2] + height_b))
-    write_two(a, out, 0.0, first, second, gap, past, normal, plus(center_b, from_center))
-    write_rounded_part(out, 0.0, first, LOW_RIM, axis_a, rotated(axes, u), normal, radius)
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side, so that the normal stays radial
     # while one edge slips over the other
-    part = FLANK if is_edge_to_edge else LOW_RIM
-    write_rounded_part(
-        out, 1.0, second, part, (axes[2], axes[5], axes[8]), rotated(axes, e), opposite(normal), other_radius
-    )
+    own = Spot(LOW_RIM, rotated(axes, u), radius)
+    other = Spot(FLANK if is_edge_to_edge else LOW_RIM, rotated(axes, e), other_radius)
+    write_pair(a, out, 0.0, one, two, gap, past, normal, plus(two.center, from_center), own, other)

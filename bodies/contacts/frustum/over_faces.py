@@ -1,0 +1,347 @@
+"""A rim, a foot or the apex of a frustum over a face of a surface, and a corner of a surface over a frustum.
+
+The surface, of the second body, need not be convex.  The corner and its frustum are sharp.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.compiled import block_at, compiled
+from nonsmooth.engine.memory.blocks import POSITION, SIDE_A, SIDE_B
+from nonsmooth.types import Floats
+
+from ...shapes.frustum import AXIS, HIGH, LOW, LOW_RADIUS, SIDE
+from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
+from ...vectors import Vector3, dot, minus, norm, opposite, plus_scaled, vector_at
+from ..features.edge_crossing import CONE_MARGIN
+from ..features.ends import CLOSED, END, NEAR, OPEN, REACH, gap_at_distance, gap_past_end
+from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
+from ..features.writing import write_flat, write_round, write_sweep
+from ..surface.overlap_corners import FLUSH
+from ..surface.surface_ball import out_of_surface, write_feature
+from ..surface.surface_search import (
+    FAR,
+    ON_FACE,
+    box_square,
+    corner_at,
+    corner_row,
+    depth_inside,
+    distance_from_ends,
+    face_at,
+    face_height,
+    feature_of,
+    in_triangle,
+    member_of,
+    nearest_in_patch,
+    node_at,
+    signed_distance,
+    steepest,
+)
+from ..surface.surface_tables import IS_CONVEX, N_FACES, N_MEMBERS, N_NODES, N_PATCHES, SIZE, SKIP, STAR, SWEEP
+from ..surface.surface_vertex import face_under, over_triangle
+from .frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    LOW_RIM,
+    Placed,
+    axis_in_world,
+    center_in_world,
+    least_height,
+    normal_of_part,
+    on_axis_in_world,
+    over_part,
+    part_number,
+    past_of_rim,
+    write_part,
+)
+from .frustum_writing import off_cone_of_rim, past_apex, write_contact
+
+_FLAT = 1e-12
+"""Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
+
+
+@compiled
+def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> Placed:
+    """Return the first body's frustum in the axes of the second body."""
+    return Placed(frustum, point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum)))
+
+
+@compiled
+def lowest_on_rim(n: Vector3, axis: Vector3, otherwise: Vector3) -> tuple[float, float, Vector3]:
+    """Return axial and radial component of the unit normal n, and the unit vector of its radial part.
+
+    The rim's farthest point along n lies in the direction of this unit vector from its centre.  It is ``otherwise`` if
+    n is along the axis within round-off: all points of the rim are then equally far.
+    """
+    axial, radial, outward = across(n, axis)
+    return axial, radial, otherwise if radial < _FLAT else outward
+
+
+@compiled
+def past_faces(surface: Floats, frustum: Placed, depth: float, point: Vector3) -> float:
+    """Return by how much the depth of an overlap exceeds that of the least deep face [m]; not positive for a real one.
+
+    Through the least deep face the bodies separate on a shorter way.  A face is as deep as the frustum is below its
+    plane, or as the ``point`` of the overlap is distant from it, if this is more: faces far away do not count.
+    ``frustum`` and ``point`` are in the axes of the surface.
+    """
+    numbers, center, axis = frustum
+    margin = REACH * (surface[SIZE] + depth)
+    least_deep, node = depth + margin, 0
+    while node < int(surface[N_NODES]):
+        at = node_at(surface, node)
+        if box_square(surface, at, point) > least_deep * least_deep:
+            node = int(surface[at + SKIP])
+            continue
+        for i in range(int(surface[at + N_MEMBERS])):
+            kind, face, triangle_row = feature_of(surface, member_of(surface, at, i))
+            if kind != ON_FACE:
+                continue
+            row = face_at(surface, face)
+            deep = -least_height(numbers, face_height(surface, row, center), axis, vector_at(surface, row))
+            if deep < least_deep:
+                x, y, z, _ = in_triangle(surface, triangle_row, point)
+                least_deep = min(least_deep, max(deep, norm(minus(point, (x, y, z)))))
+        node += 1
+    return float(depth - least_deep - margin)
+
+
+@compiled
+def _is_real(surface: Floats, frustum: Placed, depth: float, point: Vector3) -> bool:
+    """Return whether a rim's point at a depth below a face [m] is inside of the body, and no other face is less deep.
+
+    Depths within the margin ``CLOSED`` are real without a search.  Outside of the body the point has a margin, too: it
+    may be on a border of faces.
+    """
+    margin = CLOSED * surface[SIZE]
+    if depth <= margin:
+        return True
+    if signed_distance(surface, point) > margin + FLUSH * depth:
+        return False
+    return past_faces(surface, frustum, depth, point) <= 0.0
+
+
+@compiled
+def _rim_over(
+    surface: Floats, face: int, frustum: Placed, upper: int, otherwise: Vector3, reach: float
+) -> tuple[float, float]:
+    """Return gap and distance past the border [m] of a rim over a face; the gap includes the sweeps of both bodies.
+
+    The gap is measured at the point of the rim that is lowest over the face.  A point past the border of the face, at
+    the distance ``past``, has the gap hypot(height, past).  If no part of the face is within ``reach`` [m] of the
+    point, both results are at least ``reach``, less the sweeps.
+
+    The lowest point of a rim nearly parallel to the face moves far while the bodies hardly move.  Above the face the
+    distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum.past_of_rim`).
+
+    ``frustum`` is in the axes of the surface; ``otherwise`` is the unit vector to the contact point of a rim
+    parallel to the face.
+    """
+    numbers, middle, axis = frustum
+    center, radius = plus_scaled(middle, numbers[LOW + upper], axis), numbers[LOW_RADIUS + upper]
+    up, sweep = 2.0 * upper - 1.0, numbers[FRUSTUM_SWEEP] + surface[SWEEP]
+    size, face_row = surface[SIZE], face_at(surface, face)
+    axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, face_row)), axis, otherwise)
+    point = plus_scaled(center, radius, outward)
+    height = face_height(surface, face_row, point)
+    past_cone = size * (off_cone_of_rim(numbers, up, radial, axial) - CONE_MARGIN)
+    least_key, apart, past = reach * reach, reach, reach
+    is_under, past_under = False, 0.0
+    node = 0
+    while node < int(surface[N_NODES]):
+        at = node_at(surface, node)
+        if box_square(surface, at, point) > least_key:
+            node = int(surface[at + SKIP])
+            continue
+        for i in range(int(surface[at + N_MEMBERS])):
+            kind, number, triangle_row = feature_of(surface, member_of(surface, at, i))
+            if kind != ON_FACE or number != face:
+                continue
+            past_triangle, past_border, past_part, square = over_triangle(
+                surface, triangle_row, height, past_cone, REACH * size, point
+            )
+            if past_triangle <= 0.0 and height < 0.0:
+                is_under, past_under = True, past_border
+            key = square + max(past_part, 0.0) * max(past_part, 0.0)
+            if key < least_key:
+                least_key, apart, past = key, math.sqrt(square), past_part
+        node += 1
+    if is_under and _is_real(surface, frustum, -height, point):
+        return height - sweep, past_under
+    if past <= 0.0:
+        return height - sweep, past
+    if height > sweep:
+        past = past_of_rim(past, radius, radial)
+    is_convex = surface[IS_CONVEX] == 1.0
+    return gap_past_end((height if height >= 0.0 or is_convex else apart) - sweep, past, is_convex), past
+
+
+@compiled
+def write_rim(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, upper: int, surface: Floats, face: int, reach: float
+) -> None:
+    """Write the geometry block of a rim of the first body, at its lowest point, over a face of the second body.
+
+    ``upper`` is 1 for the upper rim, 0 for the lower one.  The contact is evaluated up to the
+    distance ``reach`` of the rim from the face [m].
+    """
+    axis, center = axis_in_world(a, frustum), on_axis_in_world(a, frustum, frustum[LOW + upper])
+    # the frustum's first axis, perpendicular to its own
+    otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
+    radius, sweep = frustum[LOW_RADIUS + upper], frustum[FRUSTUM_SWEEP]
+    # any point of the rim may become the lowest one
+    placed, reach = frustum_in_surface(a, b, frustum), reach + 2.0 * radius
+    gap, past = _rim_over(surface, face, placed, upper, vector_in_body(b, otherwise), reach)
+    n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
+    _, radial, outward = lowest_on_rim(n, axis, otherwise)
+    point = plus_scaled(plus_scaled(center, radius, outward), sweep, n)
+    write_contact(a, out, gap, past, float(face), n, point, False)
+    write_part(out, SIDE_A, LOW_RIM, axis, outward, radial, radius)
+    write_sweep(out, SIDE_A, sweep)
+    write_flat(out, SIDE_B)
+
+
+@compiled
+def write_tip(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    surface: Floats,
+    patch: float,
+    place: Vector3,
+    n_star: float,
+    star: Floats,
+    reach: float,
+) -> None:
+    """Write the geometry block of a foot or a sharp apex of the first body over a patch of the second body.
+
+    ``place`` is the tip in its body frame [m]; ``star`` holds unit vectors along its ``n_star`` edges.  Faces are
+    searched up to the distance ``reach`` of the cores [m].
+    """
+    face, gap, past = face_under(b, a, surface, patch, place, n_star, star, reach, False)
+    n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
+    tip, sweep = point_in_world(a, place), frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    height = face_height(surface, face_at(surface, face), point_in_body(b, tip)) - sweep
+    gap = gap_at_distance(gap, past, sweep)
+    if past > 0.0 and height < 0.0 and surface[IS_CONVEX] == 1.0:
+        # the depth of a spring at which another contact takes over
+        gap = height
+    point = plus_scaled(tip, frustum[FRUSTUM_SWEEP], n)
+    write_contact(a, out, gap, past, float(face), n, point, False)
+    write_round(out, SIDE_A, frustum[FRUSTUM_SWEEP])
+    write_flat(out, SIDE_B)
+
+
+@compiled
+def write_apex(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats, patch: float, size: float, reach: float
+) -> None:
+    """Write the geometry block of the apex of a cone and the nearest face or edge of one patch of the second body.
+
+    One of the two bodies is rounded.  A corner of the surface has a contact of its own.  ``size`` is the size of the
+    bodies [m], ``reach`` the distance of the cores up to which features are searched [m].
+    """
+    axis, apex = axis_in_world(a, frustum), on_axis_in_world(a, frustum, frustum[HIGH])
+    place = point_in_body(b, apex)
+    # a segment has no face that could stand for features out of reach
+    found = nearest_in_patch(surface, patch, place, reach if surface[N_FACES] > 0.0 else FAR)
+    # one patch is the whole surface, which has no end
+    past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
+    n = opposite(out_of_surface(b, surface, found, past, place))
+    radius = frustum[FRUSTUM_SWEEP]
+    gap = found[0] - radius - surface[SWEEP]
+    side_nearer = past_apex(frustum, found[0], dot(n, axis), size)
+    # the sphere of the apex is a part of the cone, so that a large gap is valid as a bound of the bodies' gap
+    past = max(past, min(side_nearer, -END * size) if gap > NEAR * size else side_nearer)
+    # a corner has a contact of its own
+    shared = END * size - distance_from_ends(surface, found)
+    past = max(past, shared)
+    if shared > 0.0:
+        # a large gap for a small distance past the end: the contact is open
+        gap = math.hypot(max(gap, 0.0), max(past, OPEN * shared))
+    else:
+        gap = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0)
+    write_contact(a, out, gap, past, 0.0, n, plus_scaled(apex, radius, n), False)
+    write_round(out, SIDE_A, radius)
+    write_feature(b, out, SIDE_B, surface, found[2], found[3])
+
+
+@compiled
+def _tip_past_rim(
+    b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
+) -> float:
+    """Return a length [m] that is negative if a vertex behind a disc went through the disc.
+
+    Each edge of the vertex that leads back through the disc's plane crosses it at a distance from the disc's centre.
+    The result is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the
+    plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise
+    the edges pass the rim from the side.
+
+    The vertex has ``n_star`` edges; ``star`` holds unit vectors along them in the body frame ``b``, ``lengths`` their
+    lengths [m].  In the world, ``p`` is the vertex from the centre of the disc [m], and ``n`` the unit normal of the
+    disc.  ``depth`` is the distance of the vertex from the disc's plane in the direction -n, ``radius`` is that of
+    the disc [m].
+    """
+    least = math.inf
+    for i in range(int(n_star)):
+        edge = vector_in_world(b, vector_at(star, 3 * i))
+        rise = dot(n, edge)
+        # ignore edges that do not lead back, or that cross the plane only in their far half, next to another vertex
+        if rise * lengths[i] <= 2.0 * depth:
+            continue
+        crossing = plus_scaled(p, depth / rise, edge)
+        along = dot(n, crossing)
+        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - radius)
+    return least + depth
+
+
+@compiled
+def write_corner(
+    a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats, corner: int, lengths: Floats, size: float
+) -> None:
+    """Write the geometry block of a corner of the second body and the nearest part of the first, cap or side.
+
+    A cap or the side touches the corner only if no edge of the corner leads below the cap's plane or the side's tangent
+    plane; otherwise the edge touches it first.  The nearest part has the least sum of two squares, of the corner's
+    height over the part and of its distance past the part's border.
+
+    ``corner`` is the number of the corner.  For a disc, ``lengths`` are those of the edges of all corners, one corner
+    after the other [m].  ``size`` is the size of the larger body [m].
+    """
+    row, (place, n_star, star) = corner_row(surface, corner), corner_at(surface, corner)
+    axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
+    point = point_in_world(b, place)
+    along, away, outward = across(minus(point, center), axis)
+    is_disc, margin, highest = frustum[SIDE] == 0.0, REACH * size, -math.inf
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        highest = max(highest, over_part(frustum, part, along, away)[0])
+    least_key, nearest, gap, past = math.inf, LOW_CAP, 0.0, math.inf
+    for part in (LOW_CAP, FLANK, HIGH_CAP):
+        height, past_border, radial, axial = over_part(frustum, part, along, away)
+        n = normal_of_part(axis, outward, radial, axial)
+        if height < 0.0 and not is_disc:
+            # a corner below a cap's plane or the side's cone touches it only if the corner is inside of the frustum
+            past_border = max(past_border, highest)
+        steepness = steepest(surface, row, vector_in_body(b, opposite(n)))
+        past_border = max(past_border - margin, size * (steepness - CONE_MARGIN))
+        if is_disc and height < -CLOSED * size and past_border <= 0.0:
+            # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
+            # the point of the disc nearest to the corner
+            own_lengths = block_at(lengths, int(surface[row + STAR]) // 3)
+            vertex = minus(point, center)
+            past_rim = _tip_past_rim(b, n_star, star, own_lengths, vertex, n, -height, frustum[LOW_RADIUS])
+            foot = vector_in_body(b, minus(plus_scaled(point, -height, n), vector_at(b, POSITION)))
+            if past_rim > 0.0 and depth_inside(surface, foot) == 0.0:
+                past_border = min(-height, past_rim)
+        key = height * height + max(past_border, 0.0) * max(past_border, 0.0)
+        if key < least_key:
+            least_key, nearest, gap, past = key, part, height, past_border
+    gap = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0)
+    _, _, radial, axial = over_part(frustum, nearest, along, away)
+    normal = normal_of_part(axis, outward, radial, axial)
+    write_contact(a, out, gap, past, part_number(frustum, nearest), normal, point, True)
+    write_part(out, SIDE_A, nearest, axis, outward, radial, max(away - gap * radial, 0.0))
+    write_round(out, SIDE_B, 0.0)
