@@ -225,6 +225,36 @@ def test_python_finds_the_same(name: str) -> None:
     assert compared > 0
 
 
+@pytest.mark.fast_cases(2)
+@pytest.mark.parametrize("name", [name for name in PAIRS if "hills" in name])
+def test_a_search_finds_all_or_says_that_there_are_more(name: str) -> None:
+    """With any room for candidates."""
+    first, second, ahead = PAIRS[name]
+    kind, shapes = (
+        (FrustumSurface, (second, first)) if isinstance(second, Frustum) else (SurfaceSurface, (first, second))
+    )
+    search, rng = kind.between(*shapes)[0].candidates, np.random.default_rng(7)
+    assert search is not None
+    frames, tried = np.zeros((2, FRAME)), 0
+    for _ in range(5):
+        turn = rng.normal(size=3)
+        for frame, shape in zip(frames, shapes, strict=True):
+            frame[:3] = 0.0 if shape is first else _near(name, turn, rng)
+            frame[3:12] = np.eye(3).ravel() if shape is first else Rotation.from_rotvec(turn).as_matrix().ravel()
+        every: set[Any] = set()
+        for most in (1000, *range(1, 80)):
+            values = {**search.values, "most": float(most), "narrow": np.inf}
+            found = np.zeros(1 + CANDIDATE * (most + 1))
+            found[0] = 0.5 * ahead
+            pair_caller(search.function, values, name)(frames[0], frames[1], found)
+            n = int(found[0])
+            rows = {tuple(row) for row in found[1 : 1 + CANDIDATE * min(n, most)].reshape(-1, CANDIDATE)}
+            every = rows if most == 1000 else every
+            assert n > most or rows == every
+            tried += n > most
+    assert tried > 0
+
+
 def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """The margin of the list is halved until what is nearer has room; where nothing helps the system is refused."""
     found = []

@@ -174,6 +174,10 @@ def patches_round(
     (margin, turn, most), point, first = near, seen_from(frame, other, place), n
     reach = margin + surface[SWEEP] + own[SWEEP]
     end = patches_near(surface, point, reach, kind, float(corner), out, n, most)
+    if end > most:
+        # there are more than there is room for, so that not all are known
+        return end
+    # of all patches within reach, keep in place those that may be touched; patch i is at 2 + 3 i
     for i in range(first, end):
         distance, _, what, _, x, y, z = nearest_in_patch(surface, out[2 + 3 * i], point, reach)
         to_patch = vector_in_body(other, vector_in_world(frame, minus((x, y, z), point)))
