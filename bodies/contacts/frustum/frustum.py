@@ -93,7 +93,7 @@ cap_of = rim_of
 
 
 class Placed(NamedTuple):
-    """A frustum in the world: its numbers, its centre [m] and its unit axis."""
+    """A frustum in the axes of the world or of a body: its numbers, its centre [m] and its unit axis."""
 
     numbers: Floats
     center: Vector3

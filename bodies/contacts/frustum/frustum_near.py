@@ -81,10 +81,10 @@ def _lowest(frustum: Placed, upper: int, n: Vector3) -> tuple[Vector3, float, fl
     """Return a rim's farthest point along n [m], the radial component of n, and a sine.
 
     n points into the surface, so that this is the rim's lowest point over it.  The sine is that of the angle between n
-    and the normal cone of the rim, negative inside this cone.
+    and the normal cone of the rim, negative inside this cone.  ``upper`` is 1 for the upper rim, 0 for the lower.
     """
     numbers, center, axis = frustum
-    # for an axis along n any point of the rim is lowest: the bound of :func:`_swing` is then a diameter
+    # for an axis along n all points of the rim are lowest: take a point within a diameter, the bound of :func:`_swing`
     axial, radial, outward = lowest_on_rim(n, axis, (1.0, 0.0, 0.0))
     off_cone = off_cone_of_rim(numbers, 2.0 * upper - 1.0, radial, axial)
     lowest = plus_scaled(plus_scaled(center, numbers[LOW + upper], axis), numbers[LOW_RADIUS + upper], outward)

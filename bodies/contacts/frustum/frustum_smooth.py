@@ -6,7 +6,8 @@ that are extreme along n.  Each part of the frustum (cap, side, rim) has a range
 local maximum, because both are convex.  Bodies that overlap may have several; the largest gives the shortest
 translation that separates the bodies.
 
-Points and normals are in the axes of the frustum, from its centre; the arguments are those of :data:`Bodies`.
+Points and normals are in the axes of the frustum, from its centre; the arguments of the searches
+are those of :class:`bodies.contacts.frustum.frustum_stops.Pair`.
 """
 
 from __future__ import annotations

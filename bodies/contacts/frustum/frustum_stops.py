@@ -162,9 +162,13 @@ def _if_on_flank(frustum: Floats, near: float, found: NearestPoint) -> NearestPo
 
 @compiled
 def _along_side(pair: Pair, direction: Direction) -> NearestPoint:
-    """Return the maximum of the gap over the side, continued past its rims, by halving from a direction."""
+    """Return gap, point and normal of a maximum over the side, continued past its rims; the gap is nan without one.
+
+    The search goes round the axis from a direction.
+    """
     frustum, (ex, ey) = pair.frustum, direction
     cosine, sine = frustum[COS], frustum[SIN]
+    # the side is a cone about the axis, with tangent planes at this distance from the centre
     support = cosine * frustum[LOW_RADIUS] + sine * frustum[LOW]
     return across_line(pair.core, pair.turn, pair.place, (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, support)
 

@@ -81,11 +81,12 @@ def lowest_on_rim(n: Vector3, axis: Vector3, otherwise: Vector3) -> tuple[float,
 
 @compiled
 def past_faces(surface: Floats, frustum: Placed, depth: float, point: Vector3) -> float:
-    """Return by how much the depth of an overlap exceeds that of the least deep face [m]; not positive for a real one.
+    """Return by how much the depth of a contact exceeds that of the least deep face, less a margin for round-off [m].
 
-    Through the least deep face the bodies separate on a shorter way.  A face is as deep as the frustum is below its
-    plane, or as the ``point`` of the overlap is distant from it, if this is more: faces far away do not count.
-    ``frustum`` and ``point`` are in the axes of the surface.
+    If it is positive, the contact is not valid: through that face the bodies separate on a shorter way.  A face is as
+    deep as the frustum is below its plane, or as the contact point is distant from it, if this is more: faces far away
+    do not count.  ``depth`` [m] and ``point`` are those of the contact, a rim over a face or an edge that crosses the
+    frustum; ``frustum`` and ``point`` are in the axes of the surface.
     """
     numbers, center, axis = frustum
     margin = REACH * (surface[SIZE] + depth)

@@ -98,7 +98,7 @@ def by_columns(x: Vector3, y: Vector3, z: Vector3) -> Axes:
 
 @compiled
 def axes_in_world(frame: Floats, core: Core) -> Axes:
-    """Return the axes of a smooth body's core in the world, as columns."""
+    """Return the axes of a core in the world, as columns; or of a frustum, whose numbers have the same indices."""
     x = vector_in_world(frame, (core[CORE_AXES], core[CORE_AXES + 3], core[CORE_AXES + 6]))
     y = vector_in_world(frame, (core[CORE_AXES + 1], core[CORE_AXES + 4], core[CORE_AXES + 7]))
     z = vector_in_world(frame, (core[CORE_AXES + 2], core[CORE_AXES + 5], core[CORE_AXES + 8]))

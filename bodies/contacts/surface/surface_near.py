@@ -181,6 +181,7 @@ def patches_round(
     for i in range(first, end):
         distance, _, what, _, x, y, z = nearest_in_patch(surface, out[2 + 3 * i], point, reach)
         to_patch = vector_in_body(other, vector_in_world(frame, minus((x, y, z), point)))
+        # no product with a unit vector is less
         towards = -distance
         for k in range(int(n_star)):
             towards = max(towards, dot(to_patch, vector_at(star, 3 * k)))

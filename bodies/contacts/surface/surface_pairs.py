@@ -140,9 +140,9 @@ class Swept(NamedTuple):
 def contacts_of(one: Swept, two: Swept) -> tuple[FeaturePair, ...]:
     """Return the contacts of two surfaces.
 
-    Few pairs of features have a contact each.  Of many, a search finds those that are near.  The order is: edges across
-    edges, corners of the second surface over patches of the first, corners of the first one over patches of the second.
-    If the second one is a ball, it has the contacts of its centre only.
+    Few pairs of features have a contact each, in this order: edges across edges, corners of the second surface over
+    patches of the first, corners of the first one over patches of the second.  Of many, a search assigns those that are
+    near to equal contacts.  If the second one is a ball, it has the contacts of its centre only.
     """
     patches = [
         patches_of_faces(own.features)

@@ -239,7 +239,8 @@ def outward_of(surface: Floats, face: int, triangle: int, point: Vector3) -> tup
 
 @compiled
 def signed_distance(surface: Floats, point: Vector3) -> float:
-    """Return the distance of a point from the surface [m], negative inside of the body."""
+    """Return the distance of a point, in the axes of the surface, from the surface [m]; negative inside of the body."""
+    # first the leaf next to the point, whose squared distance excludes most of the others, then the whole tree
     least, side = math.inf, 0.0
     first = first_leaf(surface, -1.0, point)
     node = -1
