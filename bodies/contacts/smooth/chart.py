@@ -158,8 +158,9 @@ def write_chart(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3)
     """Write the curvature matrices of a core at the surface point with the outward unit normal ``normal``.
 
     The normal is in the axes of the core.  The matrices are slide, S of the module [1/m], and turn, U of the module
-    [1]: slide u = turn nu, if the point moves by u and the normal turns by nu.  ``side`` is the index of the matrices in the
-    geometry block ``out``, which must already hold normal and first tangent; ``axes`` are the core's axes in the world.
+    [1]: slide u = turn nu, if the point moves by u and the normal turns by nu.  ``side`` is the index of the matrices
+    in the geometry block ``out``, which must already hold normal and first tangent; ``axes`` are the core's axes in the
+    world.
     """
     semi, size = semi_axes_of(core), largest_semi_axis(core)
     _, _, first, second, slide, turn, _, _, _ = chart_of(semi, size, start_of(semi, normal))
