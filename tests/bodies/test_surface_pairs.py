@@ -191,14 +191,28 @@ def test_a_rim_rolls_over_borders_of_faces(seed: int, rounding: float, build: An
     assert solution.energy.residual < 1e-8
 
 
+def _in_order(first: Any, second: Any) -> tuple[Any, tuple[Shape, Shape]]:
+    """Return the kinematics of two shapes, and the shapes in its order."""
+    if isinstance(second, Frustum):
+        return FrustumSurface, (second, first)
+    return SurfaceSurface, (first, second)
+
+
+def _place(frames: Any, name: str, shapes: tuple[Shape, Shape], rng: np.random.Generator) -> None:
+    """Write the frame blocks of two shapes: the first one of the pair at the origin, the second one next to it."""
+    turn = rng.normal(size=3)
+    for frame, shape in zip(frames, shapes, strict=True):
+        is_first = shape is PAIRS[name][0]
+        frame[:3] = 0.0 if is_first else _near(name, turn, rng)
+        frame[3:12] = np.eye(3).ravel() if is_first else Rotation.from_rotvec(turn).as_matrix().ravel()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in PAIRS if "hills" in name])
 def test_python_finds_the_same(name: str) -> None:
     """Searches and evaluators, called as they stand and compiled."""
     first, second, ahead = PAIRS[name]
-    kind, shapes = (
-        (FrustumSurface, (second, first)) if isinstance(second, Frustum) else (SurfaceSurface, (first, second))
-    )
+    kind, shapes = _in_order(first, second)
     one = kind.between(*shapes)[0]
     search, values, rng = one.candidates, one.parameters(), np.random.default_rng(4)
     assert search is not None
@@ -206,10 +220,7 @@ def test_python_finds_the_same(name: str) -> None:
     own = {key: values[key] for key in parameter_names(one.evaluator, "pair")}
     frames, compared = np.zeros((2, FRAME)), 0
     for _ in range(3):
-        turn = rng.normal(size=3)
-        for frame, shape in zip(frames, shapes, strict=True):
-            frame[:3] = 0.0 if shape is first else _near(name, turn, rng)
-            frame[3:12] = np.eye(3).ravel() if shape is first else Rotation.from_rotvec(turn).as_matrix().ravel()
+        _place(frames, name, shapes, rng)
         founds = np.zeros((2, 1 + CANDIDATE * (surface_pairs.MOST_NEAR + 1)))
         founds[:, 0] = 0.5 * ahead
         find(frames[0], frames[1], founds[0])
@@ -230,17 +241,12 @@ def test_python_finds_the_same(name: str) -> None:
 def test_a_search_finds_all_or_says_that_there_are_more(name: str) -> None:
     """With any room for candidates."""
     first, second, ahead = PAIRS[name]
-    kind, shapes = (
-        (FrustumSurface, (second, first)) if isinstance(second, Frustum) else (SurfaceSurface, (first, second))
-    )
+    kind, shapes = _in_order(first, second)
     search, rng = kind.between(*shapes)[0].candidates, np.random.default_rng(7)
     assert search is not None
     frames, tried = np.zeros((2, FRAME)), 0
     for _ in range(5):
-        turn = rng.normal(size=3)
-        for frame, shape in zip(frames, shapes, strict=True):
-            frame[:3] = 0.0 if shape is first else _near(name, turn, rng)
-            frame[3:12] = np.eye(3).ravel() if shape is first else Rotation.from_rotvec(turn).as_matrix().ravel()
+        _place(frames, name, shapes, rng)
         every: set[Any] = set()
         for most in (1000, *range(1, 80)):
             values = {**search.values, "most": float(most), "narrow": np.inf}

@@ -47,10 +47,11 @@ def do_overlap(low: Core, low_height: float, high: Core, high_height: float, cor
     is_crossed = False
     for _ in range(_STEPS):
         if not is_crossed and dot(cross(a, c), inner) < 0.0:
-            # the line passes outside of the edge from a to c: c replaces b
+            # the line from the inner point to the origin passes the triangle outside of its edge a c: c replaces b
             b = c
             c = _support(bodies, cross(minus(a, inner), minus(b, inner)))
         elif not is_crossed and dot(cross(c, b), inner) < 0.0:
+            # it passes outside of the edge c b: c replaces a
             a = c
             c = _support(bodies, cross(minus(a, inner), minus(b, inner)))
         else:
