@@ -89,9 +89,6 @@ def rim_of(frustum: Floats, part: float) -> tuple[float, float, float]:
     return frustum[LOW_RADIUS], frustum[LOW], -1.0
 
 
-cap_of = rim_of
-
-
 class Placed(NamedTuple):
     """A frustum in the axes of the world or of a body: its numbers, its centre [m] and its unit axis."""
 

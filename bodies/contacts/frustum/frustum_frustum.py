@@ -25,12 +25,12 @@ from .frustum import (
     LOW_RIM,
     RIM_NAMES,
     Placed,
-    cap_of,
     nearest_part,
     part_names,
     part_number,
     past_of_rim,
     placed,
+    rim_of,
     rims_and_tips,
     rims_of,
     separation_along,
@@ -102,7 +102,7 @@ def evaluate_rim_over_cap(
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
     one, two = placed(own, first), placed(other, second)
-    cap_radius, height, up = cap_of(second, cap)
+    cap_radius, height, up = rim_of(second, cap)
     n, middle = scaled(-up, two.axis), point_in_world(own, vector_at(center, 0))
     _, sine, outward = across(n, one.axis)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
@@ -156,7 +156,7 @@ def evaluate_apex_over_frustum(
     # distance of the other contact point from its axis: exact on a rim
     point_away = max(away - distance * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
-        point_away, _, _ = cap_of(second, float(part))
+        point_away, _, _ = rim_of(second, float(part))
     write_pair(
         a, out, swap, one, two, distance, past, n, p, Spot(HIGH_RIM, outward, 0.0), Spot(part, outward, point_away)
     )

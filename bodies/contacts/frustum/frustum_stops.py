@@ -25,7 +25,7 @@ from ..smooth.newton import RIGHT, ROUND_OFF, has_ended
 from ..smooth.round_search import next_to_axis, round_circle
 from ..smooth.smooth_core import Axes, Cores, NearestPoint, bend, facing_point, rotated_back
 from ..smooth.smooth_newton import widest_of_round
-from .frustum import FLANK, HIGH_CAP, LOW_CAP, LOW_RIM, cap_of, rim_of
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, LOW_RIM, rim_of
 
 ON_BORDER = 1e-14
 """Round-off allowed in two checks of a local maximum of the gap.
@@ -94,7 +94,7 @@ def on_cap(pair: Pair, part: int, near: float) -> NearestPoint:
     ``part`` is ``LOW_CAP`` or ``HIGH_CAP``.  The gap is nan if the point lies more than ``near`` [m] outside of the
     cap's border, or if the frustum has no such cap.
     """
-    radius, height, up = cap_of(pair.frustum, part)
+    radius, height, up = rim_of(pair.frustum, part)
     p = lowest_point(pair, (0.0, 0.0, up))
     gap = up * (p[2] - height)
     if radius == 0.0 or p[0] * p[0] + p[1] * p[1] > (radius + near) * (radius + near):
@@ -112,7 +112,7 @@ def _on_end_of_cap(pair: Pair, part: int, near: float) -> NearestPoint:
     bound, exceeds the gap along the tilted normal, a lower bound, by at most ``near`` [m].
     """
     untilted = on_cap(pair, part, near)
-    radius, height, up = cap_of(pair.frustum, part)
+    radius, height, up = rim_of(pair.frustum, part)
     cx, cy, _ = untilted[1]
     if not math.isnan(untilted[0]) or not 0.0 < radius * radius < cx * cx + cy * cy:
         return untilted
