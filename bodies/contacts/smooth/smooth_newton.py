@@ -72,21 +72,13 @@ def largest_gap(cores: Cores) -> NearestPoint:
     shortest translation, the search also starts from directions with a large gap and from the axes of both bodies.  The
     gap is nan without a solution.
     """
-    thickness = min(_thickness(cores.first), _thickness(cores.second))
     best = _from_ellipsoids(cores, cores.center) if _is_for_charts(cores) else _from_start(cores, cores.center)
-    is_proved = _has_common_point(cores, best)
-    if best[0] >= 0.0 or (is_proved and (best[0] >= -_DEEP * thickness or is_least_overlap(cores, best))):
+    is_real = _is_real(cores, best[0])
+    shallow = _DEEP * min(_thickness(cores.first), _thickness(cores.second))
+    if best[0] >= 0.0 or (is_real and (best[0] >= -shallow or is_least_overlap(cores, best))):
         return best
-    longest = max(largest_semi_axis(cores.first), largest_semi_axis(cores.second))
-    is_thin_or_deep = longest > _THIN * thickness or best[0] < -_BURIED * thickness
     starts = starts_of(cores)
-    # from the starts, from maxima next to the starts, from the twelve axes
     for i in range(2 * N_STARTS + 12):
-        if is_proved and best[0] == best[0] and i >= N_STARTS:
-            if not is_thin_or_deep:
-                break
-            if i < 2 * N_STARTS:
-                continue
         top = starts[i % N_STARTS]
         if i < N_STARTS:
             candidate = _from_start(cores, top[1])
@@ -97,13 +89,12 @@ def largest_gap(cores: Cores) -> NearestPoint:
             candidate = _from_start(cores, largest_near(cores, local_maximum(cores, top, _NEARBY))[1])
         else:
             candidate = _from_start(cores, _axis(cores.turn, i - 2 * N_STARTS))
-        is_proved = is_proved or _has_common_point(cores, candidate)
+        is_real = is_real or _is_real(cores, candidate[0])
         if candidate[0] == candidate[0] and not best[0] >= candidate[0]:
             best = candidate
-            if best[0] >= 0.0 or (is_proved and is_least_overlap(cores, best)):
+            if best[0] >= 0.0 or (is_real and is_least_overlap(cores, best)):
                 break
-    is_proved = is_proved or best[0] >= 0.0 or (best[0] < 0.0 and do_overlap(cores.first, 0.0, cores.first, 0.0, cores))
-    return best[0] if is_proved else math.nan, best[1], best[2]
+    return best[0] if is_real else math.nan, best[1], best[2]
 
 
 @compiled
@@ -129,21 +120,11 @@ def _axis(turn: Axes, number: int) -> Vector3:
 
 
 @compiled
-def _has_common_point(cores: Cores, solution: NearestPoint) -> bool:
-    """Return whether a point between the two points of a solution belongs to both bodies.
-
-    A gap above ``-_TOUCHING`` needs no such point.
-    """
-    (first, second, turn, center), (g, q, n) = cores, solution
-    if g >= -_TOUCHING * spread(center):
-        return True
-    for i in range(_SAMPLES + 1):
-        # from the first body's point to the second's
-        p = plus_scaled(q, -(g * (1.0 - i / _SAMPLES)), n)
-        in_second = rotated_back(turn, minus(p, center))
-        if gauge(second, in_second) <= 1.0 + _ON_SURFACE and gauge(first, p) <= 1.0 + _ON_SURFACE:
-            return True
-    return False
+def _is_real(cores: Cores, gap: float) -> bool:
+    """Return whether the bodies overlap if the gap says so; a gap above ``-_TOUCHING`` needs no proof."""
+    return bool(gap >= -_TOUCHING * spread(cores.center)) or (
+        gap < 0.0 and do_overlap(cores.first, 0.0, cores.first, 0.0, cores)
+    )
 
 
 @compiled
