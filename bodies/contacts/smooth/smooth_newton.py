@@ -36,7 +36,7 @@ from .smooth_core import (
     spread,
     unit,
 )
-from .smooth_starts import N_STARTS, gap_along, largest_near, local_maximum, starts_of
+from .smooth_starts import N_STARTS, Start, gap_along, largest_near, local_maximum, starts_of
 from .tangent_plane import bends_in_plane, tangents_in, write_matrices
 
 _DEEP = 1e-2
@@ -78,23 +78,30 @@ def largest_gap(cores: Cores) -> NearestPoint:
     if best[0] >= 0.0 or (is_real and (best[0] >= -shallow or is_least_overlap(cores, best))):
         return best
     starts = starts_of(cores)
-    for i in range(2 * N_STARTS + 12):
-        top = starts[i % N_STARTS]
+    for i in range(N_STARTS + 12):
         if i < N_STARTS:
-            candidate = _from_start(cores, top[1])
-            if not candidate[0] >= top[0]:
-                # Newton's method went to a smaller maximum, or did not converge
-                candidate = _from_start(cores, local_maximum(cores, top, _NEARBY)[1])
-        elif i < 2 * N_STARTS:
-            candidate = _from_start(cores, largest_near(cores, local_maximum(cores, top, _NEARBY))[1])
+            candidate = _near_start(cores, starts[i])
         else:
-            candidate = _from_start(cores, _axis(cores.turn, i - 2 * N_STARTS))
+            candidate = _from_start(cores, _axis(cores.turn, i - N_STARTS))
         is_real = is_real or _is_real(cores, candidate[0])
         if candidate[0] == candidate[0] and not best[0] >= candidate[0]:
             best = candidate
             if best[0] >= 0.0 or (is_real and is_least_overlap(cores, best)):
                 break
     return best[0] if is_real else math.nan, best[1], best[2]
+
+
+@compiled
+def _near_start(cores: Cores, start: Start) -> NearestPoint:
+    """Return a maximum of the gap with a gap no less than that of the start, by searches ever closer to a maximum."""
+    found = _from_start(cores, start[1])
+    if not found[0] >= start[0]:
+        # Newton's method went to a smaller maximum, or did not converge
+        top = local_maximum(cores, start, _NEARBY)
+        found = _from_start(cores, top[1])
+        if not found[0] >= top[0]:
+            found = _from_start(cores, largest_near(cores, top)[1])
+    return found
 
 
 @compiled
