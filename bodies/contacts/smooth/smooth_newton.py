@@ -172,8 +172,7 @@ def widest_of_round(first: Core, second: Core, turn: Axes, center: Vector3, star
     """
     cores = Cores(first, second, turn, center)
     if is_mixed(second):
-        solution = _of_mixed(cores, start)
-        return _by_ellipses(cores, start) if solution[0] != solution[0] and first[0] == 0.0 else solution
+        return _of_mixed(cores, start)
     if is_boxy(second):
         # the boxy core is the first one of the search, with the normal that points out of it
         swapped = Cores(second, first, inverse(turn), rotated_back(turn, opposite(center)))
@@ -192,21 +191,6 @@ def _of_mixed(cores: Cores, start: Vector3) -> NearestPoint:
         if solution[0] != solution[0]:
             solution = gap_by_chart(cores, largest_near(cores, top)[1])
     return solution
-
-
-@compiled
-def _by_ellipses(cores: Cores, start: Vector3) -> NearestPoint:
-    """Return gap [m], point [m] and normal of a core and a point outside of it, by the ellipsoid method.
-
-    Newton's method fails near a pole of a core with a power just under 2, where the curvatures fall to 0 over a very
-    small distance.  The ellipsoid method needs no curvatures.  The gap is nan for a point inside, and if the result is
-    not on the surface of the core.
-    """
-    n = unit(start)
-    g, n = largest_near(cores, local_maximum(cores, (gap_along(cores, n), n), _NEARBY))
-    p = g * n[0], g * n[1], g * n[2]
-    off_surface = abs(gauge(cores.second, rotated_back(cores.turn, minus(p, cores.center))) - 1.0)
-    return g if g > 0.0 and off_surface <= _ON_SURFACE else math.nan, p, n
 
 
 @compiled
